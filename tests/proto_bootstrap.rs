@@ -51,6 +51,8 @@ fn generated_code_matches_the_protos() {
             ".sinew.v1.WatchWorldResponse",
             "crate::wire::watched::WatchWorldResponse",
         )
+        // Of googleapis only the errors of operations are used in code; annotations are read from descriptors.
+        .extern_path(".google.rpc", "tonic_types::pb")
         // Requests are scanned before they are decoded, by the name of their type.
         .codec_path("crate::wire::codec::Codec")
         .emit_rerun_if_changed(false)

@@ -13,7 +13,7 @@ set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 cd "${1:-$root}"
 git ls-files -z --cached --others --exclude-standard -- . \
-    ':!*.bvh' ':!*.json' ':!*.png' ':!*.jpg' ':!*.svg' ':!*.bin' ':!*.lock' \
+    ':!*.bvh' ':!*.json' ':!*.png' ':!*.jpg' ':!*.svg' ':!*.bin' ':!*.binpb' ':!*.lock' \
     ':!src/wire/gen' ':!clients/web/src/gen' ':!clients/web/dist' \
     ':!clients/python/src/sinew/v1' ':!*.ipynb' \
     ':!docs/paper' ':!docs/walking' ':!docs/survey' |

@@ -86,7 +86,7 @@ async fn create(client: &Client, world: &str) -> anyhow::Result<()> {
 async fn grant(args: &GrantArgs, client: &Client, world: &str, who: &str) -> anyhow::Result<()> {
     let bounded = args.max_force.is_some() || args.max_rate.is_some();
     let bounds = bounded.then_some(pb::PerturbationBounds {
-        max_force_n: args.max_force,
+        max_force_newtons: args.max_force,
         max_rate_hz: args.max_rate,
         max_mass_kg: None,
     });
@@ -97,7 +97,7 @@ async fn grant(args: &GrantArgs, client: &Client, world: &str, who: &str) -> any
             .iter()
             .map(|r| role(r))
             .collect::<Result<_, _>>()?,
-        figures: args.figures.clone(),
+        figure_ids: args.figures.clone(),
         bounds,
         ..Default::default()
     };
@@ -105,6 +105,7 @@ async fn grant(args: &GrantArgs, client: &Client, world: &str, who: &str) -> any
         parent: world.to_owned(),
         grant_id: String::new(),
         grant: Some(grant),
+        ..Default::default()
     };
     let made = client
         .access()
@@ -136,6 +137,7 @@ async fn revoke(client: &Client, world: &str, who: &str) -> anyhow::Result<()> {
     {
         let request = pb::DeleteGrantRequest {
             name: grant.name.clone(),
+            ..Default::default()
         };
         client
             .access()
@@ -158,8 +160,8 @@ fn show(grant: &pb::Grant) -> anyhow::Result<()> {
         grant.principal,
         roles.join(", ")
     );
-    if !grant.figures.is_empty() {
-        line += &format!(" of {}", grant.figures.join(", "));
+    if !grant.figure_ids.is_empty() {
+        line += &format!(" of {}", grant.figure_ids.join(", "));
     }
     print_line(&line)
 }

@@ -182,6 +182,7 @@ async fn push(args: &Args) -> anyhow::Result<()> {
                     placement: Some(convert::place_out(start)),
                     ..Default::default()
                 }),
+                ..Default::default()
             })
             .await
             .map_err(|e| explain(&e))?;
@@ -192,7 +193,7 @@ async fn push(args: &Args) -> anyhow::Result<()> {
     let driver = client
         .drive(pb::DriveHeader {
             world: world.clone(),
-            figures: vec![args.figure.clone()],
+            figure_ids: vec![args.figure.clone()],
             driver_id: format!("push-{}", std::process::id()),
             nominal_rate_hz: clip.rate_hz(),
             playout_delay_ms: args.playout_delay_ms,
@@ -346,7 +347,7 @@ async fn current_place(client: &Client, world: &str, figure: &str) -> anyhow::Re
             world: world.into(),
             tick: None,
             view: Some(pb::View {
-                figures: vec![figure.into()],
+                figure_ids: vec![figure.into()],
                 fields: Some(prost_types::FieldMask {
                     paths: vec!["root_pose".into()],
                 }),

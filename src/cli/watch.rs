@@ -60,7 +60,7 @@ async fn watch(args: &Args) -> anyhow::Result<()> {
         args.fields.clone()
     };
     let view = pb::View {
-        figures: args.figures.clone(),
+        figure_ids: args.figures.clone(),
         fields: Some(prost_types::FieldMask { paths: fields }),
         encoding: if args.double {
             pb::Encoding::Double
@@ -82,7 +82,7 @@ async fn watch(args: &Args) -> anyhow::Result<()> {
                 names = r
                     .figures
                     .into_iter()
-                    .map(|f| (f.figure_index, f.figure))
+                    .map(|f| (f.figure_index, f.figure_id))
                     .collect();
             }
             WatchWorldResponse::Frame(frame) => {

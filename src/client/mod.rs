@@ -216,6 +216,10 @@ impl Client {
         simulations: simulation_service_client::SimulationServiceClient;
         /// `CheckpointService`.
         checkpoints: checkpoint_service_client::CheckpointServiceClient;
+        /// `ObstacleService`.
+        obstacles: obstacle_service_client::ObstacleServiceClient;
+        /// `OperationService`.
+        operations: operation_service_client::OperationServiceClient;
         /// `ServerService`.
         server: server_service_client::ServerServiceClient;
         /// `AccessService`.

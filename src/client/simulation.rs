@@ -51,13 +51,13 @@ impl Simulation {
         self.happens(start_s, pb::perturbation::Kind::Load(load))
     }
 
-    /// An impulse of `impulse_ns` (N·s, world axes) on `segment` at `start_s` (s).
+    /// An impulse (N·s, world axes) on `segment` at `start_s` (s).
     #[must_use]
-    pub fn push(self, segment: &str, impulse_ns: [f64; 3], start_s: f64) -> Self {
-        let [x, y, z] = impulse_ns;
+    pub fn push(self, segment: &str, impulse: [f64; 3], start_s: f64) -> Self {
+        let [x, y, z] = impulse;
         let impulse = pb::Impulse {
             segment: segment.to_owned(),
-            impulse_ns: Some(pb::Vector3 { x, y, z }),
+            impulse_newton_seconds: Some(pb::Vector3 { x, y, z }),
             ..Default::default()
         };
         self.happens(start_s, pb::perturbation::Kind::Impulse(impulse))

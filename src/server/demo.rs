@@ -69,7 +69,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
             }),
         };
         let crate_in_hands = convert::perturbation::batch(&[pb::Perturbation {
-            figure: name.to_owned(),
+            figure_id: name.to_owned(),
             kind: Some(pb::perturbation::Kind::Load(pb::Load {
                 segment: "l_hand".to_owned(),
                 second_segment: "r_hand".to_owned(),

@@ -332,6 +332,42 @@ pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
     .map_err(|e| refused("world", &e))
 }
 
+/// Checks that a world with these settings would take a figure: one that nobody sees is made of it.
+///
+/// # Errors
+/// What the physics refuses.
+pub fn check_figure(
+    world: &WorldSettings,
+    figure: &FigureSettings,
+    body: Arc<Body>,
+) -> Result<(), Fault> {
+    let mut scratch = new_world(world)?;
+    add_figure(&mut scratch, "figure", figure, body).map(|_| ())
+}
+
+/// Checks an obstacle; `new`: whether there is room for it, too.
+///
+/// # Errors
+/// What the physics refuses.
+pub fn check_obstacle(world: &World, setup: &ObstacleSetup, new: bool) -> Result<(), Fault> {
+    let checked = world.check_obstacle(setup, new);
+    checked.map_err(|e| refused_obstacle(&e))
+}
+
+/// World time of the first frame of the clip that a figure plays at `time` (s), if it does: not before that, and not in
+/// the stand after it.
+pub fn playing_since(figure: &Figure, time: f64) -> Option<f64> {
+    let Drive::Clip(play) = figure.drive() else {
+        return None;
+    };
+    if figure.next_clip().is_some() {
+        return None; // it comes to a stand, or is on its way over
+    }
+    let at = play.clip_time(time);
+    let plays = at >= 0.0 && (play.looped || at <= play.clip.duration());
+    plays.then_some(play.start)
+}
+
 /// Adds an obstacle.
 pub fn add_obstacle(world: &mut World, setup: ObstacleSetup) -> Result<ObstacleKey, Fault> {
     world.add_obstacle(setup).map_err(|e| refused_obstacle(&e))

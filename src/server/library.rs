@@ -245,6 +245,69 @@ impl Clips {
         self.room(&locked(&self.held), new, source_bytes(source))
     }
 
+    /// The name of a new clip, one that is free if none is given.
+    fn free_id(&self, held: &BTreeMap<String, Arc<Stored>>, new: &NewClip) -> String {
+        new.id.clone().unwrap_or_else(|| {
+            loop {
+                let n = self.next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                let id = format!("clip-{n}");
+                if !held.contains_key(&id) {
+                    return id;
+                }
+            }
+        })
+    }
+
+    /// A motion as it would be stored, prepared for one body.
+    fn converted(
+        &self,
+        new: &NewClip,
+        reference: &BodyRef,
+        body: &Body,
+        source: &MotionSource,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<(ClipInfo, Clip), Fault> {
+        let title = new.id.as_deref().unwrap_or("clip");
+        let field = source_field(source);
+        let (clip, report) = engine::prepare(field, title, source, body, 1.0, stop)?;
+        if stop() {
+            return Err(Turn::gone());
+        }
+        let forecast = engine::forecast(body, &clip);
+        let info = ClipInfo {
+            id: title.to_owned(),
+            display_name: new.display_name.clone(),
+            builtin: false,
+            owner: new.owner.clone(),
+            body: reference.id.clone(),
+            rate_hz: clip.rate_hz(),
+            frames: clip.len(),
+            duration: clip.duration(),
+            report: report.map(Arc::new),
+            created: Some(SystemTime::now()),
+            forecast: Some(Arc::new(forecast)),
+        };
+        Ok((info, clip))
+    }
+
+    /// The clip that [`Self::create`] would store. As slow.
+    ///
+    /// # Errors
+    /// Its own.
+    pub fn would_create(
+        &self,
+        new: &NewClip,
+        reference: &BodyRef,
+        body: &Body,
+        source: &MotionSource,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<ClipInfo, Fault> {
+        let (info, clip) = self.converted(new, reference, body, source, stop)?;
+        let bytes = source_bytes(source) + clip_bytes(&clip);
+        self.room(&locked(&self.held), new, bytes)?;
+        Ok(info)
+    }
+
     /// Stores a motion, prepared for one body. Slow: not on an async thread. It is given up once `stop` says so.
     ///
     /// # Errors
@@ -257,39 +320,19 @@ impl Clips {
         source: MotionSource,
         stop: &dyn Fn() -> bool,
     ) -> Result<ClipInfo, Fault> {
-        let field = source_field(&source);
-        let title = new.id.as_deref().unwrap_or("clip").to_owned();
-        let (clip, report) = engine::prepare(field, &title, &source, body, 1.0, stop)?;
-        if stop() {
-            return Err(Turn::gone());
-        }
-        let forecast = engine::forecast(body, &clip);
+        let (info, clip) = self.converted(&new, reference, body, &source, stop)?;
         let bytes = source_bytes(&source);
         let mut held = locked(&self.held);
-        let mut new = new;
-        let id = new.id.take().unwrap_or_else(|| {
-            loop {
-                let n = self.next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-                let id = format!("clip-{n}");
-                if !held.contains_key(&id) {
-                    return id;
-                }
-            }
-        });
-        new.id = Some(id.clone());
+        // What was free when the work began may be taken by now.
+        let id = self.free_id(&held, &new);
+        let new = NewClip {
+            id: Some(id.clone()),
+            ..new
+        };
         self.room(&held, &new, bytes + clip_bytes(&clip))?;
         let info = ClipInfo {
             id: id.clone(),
-            display_name: new.display_name,
-            builtin: false,
-            owner: new.owner,
-            body: reference.id.clone(),
-            rate_hz: clip.rate_hz(),
-            frames: clip.len(),
-            duration: clip.duration(),
-            report: report.map(Arc::new),
-            created: Some(SystemTime::now()),
-            forecast: Some(Arc::new(forecast)),
+            ..info
         };
         let stored = Stored {
             info: info.clone(),

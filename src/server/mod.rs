@@ -13,7 +13,10 @@ pub mod engine;
 pub mod fanout;
 pub mod ingest;
 pub mod library;
+pub mod operations;
 pub mod persistence;
+pub mod progress;
+pub mod repeats;
 pub mod shares;
 pub mod simulate;
 pub mod telemetry;
@@ -98,6 +101,7 @@ pub async fn serve(
         tonic_reflection::server::Builder::configure()
             .register_encoded_file_descriptor_set(DESCRIPTOR_SET)
             .register_encoded_file_descriptor_set(tonic_health::pb::FILE_DESCRIPTOR_SET)
+            .register_encoded_file_descriptor_set(tonic_types::pb::FILE_DESCRIPTOR_SET)
     };
     let mut routes = Routes::builder();
     routes
@@ -112,6 +116,7 @@ pub async fn serve(
         .into_axum_router()
         .reset_fallback()
         .layer(from_fn_with_state(edge.clone(), edge::sizes))
+        .layer(from_fn_with_state(edge.clone(), edge::reasons))
         .layer(from_fn_with_state(app.access.clone(), access::identify))
         .layer(from_fn(telemetry::calls::observe))
         .layer(tonic_web::GrpcWebLayer::new())
@@ -125,9 +130,6 @@ pub async fn serve(
     let server = Server::builder()
         .accept_http1(true) // status page, metrics, gRPC-Web from browsers
         .max_concurrent_streams(Some(config.max_streams_per_connection as u32))
-        .concurrency_limit_per_connection(config.max_requests_per_connection as usize)
-        .load_shed(true)
-        .timeout(seconds(config.request_timeout_s))
         .initial_stream_window_size(STREAM_WINDOW)
         .initial_connection_window_size(CONNECTION_WINDOW)
         .max_frame_size(HTTP2_FRAME)
@@ -164,6 +166,7 @@ pub async fn serve(
         } => tracing::warn!("connections were still open after the grace time"),
         () = app.access.keep_fresh() => {} // never ends
         () = health.follow(&app) => {} // likewise
+        () = app.end_idle_worlds() => {}
     }
     #[cfg(feature = "otlp")]
     if let Some(traces) = traces {

@@ -201,7 +201,7 @@ impl Persistence {
                     let world = &*record.name;
                     tracing::error!(world, %why, "world is not brought back");
                     // It may be there in part; most often it is not there at all.
-                    let _ = app.worlds.delete(world).await;
+                    let _ = app.worlds.delete(world, "it came back in part").await;
                     if let Some(w) = self.worlds().get_mut(&record.name) {
                         // Not written: the next start tries again, perhaps with other limits.
                         w.quarantined = Some(format!("it could not be brought back: {why}"));
@@ -244,6 +244,7 @@ impl Persistence {
                     overrun: Some(pace.overrun),
                     catch_up_limit: Some(pace.catch_up_limit),
                     speed: Some(pace.speed),
+                    idle_ttl: Some(pace.idle_ttl),
                 };
                 handle.call(origin(), move |s| s.update(update)).await?;
                 handle
@@ -550,9 +551,7 @@ fn describe(handle: &WorldHandle) -> Described {
     let figures = described.figures.iter().map(|f| {
         pb::Figure {
             profile: None, // the name of the body says it
-            clip: String::new(),
-            next_clip: String::new(),
-            driver_id: String::new(),
+            status: None,
             constraints: Vec::new(),
             ..figure::figure_out(f)
         }

@@ -1,6 +1,7 @@
 //! One clip tracked by one figure, without clock and world: as fast as it computes.
 
 use super::engine::{self, Clip, Drive, FigureKey, World};
+use super::progress::Progress;
 use super::tick::stage_times::percentiles;
 use super::workers::Turn;
 use crate::sim::body::{Body, DOF_COUNT};
@@ -103,6 +104,29 @@ impl Merit {
     }
 }
 
+/// Who takes frames as they are computed.
+pub trait Parts {
+    /// So much is done; a frame, if this tick has one for the view.
+    ///
+    /// # Errors
+    /// Nobody takes it any more.
+    fn take(&mut self, frame: Option<pb::WorldFrame>, share: f64) -> Result<(), Fault>;
+
+    /// There are no more.
+    ///
+    /// # Errors
+    /// Nobody takes the last ones any more.
+    fn end(&mut self) -> Result<(), Fault>;
+}
+
+/// Where what is computed goes meanwhile.
+pub struct Sink<'a> {
+    /// Told how far it is.
+    pub progress: &'a Progress,
+    /// Takes the frames in place of the outcome.
+    pub parts: Option<&'a mut dyn Parts>,
+}
+
 /// Simulates, tick by tick as long as its turn lasts.
 ///
 /// # Errors
@@ -112,7 +136,7 @@ pub fn run(
     body: &Arc<Body>,
     clip: Arc<Clip>,
     limits: Limits,
-    turn: &Turn,
+    (turn, mut sink): (&Turn, Sink<'_>),
 ) -> Result<Outcome, Fault> {
     let duration = s.duration.unwrap_or_else(|| clip.duration());
     if duration > limits.seconds {
@@ -154,9 +178,18 @@ pub fn run(
                 });
             }
         }
-        if let Some(view) = s.view.as_ref().filter(|v| tick % u64::from(v.divisor) == 0) {
-            frames.take(&world, key, before, view)?;
+        let view = s.view.as_ref();
+        let view = view.filter(|v| tick % u64::from(v.divisor) == 0);
+        let frame = view.map(|view| frames.frame(&world, key, before, view));
+        match (&mut sink.parts, frame) {
+            (Some(parts), frame) => parts.take(frame, tick as f64 / ticks as f64)?,
+            (None, Some(frame)) => frames.keep(frame)?,
+            (None, None) => {}
         }
+        sink.progress.tell(tick as f64, ticks as f64);
+    }
+    if let Some(parts) = sink.parts {
+        parts.end()?;
     }
     Ok(Outcome {
         summary: merit.summary(ticks, s.rate_hz, world.state_hash()),
@@ -182,6 +215,7 @@ fn scene(
             overrun: Overrun::Dilate,
             catch_up_limit: 1,
             speed: 1.0,
+            idle_ttl: None,
         },
     })?;
     let key = engine::add_figure(&mut world, FIGURE, &s.figure, body.clone())?;
@@ -226,13 +260,7 @@ impl Frames {
     }
 
     /// The world after a tick that began at `before` (s).
-    fn take(
-        &mut self,
-        world: &World,
-        key: FigureKey,
-        before: f64,
-        view: &ViewSpec,
-    ) -> Result<(), Fault> {
+    fn frame(&self, world: &World, key: FigureKey, before: f64, view: &ViewSpec) -> pb::WorldFrame {
         let figure = world.figure(key).expect("it is still there");
         let snapshot = Snapshot {
             world: "".into(),
@@ -248,7 +276,11 @@ impl Frames {
             figures: vec![engine::snapshot(figure, before, world.dt(), (-1, 0))],
             obstacles: Vec::new(),
         };
-        let frame = world_frame(&snapshot, view);
+        world_frame(&snapshot, view)
+    }
+
+    /// Keeps a frame for the outcome.
+    fn keep(&mut self, frame: pb::WorldFrame) -> Result<(), Fault> {
         self.bytes += frame.encoded_len() as u64;
         if self.bytes > self.most {
             return Err(Fault::Exhausted {

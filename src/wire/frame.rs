@@ -136,7 +136,7 @@ fn obstacle_frame(o: &ObstacleInfo, format: NumberFormat) -> pb::ObstacleFrame {
     let (p, q) = (s.position, s.rotation);
     let (w, v) = (s.angular_velocity, s.velocity);
     pb::ObstacleFrame {
-        obstacle: o.id.clone(),
+        obstacle_id: o.id.clone(),
         pose: places(format, &[p.x, p.y, p.z, q.x, q.y, q.z, q.w]),
         velocity: numbers(format, &[w.x, w.y, w.z, v.x, v.y, v.z]),
         force: numbers(format, &o.force.to_array()),
@@ -352,7 +352,7 @@ pub fn roster(snapshot: &Snapshot, view: &ViewSpec) -> pb::Roster {
             .filter(|entry| shown(view, entry))
             .map(|entry| pb::RosterEntry {
                 figure_index: entry.index,
-                figure: entry.figure.clone(),
+                figure_id: entry.figure.clone(),
                 body: format!("bodies/{}", entry.body),
             })
             .collect(),

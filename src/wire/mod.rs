@@ -21,6 +21,7 @@ pub mod codec;
 pub mod convert;
 pub mod frame;
 pub mod posture;
+pub mod repeatable;
 pub mod scan;
 pub mod status;
 pub mod types;

@@ -149,6 +149,20 @@ pub enum Fault {
     /// This server cannot do it.
     #[error("{0} is not available in this server")]
     Unimplemented(String),
+    /// The request took too long.
+    #[error("the request took longer than its deadline, or than request_timeout_s = {}", .limit.as_secs_f64())]
+    Late {
+        /// The longest time for any request.
+        limit: Duration,
+    },
+    /// A status that was made without a reason, by a library.
+    #[error("{message}")]
+    Foreign {
+        /// Its code.
+        code: Code,
+        /// Its message.
+        message: String,
+    },
     /// The server shuts down.
     #[error("the server is shutting down")]
     Draining,
@@ -236,11 +250,52 @@ impl Fault {
             Self::Budget { .. } => "TICK_BUDGET",
             Self::Expired { .. } => "RESUME_EXPIRED",
             Self::Unimplemented(_) => "NOT_AVAILABLE",
+            Self::Late { .. } => "DEADLINE_EXCEEDED",
+            Self::Foreign { code, .. } => foreign_reason(*code),
             Self::Draining => "DRAINING",
             Self::Storage(_) => "STORAGE",
             Self::Internal(_) => "INTERNAL",
         }
     }
+}
+
+/// What a code says where nothing else does.
+fn foreign_reason(code: Code) -> &'static str {
+    match code {
+        Code::Cancelled => "CANCELLED",
+        Code::InvalidArgument => "MALFORMED_MESSAGE",
+        Code::DeadlineExceeded => "DEADLINE_EXCEEDED",
+        Code::NotFound => "RESOURCE_NOT_FOUND",
+        Code::PermissionDenied => "ROLE_REQUIRED",
+        Code::ResourceExhausted => "LIMIT_REACHED",
+        Code::OutOfRange => "MESSAGE_TOO_LARGE", // tonic's word for it
+        Code::Unimplemented => "NOT_AVAILABLE",
+        Code::Unavailable => "UNAVAILABLE",
+        Code::Unauthenticated => "CREDENTIALS_REQUIRED",
+        _ => "INTERNAL",
+    }
+}
+
+/// Whether a status says why.
+pub fn is_explained(status: &Status) -> bool {
+    status.get_error_details().error_info().is_some()
+}
+
+/// Type of a kind of resource, as the protos call it: `sinew/World`.
+fn resource_type(kind: &str) -> String {
+    let (first, rest) = kind.split_at(kind.len().min(1));
+    format!("sinew/{}{rest}", first.to_uppercase())
+}
+
+/// A fault as a message, for operations that tell later what a call would have told.
+pub fn rpc_status(fault: Fault) -> tonic_types::Status {
+    let status = Status::from(fault);
+    // The details of a status are its whole message.
+    prost::Message::decode(status.details()).unwrap_or_else(|_| tonic_types::Status {
+        code: status.code().into(),
+        message: status.message().to_owned(),
+        details: Vec::new(),
+    })
 }
 
 impl From<Fault> for Status {
@@ -272,11 +327,11 @@ impl From<Fault> for Status {
                 Code::ResourceExhausted
             }
             Fault::NotFound { kind, name } => {
-                details.set_resource_info(format!("sinew/{kind}"), name, "", fault.to_string());
+                details.set_resource_info(resource_type(kind), name, "", fault.to_string());
                 Code::NotFound
             }
             Fault::Exists { kind, name } => {
-                details.set_resource_info(format!("sinew/{kind}"), name, "", fault.to_string());
+                details.set_resource_info(resource_type(kind), name, "", fault.to_string());
                 Code::AlreadyExists
             }
             Fault::Precondition {
@@ -325,6 +380,8 @@ impl From<Fault> for Status {
             Fault::Aborted { .. } => Code::Aborted,
             Fault::DataLoss { .. } => Code::DataLoss,
             Fault::Unimplemented(_) => Code::Unimplemented,
+            Fault::Late { .. } => Code::DeadlineExceeded,
+            Fault::Foreign { code, .. } => *code,
             Fault::Draining => {
                 details.set_retry_info(Some(Duration::from_secs(5)));
                 Code::Unavailable

@@ -1,7 +1,8 @@
 //! What requests and frames are about, as domain types: checked once at the edge, trusted afterwards.
 
+use super::status::Fault;
 use crate::sim::body::{Body, NV, Posture, Profile, SegmentId, State};
-use crate::sim::collide::ObstacleSetup;
+use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::figure::{
     ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport,
 };
@@ -9,7 +10,7 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A place on the ground: world x, y (m) and heading about z (rad).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -44,6 +45,8 @@ pub struct Pace {
     pub catch_up_limit: u32,
     /// World seconds per wall second.
     pub speed: f64,
+    /// How long the world may be idle before it is deleted; `None`: for ever.
+    pub idle_ttl: Option<Duration>,
 }
 
 /// Settings of a new world.
@@ -106,6 +109,32 @@ pub struct WorldUpdate {
     pub catch_up_limit: Option<u32>,
     /// Speed.
     pub speed: Option<f64>,
+    /// How long it may be idle; `Some(None)`: for ever.
+    pub idle_ttl: Option<Option<Duration>>,
+}
+
+impl WorldUpdate {
+    /// Changes the settings that it holds.
+    pub fn apply(self, pace: &mut Pace) {
+        if let Some(name) = self.display_name {
+            pace.display_name = name;
+        }
+        if let Some(limit) = self.catch_up_limit {
+            pace.catch_up_limit = limit;
+        }
+        if let Some(overrun) = self.overrun {
+            pace.overrun = overrun;
+        }
+        if let Overrun::CatchUp(limit) = &mut pace.overrun {
+            *limit = pace.catch_up_limit;
+        }
+        if let Some(speed) = self.speed {
+            pace.speed = speed;
+        }
+        if let Some(ttl) = self.idle_ttl {
+            pace.idle_ttl = ttl;
+        }
+    }
 }
 
 /// Which body: a name that says its profile, see [`super::convert::body`].
@@ -188,6 +217,10 @@ pub struct Described {
     pub world: WorldInfo,
     /// Its figures, in the order of creation.
     pub figures: Vec<FigureInfo>,
+    /// Who controls each of them, in the same order.
+    pub controls: Vec<ControlInfo>,
+    /// When that was so.
+    pub at: Instant,
 }
 
 /// Changes of a figure; `None` leaves a setting as it is.
@@ -209,6 +242,103 @@ pub struct FigureUpdate {
     pub constraints: Option<Vec<ConstraintSettings>>,
     /// Protective steps.
     pub protective_steps: Option<bool>,
+}
+
+impl FigureUpdate {
+    /// The settings that it makes of those that a figure has.
+    #[must_use]
+    pub fn applied(self, now: FigureSettings) -> FigureSettings {
+        // Whether a figure steps is no choice of the paper's controller.
+        let params = ControlParams {
+            protective_steps: self.protective_steps.unwrap_or(now.params.protective_steps),
+            ..self.params.unwrap_or(now.params)
+        };
+        let options = FigureOptions {
+            fatigue_time_scale: self
+                .fatigue_time_scale
+                .unwrap_or(now.options.fatigue_time_scale),
+            assist: self.assist.unwrap_or(now.options.assist),
+        };
+        FigureSettings {
+            display_name: self.display_name.unwrap_or(now.display_name),
+            strength: self.strength.unwrap_or(now.strength),
+            controller: self.controller.unwrap_or(now.controller),
+            params,
+            options,
+            constraints: self.constraints.unwrap_or(now.constraints),
+            ..now
+        }
+    }
+}
+
+/// How an obstacle moves, without its mass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObstacleMobility {
+    /// Not at all.
+    Fixed,
+    /// With its velocity.
+    Led,
+    /// As a rigid body.
+    Free,
+}
+
+/// Why a plane is not free.
+pub const FREE_PLANE: &str = "a plane cannot move freely";
+
+/// Changes of an obstacle; `None` leaves what it has at that tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ObstacleUpdate {
+    /// Shape.
+    pub shape: Option<Shape>,
+    /// How it moves.
+    pub mobility: Option<ObstacleMobility>,
+    /// Mass of a free one, kg.
+    pub mass: Option<f64>,
+    /// Friction.
+    pub friction: Option<f64>,
+    /// Position (m) and rotation.
+    pub pose: Option<(Vec3, Quat)>,
+    /// Velocity, m/s.
+    pub velocity: Option<Vec3>,
+    /// Angular velocity, rad/s.
+    pub angular_velocity: Option<Vec3>,
+}
+
+impl ObstacleUpdate {
+    /// The obstacle as it is to be.
+    ///
+    /// # Errors
+    /// A free plane, or a free obstacle without mass.
+    pub fn apply(self, now: &ObstacleSetup) -> Result<ObstacleSetup, Fault> {
+        let shape = self.shape.unwrap_or(now.shape);
+        let free = |mass: Option<f64>| match mass {
+            _ if shape == Shape::Plane => Err(Fault::invalid("obstacle.mobility", FREE_PLANE)),
+            Some(mass) => Ok(Mobility::Free(mass)),
+            None => Err(Fault::invalid("obstacle.mass_kg", "must be given")),
+        };
+        let had = match now.mobility {
+            Mobility::Free(mass) => Some(mass),
+            Mobility::Fixed | Mobility::Led => None,
+        };
+        let mobility = match self.mobility {
+            Some(ObstacleMobility::Fixed) => Mobility::Fixed,
+            Some(ObstacleMobility::Led) => Mobility::Led,
+            Some(ObstacleMobility::Free) => free(self.mass.or(had))?,
+            None if had.is_some() => free(self.mass.or(had))?,
+            None => now.mobility,
+        };
+        let (position, rotation) = self.pose.unwrap_or((now.position, now.rotation));
+        Ok(ObstacleSetup {
+            name: now.name.clone(),
+            shape,
+            mobility,
+            friction: self.friction.unwrap_or(now.friction),
+            position,
+            rotation,
+            velocity: self.velocity.unwrap_or(now.velocity),
+            angular_velocity: self.angular_velocity.unwrap_or(now.angular_velocity),
+        })
+    }
 }
 
 /// What disturbs a figure.
@@ -483,6 +613,8 @@ pub struct Snapshot {
 pub struct ObstacleInfo {
     /// Last part of its name.
     pub id: String,
+    /// Counts up from obstacle to obstacle of a world.
+    pub number: u64,
     /// What it is, with its present pose and velocity.
     pub setup: ObstacleSetup,
     /// Mean force on it over the last tick, N.
@@ -573,6 +705,12 @@ pub enum EventKind {
     Resumed,
     /// The world failed: why.
     Failed(String),
+    /// The world was deleted: by whom, or why.
+    Deleted(String),
+    /// A clip of this id began to play.
+    ClipBegan(String),
+    /// A clip of this id is over, or was ended.
+    ClipEnded(String),
 }
 
 /// One event.

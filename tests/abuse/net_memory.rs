@@ -90,6 +90,7 @@ async fn world(client: &Client, figures: usize, paused: bool) -> String {
         world_id: "w".into(),
         world: None,
         paused,
+        ..Default::default()
     };
     let created = client.worlds().create_world(request).await.unwrap();
     let world = created.into_inner().world.unwrap().name;
@@ -104,6 +105,7 @@ async fn world(client: &Client, figures: usize, paused: bool) -> String {
                 }),
                 ..Default::default()
             }),
+            ..Default::default()
         };
         client.figures().create_figure(figure).await.unwrap();
     }
@@ -123,6 +125,7 @@ fn stepping_leaves_nothing_behind() {
             let request = pb::StepWorldRequest {
                 name: name.clone(),
                 tick_count: 10_000,
+                ..Default::default()
             };
             client.worlds().step_world(request).await.unwrap();
             ticks += 10_000;

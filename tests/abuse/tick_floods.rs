@@ -17,7 +17,7 @@ fn frame(figures: &[String], sequence: i64, t: f64) -> pb::MotionFrame {
         figures: figures
             .iter()
             .map(|f| pb::FigureMotion {
-                figure: f.clone(),
+                figure_id: f.clone(),
                 joint_angles_rad: vec![0.0; 39],
                 ..Default::default()
             })
@@ -29,7 +29,7 @@ fn push(driver: &str, figures: &[String], frames: Vec<pb::MotionFrame>) -> pb::P
     pb::PushMotionRequest {
         header: Some(pb::DriveHeader {
             world: "worlds/w".into(),
-            figures: figures.to_vec(),
+            figure_ids: figures.to_vec(),
             driver_id: driver.into(),
             ..Default::default()
         }),
@@ -53,6 +53,7 @@ async fn world(client: &Client, figures: usize) -> Vec<String> {
                 controller: pb::Controller::Motors.into(),
                 ..Default::default()
             }),
+            ..Default::default()
         };
         client.figures().create_figure(create).await.unwrap();
     }

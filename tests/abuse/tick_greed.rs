@@ -20,6 +20,7 @@ async fn create(client: &Client, id: &str, world: pb::World) -> Result<(), Statu
         world_id: id.into(),
         world: Some(world),
         paused: false,
+        ..Default::default()
     };
     client.worlds().create_world(request).await.map(|_| ())
 }
@@ -49,7 +50,7 @@ fn worlds_that_no_machine_could_bear_are_refused() {
             let world = pb::World {
                 rate_hz: 1000.0,
                 speed: 10.0,
-                substeps: 16,
+                substep_count: 16,
                 ..Default::default()
             };
             match create(&greedy, &id, world).await {
@@ -132,6 +133,7 @@ fn worlds_that_become_expensive_leave_time_for_others() {
                 update_mask: Some(prost_types::FieldMask {
                     paths: vec!["controller".into()],
                 }),
+                ..Default::default()
             };
             let _ = greedy.figures().update_figure(request).await; // its world may be too busy
         }
@@ -166,7 +168,7 @@ fn long_work_of_some_does_not_stop_others() {
         let long = pb::SimulateClipRequest {
             source: Some(pb::simulate_clip_request::Source::Clip("clips/wave".into())),
             rate_hz: 1000.0,
-            substeps: 16,
+            substep_count: 16,
             duration_s: 120.0,
             r#loop: true,
             ..Default::default()
@@ -196,7 +198,7 @@ fn long_work_of_some_does_not_stop_others() {
             while done < 3 || Instant::now() < until {
                 let short = pb::SimulateClipRequest {
                     rate_hz: 60.0,
-                    substeps: 2,
+                    substep_count: 2,
                     duration_s: 0.2,
                     ..long.clone()
                 };

@@ -33,7 +33,7 @@ impl Scene {
         let figure = figure(&owner, &world, "a").await;
         for who in ["user:alice", "user:bob", "user:rival"] {
             let driver = pb::Grant {
-                figures: vec!["a".into()],
+                figure_ids: vec!["a".into()],
                 ..role(who, pb::Role::Driver)
             };
             grant(&owner, &world, driver).await;
@@ -61,6 +61,7 @@ impl Scene {
             control_token: token.into(),
             priority,
             grace_ms: 60_000.0,
+            ..Default::default()
         };
         client
             .control()
@@ -72,7 +73,7 @@ impl Scene {
     fn header(&self, driver: &str, tokens: &[&str]) -> pb::DriveHeader {
         pb::DriveHeader {
             world: self.world.clone(),
-            figures: vec!["a".into()],
+            figure_ids: vec!["a".into()],
             driver_id: driver.into(),
             control_tokens: tokens.iter().map(|t| (*t).to_owned()).collect(),
             playout_delay_ms: Some(0.0),
@@ -115,6 +116,7 @@ impl Scene {
         let request = pb::StepWorldRequest {
             name: self.world.clone(),
             tick_count: ticks,
+            ..Default::default()
         };
         self.owner.worlds().step_world(request).await.unwrap();
     }
@@ -143,7 +145,7 @@ fn arm(sequence: i64) -> pb::MotionFrame {
         sequence,
         source_time_ns: (t * 1e9) as i64,
         figures: vec![pb::FigureMotion {
-            figure: "a".into(),
+            figure_id: "a".into(),
             joint_angles_rad: angles,
             planted: vec![true, true],
             ..Default::default()
@@ -184,6 +186,7 @@ async fn attack(
     let stop = pb::StopClipRequest {
         figure: figure.clone(),
         control_token: control_token.clone(),
+        ..Default::default()
     };
     out.push((
         "StopClip",
@@ -193,6 +196,7 @@ async fn attack(
         name: figure.clone(),
         placement: None,
         control_token: control_token.clone(),
+        ..Default::default()
     };
     out.push((
         "ResetFigure",
@@ -211,6 +215,7 @@ async fn attack(
             paths: vec!["strength".into()],
         }),
         control_token: control_token.clone(),
+        ..Default::default()
     };
     out.push((
         "UpdateFigure",
@@ -219,6 +224,7 @@ async fn attack(
     let release = pb::ReleaseControlRequest {
         figure: figure.clone(),
         control_token: control_token.clone(),
+        ..Default::default()
     };
     out.push((
         "ReleaseControl",
@@ -278,7 +284,10 @@ async fn a_stranger_and_a_rival_change_nothing_and_the_driver_sees_it() {
     more.push(
         stranger
             .figures()
-            .delete_figure(pb::DeleteFigureRequest { name })
+            .delete_figure(pb::DeleteFigureRequest {
+                name,
+                ..Default::default()
+            })
             .await
             .map(|_| ()),
     );
@@ -286,7 +295,10 @@ async fn a_stranger_and_a_rival_change_nothing_and_the_driver_sees_it() {
     more.push(
         stranger
             .worlds()
-            .delete_world(pb::DeleteWorldRequest { name })
+            .delete_world(pb::DeleteWorldRequest {
+                name,
+                ..Default::default()
+            })
             .await
             .map(|_| ()),
     );
@@ -302,7 +314,7 @@ async fn a_stranger_and_a_rival_change_nothing_and_the_driver_sees_it() {
         assert_eq!(refusal(&result.unwrap_err()).0, Code::PermissionDenied);
     }
     let told = events.next(pb::EventType::AccessRefused).await;
-    assert_eq!(told.figure, "a");
+    assert_eq!(told.figure_id, "a");
     assert!(
         told.detail.starts_with("user:mallory: sinew.v1."),
         "{}",
@@ -356,7 +368,7 @@ async fn a_stranger_and_a_rival_change_nothing_and_the_driver_sees_it() {
         .unwrap();
     let found = found.into_inner().figure.unwrap();
     assert!(found.strength.is_none_or(|s| s.all != 0.01));
-    assert_eq!(found.driver_id, "alice");
+    assert_eq!(found.status.unwrap().driver_id, "alice");
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -374,7 +386,7 @@ async fn a_higher_priority_takes_the_figure_and_every_further_frame_is_fenced() 
     assert_eq!((after.holder.as_str(), after.priority), ("user:owner", 50));
     let told = events.next(pb::EventType::ControlPreempted).await;
     assert_eq!(
-        (told.figure.as_str(), told.detail.as_str()),
+        (told.figure_id.as_str(), told.detail.as_str()),
         ("a", "user:owner from user:alice")
     );
     let e = loop {
@@ -394,6 +406,7 @@ async fn a_higher_priority_takes_the_figure_and_every_further_frame_is_fenced() 
     let release = pb::ReleaseControlRequest {
         figure: scene.figure.clone(),
         control_token: director.control_token,
+        ..Default::default()
     };
     scene
         .owner

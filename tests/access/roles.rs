@@ -82,9 +82,7 @@ fn name_things(message: &mut DynamicMessage, method: &str, world: &str) {
             "name" => text(&name),
             "figure" if field.kind().as_message().is_none() => text(&format!("{world}/figures/a")),
             "clip" if method == "PlayClip" => text("clips/wave"),
-            "figures" if field.kind().as_message().is_none() && method.contains("Motion") => {
-                Value::List(vec![text("a")])
-            }
+            "figure_ids" if method.contains("Motion") => Value::List(vec![text("a")]),
             "update_mask" => {
                 let path = if kind == "Grant" {
                     "max_priority"
@@ -267,7 +265,10 @@ async fn lists_show_what_one_may_see_and_a_name_is_no_more_than_a_guess() {
         .unwrap();
     frames.message().await.unwrap();
     a.access()
-        .delete_grant(pb::DeleteGrantRequest { name })
+        .delete_grant(pb::DeleteGrantRequest {
+            name,
+            ..Default::default()
+        })
         .await
         .unwrap();
     let e = loop {
@@ -291,7 +292,7 @@ async fn a_perturber_pushes_as_hard_and_as_often_as_its_grant_says() {
     let stage = world(&owner, "w", true).await;
     figure(&owner, &stage, "a").await;
     let bounds = pb::PerturbationBounds {
-        max_force_n: Some(100.0),
+        max_force_newtons: Some(100.0),
         max_rate_hz: Some(0.2),
         ..Default::default()
     };
@@ -305,7 +306,7 @@ async fn a_perturber_pushes_as_hard_and_as_often_as_its_grant_says() {
         let mut service = client.perturbations();
         let force = pb::Force {
             segment: "chest".into(),
-            force_n: Some(pb::Vector3 {
+            force_newtons: Some(pb::Vector3 {
                 x: newtons,
                 y: 0.0,
                 z: 0.0,
@@ -316,7 +317,7 @@ async fn a_perturber_pushes_as_hard_and_as_often_as_its_grant_says() {
         let request = pb::ApplyPerturbationsRequest {
             world: stage.clone(),
             perturbations: vec![pb::Perturbation {
-                figure: "a".into(),
+                figure_id: "a".into(),
                 kind: Some(pb::perturbation::Kind::Force(force)),
                 ..Default::default()
             }],

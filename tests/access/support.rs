@@ -178,6 +178,7 @@ pub async fn figure(client: &Client, world: &str, id: &str) -> String {
         parent: world.into(),
         figure_id: id.into(),
         figure: None,
+        ..Default::default()
     };
     let made = client.figures().create_figure(request).await.unwrap();
     made.into_inner().figure.unwrap().name
@@ -188,6 +189,7 @@ pub async fn grant(client: &Client, world: &str, grant: pb::Grant) -> String {
         parent: world.into(),
         grant_id: String::new(),
         grant: Some(grant),
+        ..Default::default()
     };
     let made = client.access().create_grant(request).await.unwrap();
     made.into_inner().grant.unwrap().name

@@ -100,7 +100,7 @@ async fn a_greedy_tenant_gets_its_share_and_the_other_one_everything_it_asks_for
     for sequence in 0..60 {
         let header = pb::DriveHeader {
             world: stage.clone(),
-            figures: vec!["a".into()],
+            figure_ids: vec!["a".into()],
             ..Default::default()
         };
         let request = pb::PushMotionRequest {
@@ -186,7 +186,14 @@ async fn clips_are_those_of_who_stored_them_and_of_tokens_that_name_them() {
     let delete = |client: &Client| {
         let mut motions = client.motions();
         let name = "clips/studio-a-wave".to_owned();
-        async move { motions.delete_clip(pb::DeleteClipRequest { name }).await }
+        async move {
+            motions
+                .delete_clip(pb::DeleteClipRequest {
+                    name,
+                    ..Default::default()
+                })
+                .await
+        }
     };
     assert_eq!(delete(&b).await.unwrap_err().code(), Code::NotFound);
     assert_eq!(

@@ -132,6 +132,7 @@ impl Book {
         self.doubtful.insert(world.clone());
         let request = pb::DeleteWorldRequest {
             name: format!("worlds/{world}"),
+            ..Default::default()
         };
         client.worlds().delete_world(request).await?;
         self.doubtful.remove(&world);
@@ -158,9 +159,10 @@ impl Book {
             grant: Some(pb::Grant {
                 principal: "user:somebody".into(),
                 roles: vec![pb::Role::Driver.into()],
-                figures: vec![figure_id.clone()],
+                figure_ids: vec![figure_id.clone()],
                 ..Default::default()
             }),
+            ..Default::default()
         };
         client.access().create_grant(request).await?;
         figures.insert(format!("grant {figure_id}"));
@@ -174,6 +176,7 @@ impl Book {
             self.doubtful.insert(oldest.clone());
             let request = pb::DeleteClipRequest {
                 name: format!("clips/{oldest}"),
+                ..Default::default()
             };
             client.motions().delete_clip(request).await?;
             self.doubtful.remove(&oldest);
@@ -253,7 +256,7 @@ async fn found(client: &Client) -> Book {
         let whole = |g: &&pb::Grant| {
             g.principal == "user:somebody"
                 && g.roles == [i32::from(pb::Role::Driver)]
-                && g.figures == [last(&g.name)]
+                && g.figure_ids == [last(&g.name)]
         };
         let grants = grants.iter().filter(whole);
         let figures = figures.iter().map(|f| last(&f.name));

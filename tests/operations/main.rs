@@ -34,6 +34,7 @@ async fn use_it(client: &Client) {
             parent: world.clone(),
             figure_id: "a".into(),
             figure: None,
+            ..Default::default()
         })
         .await
         .unwrap();
@@ -62,7 +63,7 @@ async fn use_it(client: &Client) {
         .into_inner();
     let header = pb::DriveHeader {
         world,
-        figures: vec!["a".into()],
+        figure_ids: vec!["a".into()],
         driver_id: "me".into(),
         playout_delay_ms: Some(1e3 * DELAY),
         ..Default::default()

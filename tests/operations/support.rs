@@ -131,7 +131,7 @@ pub fn arm_frame(figure: &str, i: i64) -> pb::MotionFrame {
         sequence: i,
         source_time_ns: (t * 1e9) as i64,
         figures: vec![pb::FigureMotion {
-            figure: figure.into(),
+            figure_id: figure.into(),
             joint_angles_rad: angles,
             planted: vec![true, true],
             ..Default::default()

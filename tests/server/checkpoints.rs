@@ -18,6 +18,7 @@ impl TestServer {
             name: world.into(),
             checkpoint_id: id.into(),
             return_data,
+            ..Default::default()
         };
         let kept = self.client.checkpoints().checkpoint_world(request).await;
         kept.unwrap().into_inner()
@@ -27,6 +28,7 @@ impl TestServer {
         let request = pb::RestoreWorldRequest {
             name: world.into(),
             source: Some(source),
+            ..Default::default()
         };
         let done = self.client.checkpoints().restore_world(request).await?;
         Ok(done.into_inner().world.unwrap())
@@ -37,6 +39,7 @@ impl TestServer {
             world_id: id.into(),
             paused: true,
             source: Some(source),
+            ..Default::default()
         };
         let done = self.client.checkpoints().fork_world(request).await?;
         Ok(done.into_inner().world.unwrap())
@@ -53,7 +56,7 @@ impl TestServer {
     async fn push_it(&self, world: &str, figure: &str, newtons: f64) {
         let push = pb::Force {
             segment: "chest".into(),
-            force_n: Some(pb::Vector3 {
+            force_newtons: Some(pb::Vector3 {
                 x: newtons,
                 ..Default::default()
             }),
@@ -61,7 +64,7 @@ impl TestServer {
             ..Default::default()
         };
         let what = pb::Perturbation {
-            figure: figure.into(),
+            figure_id: figure.into(),
             kind: Some(pb::perturbation::Kind::Force(push)),
             ..Default::default()
         };
@@ -102,7 +105,10 @@ async fn a_world_goes_back_and_two_futures_part_by_what_is_done_to_them() {
         .await
         .unwrap();
     assert_eq!((back.tick, back.epoch, back.figure_count), (40, 2, 1));
-    assert_eq!(server.look(&figure).await.clip, "clips/walk");
+    assert_eq!(
+        server.look(&figure).await.status.unwrap().clip,
+        "clips/walk"
+    );
     assert_eq!(server.hashes(&world, 30).await, future);
 
     // A new world from bytes does the same; another that is pushed does not.
@@ -204,7 +210,12 @@ async fn viewers_see_the_jump_and_drivers_are_told() {
     };
     assert_eq!(ended.code(), Code::Aborted);
     assert_eq!(
-        server.look(&format!("{world}/figures/a")).await.driver_id,
+        server
+            .look(&format!("{world}/figures/a"))
+            .await
+            .status
+            .unwrap()
+            .driver_id,
         ""
     );
     server.step(&world, 1).await;
@@ -248,10 +259,14 @@ async fn checkpoints_are_resources_with_names() {
         name: world.clone(),
         checkpoint_id: "a".into(),
         return_data: false,
+        ..Default::default()
     };
     let taken = checkpoints.checkpoint_world(request).await.unwrap_err();
     assert_eq!(refusal(&taken).0, Code::AlreadyExists);
-    let delete = |id: &str| pb::DeleteCheckpointRequest { name: name(id) };
+    let delete = |id: &str| pb::DeleteCheckpointRequest {
+        name: name(id),
+        ..Default::default()
+    };
     checkpoints.delete_checkpoint(delete("a")).await.unwrap();
     let gone = checkpoints
         .delete_checkpoint(delete("a"))
@@ -269,7 +284,10 @@ async fn checkpoints_are_resources_with_names() {
         .into_inner();
     assert_eq!(got.data.len() as i64, got.checkpoint.unwrap().size_bytes);
     // They go with their world.
-    let request = pb::DeleteWorldRequest { name: world };
+    let request = pb::DeleteWorldRequest {
+        name: world,
+        ..Default::default()
+    };
     server.client.worlds().delete_world(request).await.unwrap();
     let gone = checkpoints.get_checkpoint(get("b")).await.unwrap_err();
     assert_eq!(refusal(&gone).0, Code::NotFound);
@@ -325,6 +343,7 @@ async fn what_is_no_checkpoint_changes_nothing() {
     let request = pb::RestoreWorldRequest {
         name: world.clone(),
         source: None,
+        ..Default::default()
     };
     let none = server.client.checkpoints().restore_world(request).await;
     assert_eq!(refusal(&none.unwrap_err()).0, Code::InvalidArgument);

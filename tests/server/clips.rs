@@ -55,6 +55,7 @@ async fn a_recording_is_uploaded_played_and_deleted() {
                     controller: pb::Controller::Modern.into(),
                     ..Default::default()
                 }),
+                ..Default::default()
             })
             .await
             .unwrap();
@@ -78,6 +79,7 @@ async fn a_recording_is_uploaded_played_and_deleted() {
         .motions()
         .delete_clip(pb::DeleteClipRequest {
             name: clip.name.clone(),
+            ..Default::default()
         })
         .await
         .unwrap();
@@ -128,6 +130,7 @@ async fn a_recording_is_played_faster_and_slower() {
                     controller: pb::Controller::Modern.into(),
                     ..Default::default()
                 }),
+                ..Default::default()
             })
             .await
             .unwrap()
@@ -198,7 +201,7 @@ async fn a_run_is_walked_unless_it_is_to_be_kept() {
     let reports = [0, 1].map(|k: usize| clips[k].report.clone().unwrap());
     assert_eq!(reports.clone().map(|r| r.runs_walked), [false, true]);
     for r in &reports {
-        assert!(r.run_speed_m_s.is_some_and(|v| v > 2.0 && v < 3.0), "{r:?}");
+        assert!(r.run_speed_mps.is_some_and(|v| v > 2.0 && v < 3.0), "{r:?}");
     }
     assert!(
         clips[1].duration_s > 1.2 * clips[0].duration_s,
@@ -238,9 +241,9 @@ async fn a_recording_is_simulated_without_a_world() {
     assert_eq!((summary.tick_count, simulated.frames.len()), (60, 30));
     assert!(summary.fell_at_s.is_none());
     assert!(
-        summary.tracking_joint_rms_deg < 3.0,
+        summary.tracking_joint_rms_rad.to_degrees() < 3.0,
         "{}",
-        summary.tracking_joint_rms_deg
+        summary.tracking_joint_rms_rad.to_degrees()
     );
     assert!(simulated.report.is_some());
     server.stop().await;
@@ -256,7 +259,10 @@ async fn a_clip_waits_until_a_walking_figure_stands() {
         server.figure(&world, "goes-on").await.name,
         server.figure(&world, "stays").await.name,
     );
-    let plays = |f: pb::Figure| (f.clip, f.next_clip);
+    let plays = |f: pb::Figure| {
+        let status = f.status.unwrap();
+        (status.clip, status.next_clip)
+    };
     for figure in [&goes_on, &stays] {
         server.play(figure, "clips/walk", true).await;
         let now = plays(server.look(figure).await);
@@ -277,6 +283,7 @@ async fn a_clip_waits_until_a_walking_figure_stands() {
     let request = pb::StopClipRequest {
         figure: name,
         control_token: String::new(),
+        ..Default::default()
     };
     server.client.motions().stop_clip(request).await.unwrap();
     let expected = server.play(&goes_on, "clips/wave", false).await;
@@ -339,12 +346,12 @@ async fn a_walking_figure_goes_over_to_a_turn_without_a_stand() {
         "asked at {asked} s, expected at {begins} s"
     );
     let (walks, turns) = (String::new(), "clips/recorded-turn".to_owned());
-    let look = server.look(&figure).await;
+    let look = server.look(&figure).await.status.unwrap();
     assert_eq!((look.clip, look.next_clip), (walks, turns.clone()));
     let mut began = None;
     for _ in 0..60 {
         let now = server.step(&world, 2).await.time_s;
-        let look = server.look(&figure).await;
+        let look = server.look(&figure).await.status.unwrap();
         if began.is_none() && look.next_clip.is_empty() {
             assert_eq!(look.clip, turns);
             began = Some(now);

@@ -35,6 +35,7 @@ async fn update(
         update_mask: Some(prost_types::FieldMask {
             paths: paths.iter().map(|p| (*p).to_owned()).collect(),
         }),
+        ..Default::default()
     };
     let answer = server.client.figures().update_figure(request).await?;
     Ok(answer.into_inner().figure.unwrap())
@@ -109,6 +110,7 @@ async fn a_client_holds_a_hand_moves_it_and_lets_it_go() {
         control_token: String::new(),
         name: name.clone(),
         placement: None,
+        ..Default::default()
     };
     let f = server.client.figures().reset_figure(request).await.unwrap();
     assert!(f.into_inner().figure.unwrap().constraints.is_empty());
@@ -128,6 +130,7 @@ async fn constraints_of_a_new_figure_and_of_a_simulation_count() {
         parent: world.clone(),
         figure_id: "a".into(),
         figure: Some(figure.clone()),
+        ..Default::default()
     };
     let made = server.client.figures().create_figure(request).await;
     let made = made.unwrap().into_inner().figure.unwrap();

@@ -100,7 +100,11 @@ async fn who_waits_when_the_server_ends_is_told_to_come_again() {
     let steps = tokio::spawn(async move {
         let tick_count = 10_000;
         worlds
-            .step_world(pb::StepWorldRequest { name, tick_count })
+            .step_world(pb::StepWorldRequest {
+                name,
+                tick_count,
+                ..Default::default()
+            })
             .await
     });
     let mut simulations = server.client.simulations();
@@ -110,7 +114,7 @@ async fn who_waits_when_the_server_ends_is_told_to_come_again() {
             .simulate_clip(pb::SimulateClipRequest {
                 source: Some(source),
                 rate_hz: 1000.0,
-                substeps: 16,
+                substep_count: 16,
                 duration_s: 120.0,
                 r#loop: true,
                 ..Default::default()
@@ -229,14 +233,14 @@ async fn a_driver_whose_figure_is_removed_is_told_so() {
     }
     let watch = pb::WatchEventsRequest {
         world: world.clone(),
-        figures: vec![],
+        figure_ids: vec![],
         types: vec![pb::EventType::DriveEnded.into()],
     };
     let mut events = server.client.states().watch_events(watch).await;
     let events = events.as_mut().unwrap().get_mut();
     events.message().await.unwrap().unwrap();
     let two = pb::DriveHeader {
-        figures: vec!["a".into(), "b".into()],
+        figure_ids: vec!["a".into(), "b".into()],
         ..header(&world, "", "two")
     };
     let mut two = server.client.drive(two).await.unwrap();
@@ -250,7 +254,10 @@ async fn a_driver_whose_figure_is_removed_is_told_so() {
         let mut figures = server.client.figures();
         async move {
             figures
-                .delete_figure(pb::DeleteFigureRequest { name })
+                .delete_figure(pb::DeleteFigureRequest {
+                    name,
+                    ..Default::default()
+                })
                 .await
                 .unwrap();
         }
@@ -258,12 +265,16 @@ async fn a_driver_whose_figure_is_removed_is_told_so() {
     // One of two: the drive goes on with the other.
     remove("a").await;
     let told = events.message().await.unwrap().unwrap().events.remove(0);
-    assert_eq!(told.figure, "a");
+    assert_eq!(told.figure_id, "a");
     assert_eq!(told.detail, "two: the figure was removed");
     assert!(two.send(vec![arm_frame("b", 0)]).await);
     loop {
         let feedback = two.feedback().await.unwrap().unwrap();
-        let left: Vec<&str> = feedback.figures.iter().map(|f| f.figure.as_str()).collect();
+        let left: Vec<&str> = feedback
+            .figures
+            .iter()
+            .map(|f| f.figure_id.as_str())
+            .collect();
         if feedback.received_sequence == 0 && left == ["b"] {
             break;
         }
@@ -271,7 +282,7 @@ async fn a_driver_whose_figure_is_removed_is_told_so() {
     // The last one.
     remove("c").await;
     let told = events.message().await.unwrap().unwrap().events.remove(0);
-    assert_eq!(told.figure, "c");
+    assert_eq!(told.figure_id, "c");
     let e = end_of(one).await;
     let details = e.get_error_details();
     let resource = details.resource_info().unwrap();

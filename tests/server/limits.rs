@@ -20,6 +20,7 @@ async fn create(client: &Client, id: &str) -> Result<pb::World, Status> {
         world_id: id.into(),
         world: None,
         paused: true,
+        ..Default::default()
     };
     let created = client.worlds().create_world(request).await?;
     Ok(created.into_inner().world.unwrap())
@@ -73,7 +74,7 @@ async fn what_the_machine_cannot_bear_is_refused_before_it_is_done() {
     let mut worlds = server.client.worlds();
     let fast = pb::World {
         rate_hz: 1000.0,
-        substeps: 16,
+        substep_count: 16,
         speed: 10.0,
         ..Default::default()
     };
@@ -107,7 +108,7 @@ async fn what_the_machine_cannot_bear_is_refused_before_it_is_done() {
     assert_eq!(state, pb::WorldState::Paused, "a refusal changes nothing");
     // An ordinary world fits, and its clock may not be set to what does not.
     let slow = pb::World {
-        substeps: 16,
+        substep_count: 16,
         ..Default::default()
     };
     let world = server.world("slow", false, slow).await;
@@ -186,6 +187,7 @@ async fn fields_outside_the_mask_are_ignored_whatever_they_hold() {
         update_mask: Some(prost_types::FieldMask {
             paths: vec!["display_name".into()],
         }),
+        ..Default::default()
     };
     let updated = server.client.figures().update_figure(request).await;
     let updated = updated.unwrap().into_inner().figure.unwrap();
@@ -209,6 +211,7 @@ async fn prepared_clips_count_as_stored_bytes() {
             body: format!("bodies/{body}"),
             ..Default::default()
         }),
+        ..Default::default()
     };
     let mut figures = server.client.figures();
     let man = figures.create_figure(figure("a", "adult-man")).await;
@@ -243,7 +246,10 @@ async fn prepared_clips_count_as_stored_bytes() {
     assert_eq!(limit(&refused), "max_clip_total_bytes");
     let name = format!("{world}/figures/a");
     figures
-        .delete_figure(pb::DeleteFigureRequest { name })
+        .delete_figure(pb::DeleteFigureRequest {
+            name,
+            ..Default::default()
+        })
         .await
         .unwrap();
     motions.play_clip(play("b")).await.unwrap();

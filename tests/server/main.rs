@@ -5,6 +5,7 @@
 mod checkpoints;
 mod clips;
 mod constraints;
+mod contract;
 #[allow(dead_code)] // not every function
 #[path = "../common/corpus.rs"]
 mod corpus;
@@ -14,10 +15,12 @@ mod ending;
 mod forecast;
 mod limits;
 mod live;
+mod long_work;
 mod obstacles;
 mod pages;
 #[path = "../common/raw.rs"]
 mod raw;
+mod reasons;
 mod sharing;
 mod support;
 mod watching;

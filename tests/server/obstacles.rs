@@ -53,20 +53,28 @@ impl TestServer {
         id: &str,
         obstacle: pb::Obstacle,
     ) -> Result<pb::Obstacle, tonic::Status> {
-        let request = pb::AddObstacleRequest {
+        let request = pb::CreateObstacleRequest {
             parent: world.into(),
             obstacle_id: id.into(),
             obstacle: Some(obstacle),
+            ..Default::default()
         };
-        let answer = self.client.worlds().add_obstacle(request).await?;
+        let answer = self.client.obstacles().create_obstacle(request).await?;
         Ok(answer.into_inner().obstacle.unwrap())
     }
 
     async fn obstacles(&self, world: &str) -> Vec<pb::Obstacle> {
         let request = pb::ListObstaclesRequest {
             parent: world.into(),
+            page_size: 1000,
+            ..Default::default()
         };
-        let answer = self.client.worlds().list_obstacles(request).await.unwrap();
+        let answer = self
+            .client
+            .obstacles()
+            .list_obstacles(request)
+            .await
+            .unwrap();
         answer.into_inner().obstacles
     }
 }
@@ -103,9 +111,10 @@ async fn obstacles_are_added_changed_listed_and_removed() {
     };
     let update = |obstacle: pb::Obstacle| pb::UpdateObstacleRequest {
         obstacle: Some(obstacle),
+        ..Default::default()
     };
-    let mut worlds = server.client.worlds();
-    let now = worlds
+    let mut obstacles = server.client.obstacles();
+    let now = obstacles
         .update_obstacle(update(moved.clone()))
         .await
         .unwrap()
@@ -124,7 +133,7 @@ async fn obstacles_are_added_changed_listed_and_removed() {
     let seen: Vec<&str> = frame
         .obstacles
         .iter()
-        .map(|o| o.obstacle.as_str())
+        .map(|o| o.obstacle_id.as_str())
         .collect();
     assert_eq!(seen, ["seat", "obstacle-2"]);
     let pose = values(frame.obstacles[0].pose.as_ref().unwrap());
@@ -134,18 +143,14 @@ async fn obstacles_are_added_changed_listed_and_removed() {
         6
     );
 
-    let remove = || pb::RemoveObstacleRequest {
+    let remove = || pb::DeleteObstacleRequest {
         name: seat.name.clone(),
+        ..Default::default()
     };
-    server
-        .client
-        .worlds()
-        .remove_obstacle(remove())
-        .await
-        .unwrap();
-    let again = server.client.worlds().remove_obstacle(remove()).await;
+    obstacles.delete_obstacle(remove()).await.unwrap();
+    let again = obstacles.delete_obstacle(remove()).await;
     assert_eq!(again.unwrap_err().code(), Code::NotFound);
-    let gone = server.client.worlds().update_obstacle(update(moved)).await;
+    let gone = obstacles.update_obstacle(update(moved)).await;
     assert_eq!(gone.unwrap_err().code(), Code::NotFound);
     assert_eq!(server.obstacles(&world).await.len(), 1);
     server.stop().await;
@@ -159,7 +164,7 @@ async fn a_ball_is_felt_seen_and_told_of() {
     let mut states = server.client.states();
     let request = pb::WatchEventsRequest {
         world: world.clone(),
-        figures: vec![],
+        figure_ids: vec![],
         types: vec![],
     };
     let mut events = states.watch_events(request).await.unwrap().into_inner();
@@ -237,13 +242,14 @@ async fn two_figures_touch_by_name_unless_collisions_are_off() {
                         }),
                         ..Default::default()
                     }),
+                    ..Default::default()
                 })
                 .await
                 .unwrap();
         }
         let push = pb::Impulse {
             segment: "chest".into(),
-            impulse_ns: Some(pb::Vector3 {
+            impulse_newton_seconds: Some(pb::Vector3 {
                 x: 60.0,
                 y: 0.0,
                 z: 0.0,
@@ -256,7 +262,7 @@ async fn two_figures_touch_by_name_unless_collisions_are_off() {
             .apply_perturbations(pb::ApplyPerturbationsRequest {
                 world: world.clone(),
                 perturbations: vec![pb::Perturbation {
-                    figure: "a".into(),
+                    figure_id: "a".into(),
                     tick: None,
                     kind: Some(pb::perturbation::Kind::Impulse(push)),
                 }],
@@ -327,21 +333,23 @@ async fn bad_obstacles_change_nothing_and_are_named() {
         );
         assert_eq!(named, field);
     }
-    let mut worlds = server.client.worlds();
+    let mut obstacles = server.client.obstacles();
     for (parent, code, field) in [
         ("w", Code::InvalidArgument, "parent"),
         ("worlds/none", Code::NotFound, ""),
     ] {
         let request = pb::ListObstaclesRequest {
             parent: parent.into(),
+            ..Default::default()
         };
-        let (got, _, named) = refusal(&worlds.list_obstacles(request).await.unwrap_err());
+        let (got, _, named) = refusal(&obstacles.list_obstacles(request).await.unwrap_err());
         assert_eq!((got, named.as_str()), (code, field));
     }
-    let request = pb::RemoveObstacleRequest {
+    let request = pb::DeleteObstacleRequest {
         name: "worlds/w/figures/a".into(),
+        ..Default::default()
     };
-    let refused = worlds.remove_obstacle(request).await.unwrap_err();
+    let refused = obstacles.delete_obstacle(request).await.unwrap_err();
     assert_eq!(refusal(&refused).2, "name");
     assert!(server.obstacles(&world).await.is_empty());
     // A world holds so many, and says so.

@@ -49,7 +49,7 @@ async fn reads_and_pushes_do_not_wait_for_the_world() {
     assert_eq!(got.unwrap().into_inner().world.unwrap().figure_count, 1);
     let listed = worlds.list_worlds(pb::ListWorldsRequest::default()).await;
     assert_eq!(listed.unwrap().into_inner().worlds.len(), 1);
-    assert_eq!(server.look(&figure).await.driver_id, "me");
+    assert_eq!(server.look(&figure).await.status.unwrap().driver_id, "me");
     let parent = world.clone();
     let list = pb::ListFiguresRequest {
         parent: parent.clone(),
@@ -57,8 +57,16 @@ async fn reads_and_pushes_do_not_wait_for_the_world() {
     };
     let listed = server.client.figures().list_figures(list).await;
     assert_eq!(listed.unwrap().into_inner().figures.len(), 1);
-    let list = pb::ListObstaclesRequest { parent };
-    worlds.list_obstacles(list).await.unwrap();
+    let list = pb::ListObstaclesRequest {
+        parent,
+        ..Default::default()
+    };
+    server
+        .client
+        .obstacles()
+        .list_obstacles(list)
+        .await
+        .unwrap();
     let tick = server.frame(&world, &["status"]).await.tick;
     let frame = pb::GetWorldFrameRequest {
         world: world.clone(),
@@ -125,7 +133,7 @@ async fn a_driver_whose_clock_starts_again_is_followed_and_told() {
     server.figure(&world, "a").await;
     let watch = pb::WatchEventsRequest {
         world: world.clone(),
-        figures: vec![],
+        figure_ids: vec![],
         types: vec![pb::EventType::DriveResynced.into()],
     };
     let mut events = server.client.states().watch_events(watch).await;
@@ -161,12 +169,12 @@ async fn a_driver_whose_clock_starts_again_is_followed_and_told() {
     server.stop().await;
 }
 
-fn simulation(duration_s: f64, rate_hz: f64, substeps: i32) -> pb::SimulateClipRequest {
+fn simulation(duration_s: f64, rate_hz: f64, substep_count: i32) -> pb::SimulateClipRequest {
     pb::SimulateClipRequest {
         source: Some(pb::simulate_clip_request::Source::Clip("clips/wave".into())),
         duration_s,
         rate_hz,
-        substeps,
+        substep_count,
         r#loop: true,
         ..Default::default()
     }

@@ -85,6 +85,7 @@ impl TestServer {
                 world_id: id.into(),
                 world: Some(world),
                 paused,
+                ..Default::default()
             })
             .await
             .unwrap()
@@ -101,6 +102,7 @@ impl TestServer {
                 parent: world.into(),
                 figure_id: id.into(),
                 figure: None,
+                ..Default::default()
             })
             .await
             .unwrap()
@@ -115,6 +117,7 @@ impl TestServer {
             .step_world(pb::StepWorldRequest {
                 name: world.into(),
                 tick_count,
+                ..Default::default()
             })
             .await
             .unwrap()
@@ -195,7 +198,7 @@ pub fn arm_frame(figure: &str, i: i64) -> pb::MotionFrame {
         sequence: i,
         source_time_ns: (t * 1e9) as i64,
         figures: vec![pb::FigureMotion {
-            figure: figure.into(),
+            figure_id: figure.into(),
             joint_angles_rad: angles,
             velocity,
             planted: vec![true, true],
@@ -208,7 +211,7 @@ pub fn arm_frame(figure: &str, i: i64) -> pb::MotionFrame {
 pub fn header(world: &str, figure: &str, driver: &str) -> pb::DriveHeader {
     pb::DriveHeader {
         world: world.into(),
-        figures: vec![figure.into()],
+        figure_ids: vec![figure.into()],
         driver_id: driver.into(),
         playout_delay_ms: Some(0.0),
         ..Default::default()

@@ -35,7 +35,7 @@ async fn a_roster_comes_first_and_again_when_figures_change() {
     let WatchWorldResponse::Roster(roster) = next(&mut frames).await else {
         panic!("the roster comes first");
     };
-    assert_eq!(roster.figures[0].figure, "a");
+    assert_eq!(roster.figures[0].figure_id, "a");
     assert_eq!(next_frame(&mut frames).await.figures.len(), 1);
     server.figure(&world, "b").await;
     let roster = loop {
@@ -52,7 +52,10 @@ async fn a_roster_comes_first_and_again_when_figures_change() {
     server
         .client
         .worlds()
-        .delete_world(pb::DeleteWorldRequest { name: world })
+        .delete_world(pb::DeleteWorldRequest {
+            name: world,
+            ..Default::default()
+        })
         .await
         .unwrap();
     let end = loop {
@@ -198,9 +201,9 @@ async fn equal_views_share_their_bytes_and_too_many_are_refused() {
 async fn events_say_what_happens() {
     let server = TestServer::start().await;
     let world = server.paused_world("w").await;
-    let watch = |figures: Vec<String>| pb::WatchEventsRequest {
+    let watch = |figure_ids: Vec<String>| pb::WatchEventsRequest {
         world: world.clone(),
-        figures,
+        figure_ids,
         types: vec![],
     };
     let mut events = server
@@ -218,7 +221,7 @@ async fn events_say_what_happens() {
         .apply_perturbations(pb::ApplyPerturbationsRequest {
             world: world.clone(),
             perturbations: vec![pb::Perturbation {
-                figure: "a".into(),
+                figure_id: "a".into(),
                 tick: Some(2),
                 kind: Some(pb::perturbation::Kind::Load(pb::Load {
                     segment: "l_hand".into(),

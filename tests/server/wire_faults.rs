@@ -65,6 +65,7 @@ async fn bad_worlds_are_refused() {
         world_id: world_id.into(),
         world: Some(world),
         paused: true,
+        ..Default::default()
     };
     for (request, code, field) in [
         (
@@ -99,12 +100,12 @@ async fn bad_worlds_are_refused() {
             create(
                 "x",
                 pb::World {
-                    substeps: -1,
+                    substep_count: -1,
                     ..Default::default()
                 },
             ),
             Code::InvalidArgument,
-            "world.substeps",
+            "world.substep_count",
         ),
         (
             create(
@@ -146,6 +147,7 @@ async fn bad_steps_are_refused() {
     let step = |name: &str, tick_count| pb::StepWorldRequest {
         name: name.into(),
         tick_count,
+        ..Default::default()
     };
     for (request, code, field) in [
         (step("w", 1), Code::InvalidArgument, "name"),
@@ -171,6 +173,7 @@ async fn bad_figures_are_refused() {
         parent: world.clone(),
         figure_id: "b".into(),
         figure: Some(figure),
+        ..Default::default()
     };
     let profile = |sex: pb::Sex, height_m, mass_kg| pb::Figure {
         profile: Some(pb::BodyProfile {
@@ -398,7 +401,7 @@ async fn bad_motion_is_refused_and_takes_no_control() {
         ),
         (spoiled(&|m| m.velocity.push(0.0)), at("velocity")),
         (spoiled(&|m| m.planted.push(true)), at("planted")),
-        (spoiled(&|m| m.figure = "nobody".into()), at("figure")),
+        (spoiled(&|m| m.figure_id = "nobody".into()), at("figure_id")),
         (
             spoiled(&|m| {
                 m.root = Some(pb::Pose {
@@ -423,14 +426,18 @@ async fn bad_motion_is_refused_and_takes_no_control() {
         );
     }
     let mut nobody = push(vec![]);
-    nobody.header.as_mut().unwrap().figures = vec!["zz".into()];
+    nobody.header.as_mut().unwrap().figure_ids = vec!["zz".into()];
     expect(
         c.motions().push_motion(nobody).await.unwrap_err(),
         Code::NotFound,
         "",
     );
     let driven = asked.server.look(&format!("{world}/figures/a")).await;
-    assert_eq!(driven.driver_id, "", "a refused push takes no control");
+    assert_eq!(
+        driven.status.unwrap().driver_id,
+        "",
+        "a refused push takes no control"
+    );
     asked.unchanged().await;
 }
 
@@ -466,7 +473,7 @@ async fn bad_views_are_refused() {
         (
             frame(
                 pb::View {
-                    figures: vec!["zz".into()],
+                    figure_ids: vec!["zz".into()],
                     ..Default::default()
                 },
                 None,
@@ -556,6 +563,7 @@ async fn a_world_too_many_is_refused() {
             world_id: "third".into(),
             world: Some(pb::World::default()),
             paused: true,
+            ..Default::default()
         })
         .await
         .unwrap_err();

@@ -79,6 +79,7 @@ async fn the_clock_runs_pauses_resumes_and_changes_speed() {
         .step_world(pb::StepWorldRequest {
             name: name(),
             tick_count: 1,
+            ..Default::default()
         })
         .await
         .unwrap_err();
@@ -109,6 +110,7 @@ async fn the_clock_runs_pauses_resumes_and_changes_speed() {
             update_mask: Some(prost_types::FieldMask {
                 paths: vec!["overrun_policy".into(), "display_name".into()],
             }),
+            ..Default::default()
         })
         .await
         .unwrap()
@@ -153,6 +155,7 @@ async fn figures_come_change_and_go() {
                 }),
                 ..Default::default()
             }),
+            ..Default::default()
         })
         .await
         .unwrap()
@@ -206,6 +209,7 @@ async fn figures_come_change_and_go() {
             update_mask: Some(prost_types::FieldMask {
                 paths: vec!["controller".into()],
             }),
+            ..Default::default()
         })
         .await
         .unwrap()
@@ -221,6 +225,7 @@ async fn figures_come_change_and_go() {
     figures
         .delete_figure(pb::DeleteFigureRequest {
             name: made.name.clone(),
+            ..Default::default()
         })
         .await
         .unwrap();
@@ -234,7 +239,11 @@ async fn figures_come_change_and_go() {
         .into_inner()
         .figures;
     assert_eq!(left.len(), 1);
-    assert_eq!(left[0].figure_index, 1, "indices are not used again");
+    assert_eq!(
+        left[0].status.as_ref().unwrap().figure_index,
+        1,
+        "indices are not used again"
+    );
     server.stop().await;
 }
 
@@ -249,7 +258,7 @@ async fn loads_and_pushes_act_at_their_tick() {
         ..Default::default()
     };
     let load = pb::Perturbation {
-        figure: "a".into(),
+        figure_id: "a".into(),
         tick: Some(5),
         kind: Some(pb::perturbation::Kind::Load(pb::Load {
             segment: "r_hand".into(),
@@ -280,10 +289,10 @@ async fn loads_and_pushes_act_at_their_tick() {
     assert_eq!(carried, expected);
 
     let push = pb::Perturbation {
-        figure: "a".into(),
+        figure_id: "a".into(),
         kind: Some(pb::perturbation::Kind::Impulse(pb::Impulse {
             segment: "chest".into(),
-            impulse_ns: Some(pb::Vector3 {
+            impulse_newton_seconds: Some(pb::Vector3 {
                 x: 5.0,
                 ..Default::default()
             }),
@@ -319,6 +328,7 @@ async fn loads_and_pushes_act_at_their_tick() {
     perturbations
         .clear_perturbations(pb::ClearPerturbationsRequest {
             figure: format!("{world}/figures/a"),
+            ..Default::default()
         })
         .await
         .unwrap();
@@ -553,6 +563,7 @@ async fn a_panic_fails_its_world_and_no_other() {
         .step_world(pb::StepWorldRequest {
             name: broken.clone(),
             tick_count: 1,
+            ..Default::default()
         })
         .await
         .unwrap_err();
@@ -561,7 +572,10 @@ async fn a_panic_fails_its_world_and_no_other() {
     server
         .client
         .worlds()
-        .delete_world(pb::DeleteWorldRequest { name: broken })
+        .delete_world(pb::DeleteWorldRequest {
+            name: broken,
+            ..Default::default()
+        })
         .await
         .unwrap();
     server.stop().await;

@@ -29,7 +29,7 @@ with sinew.serve() as client:
     recording = client.simulate(
         "squat",
         body="adult-woman",
-        disturbances=[sinew.Push(impulse_ns=(15.0, 5.0, 0.0), start_s=1.0, duration_s=0.2)],
+        disturbances=[sinew.Push(impulse_newton_seconds=(15.0, 5.0, 0.0), start_s=1.0, duration_s=0.2)],
         duration_s=3.0,
         fields=["audit", "status"],
     )

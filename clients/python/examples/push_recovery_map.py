@@ -20,9 +20,12 @@ MOST_NS = 100.0
 
 
 # %%
-def survives(client: sinew.Client, body: str, angle: float, impulse_ns: float) -> bool:
+def survives(client: sinew.Client, body: str, angle: float, impulse_newton_seconds: float) -> bool:
     """Whether a standing figure that is pushed towards `angle` still stands three seconds later."""
-    push = sinew.Push(impulse_ns=(impulse_ns * np.cos(angle), impulse_ns * np.sin(angle), 0.0), start_s=0.3)
+    push = sinew.Push(
+        impulse_newton_seconds=(impulse_newton_seconds * np.cos(angle), impulse_newton_seconds * np.sin(angle), 0.0),
+        start_s=0.3,
+    )
     r = client.simulate("idle", body=body, disturbances=[push], duration_s=3.3, fields=())
     assert r.summary is not None
     return not r.summary.HasField("fell_at_s")

@@ -115,7 +115,7 @@ def test_errors_carry_what_was_wrong(server: sinew.Client) -> None:
             server.create_world("taken")
         figure = world.add_figure()
         with pytest.raises(sinew.InvalidArgumentError) as load:
-            figure.apply(sinew.Push(impulse_ns=(1, 0, 0)), sinew.Load(mass_kg=float("nan")))
+            figure.apply(sinew.Push(impulse_newton_seconds=(1, 0, 0)), sinew.Load(mass_kg=float("nan")))
         assert load.value.field == "perturbations[1].load.mass_kg"
         with pytest.raises(sinew.InvalidArgumentError) as angles:
             figure.ask(np.zeros(38))

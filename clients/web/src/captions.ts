@@ -32,8 +32,8 @@ export class Captions {
   event(e: Event, now: number): void {
     const words = eventWords(e);
     if (!words) return;
-    this.shown.delete(`event ${e.figure}`);
-    this.shown.set(`event ${e.figure}`, { ...words, until: now + 2 * STAYS_S });
+    this.shown.delete(`event ${e.figureId}`);
+    this.shown.set(`event ${e.figureId}`, { ...words, until: now + 2 * STAYS_S });
     this.told.textContent = words.text;
   }
 

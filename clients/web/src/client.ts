@@ -7,6 +7,8 @@ import { BodyService } from "./gen/sinew/v1/body_pb.js";
 import { ControlService } from "./gen/sinew/v1/control_pb.js";
 import { FigureService } from "./gen/sinew/v1/figure_pb.js";
 import { MotionService } from "./gen/sinew/v1/motion_pb.js";
+import { ObstacleService } from "./gen/sinew/v1/obstacle_pb.js";
+import { OperationService } from "./gen/sinew/v1/operation_pb.js";
 import { PerturbationService } from "./gen/sinew/v1/perturbation_pb.js";
 import { ServerService } from "./gen/sinew/v1/server_pb.js";
 import { SimulationService } from "./gen/sinew/v1/simulation_pb.js";
@@ -34,6 +36,8 @@ export class Sinew {
   readonly control: Client<typeof ControlService>;
   readonly figures: Client<typeof FigureService>;
   readonly motion: Client<typeof MotionService>;
+  readonly obstacles: Client<typeof ObstacleService>;
+  readonly operations: Client<typeof OperationService>;
   readonly perturbations: Client<typeof PerturbationService>;
   readonly server: Client<typeof ServerService>;
   readonly simulations: Client<typeof SimulationService>;
@@ -47,6 +51,8 @@ export class Sinew {
     this.control = createClient(ControlService, transport);
     this.figures = createClient(FigureService, transport);
     this.motion = createClient(MotionService, transport);
+    this.obstacles = createClient(ObstacleService, transport);
+    this.operations = createClient(OperationService, transport);
     this.perturbations = createClient(PerturbationService, transport);
     this.server = createClient(ServerService, transport);
     this.simulations = createClient(SimulationService, transport);

@@ -103,13 +103,13 @@ try {
             world: session.world?.name ?? "",
             perturbations: [
               {
-                figure: person.name,
+                figureId: person.name,
                 kind: {
                   case: "impulse",
                   value: {
                     segment,
                     pointM: { x: local.x, y: local.y, z: local.z },
-                    impulseNs: { x: impulse.x, y: impulse.y, z: impulse.z },
+                    impulseNewtonSeconds: { x: impulse.x, y: impulse.y, z: impulse.z },
                     durationS: 0.1,
                   },
                 },

@@ -77,7 +77,7 @@ export class Person {
 
   /** The clip that was asked for last, `clips/{clip}`: it plays, or begins once the figure stands. Empty if none. */
   get clip(): string {
-    return this.figure.clip || this.figure.nextClip;
+    return this.figure.status?.clip || this.figure.status?.nextClip || "";
   }
 
   /** Whether its hands are where a crate is held, in a motion that lifts one. */

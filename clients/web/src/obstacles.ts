@@ -2,7 +2,7 @@
 import * as THREE from "three";
 import { numbers, type Sinew } from "./client.js";
 import type { WorldFrame } from "./gen/sinew/v1/frame_pb.js";
-import type { Obstacle } from "./gen/sinew/v1/world_pb.js";
+import type { Obstacle } from "./gen/sinew/v1/obstacle_pb.js";
 import { mixPoses, POSE } from "./model.js";
 
 /** An obstacle may be replaced by another of the same name: shapes are asked for again after this time, ms. */
@@ -42,12 +42,14 @@ export class Obstacles {
 
   /** Asks for the shapes if a frame has other obstacles than the last one, and now and then. */
   async follow(api: Sinew, world: string, frame: WorldFrame): Promise<void> {
-    const names = frame.obstacles.length ? `${world} ${frame.obstacles.map((o) => o.obstacle).join(" ")}` : "";
+    const names = frame.obstacles.length ? `${world} ${frame.obstacles.map((o) => o.obstacleId).join(" ")}` : "";
     const old = names && performance.now() - this.asked > AGAIN_MS;
     if (this.asking || (names === this.known && !old)) return;
     this.asking = true;
     try {
-      const { obstacles } = names ? await api.worlds.listObstacles({ parent: world }) : { obstacles: [] };
+      const { obstacles } = names
+        ? await api.obstacles.listObstacles({ parent: world, pageSize: 1000 })
+        : { obstacles: [] };
       this.known = names;
       this.asked = performance.now();
       this.show(obstacles);
@@ -73,13 +75,13 @@ export class Obstacles {
 
   /** Puts them where they are between two frames. */
   place(before: WorldFrame, after: WorldFrame, share: number): void {
-    const earlier = new Map(before.obstacles.map((o) => [o.obstacle, o]));
+    const earlier = new Map(before.obstacles.map((o) => [o.obstacleId, o]));
     const seen = new Set<THREE.Mesh>();
     for (const o of after.obstacles) {
-      const mesh = this.meshes.get(o.obstacle);
+      const mesh = this.meshes.get(o.obstacleId);
       const to = numbers(o.pose);
       if (!mesh || to.length !== POSE) continue;
-      mixPoses(numbers(earlier.get(o.obstacle)?.pose), to, share, this.pose);
+      mixPoses(numbers(earlier.get(o.obstacleId)?.pose), to, share, this.pose);
       mesh.position.fromArray(this.pose);
       mesh.quaternion.fromArray(this.pose, 3);
       seen.add(mesh);

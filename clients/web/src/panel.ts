@@ -374,8 +374,11 @@ export class Panel {
         world: this.session.world.name,
         perturbations: [
           {
-            figure: p.name,
-            kind: { case: "impulse", value: { segment: this.target.value, impulseNs: impulse, durationS: 0.1 } },
+            figureId: p.name,
+            kind: {
+              case: "impulse",
+              value: { segment: this.target.value, impulseNewtonSeconds: impulse, durationS: 0.1 },
+            },
           },
         ],
       })
@@ -425,7 +428,7 @@ export class Panel {
     fill(
       this.clip,
       [
-        ...(clip ? [] : [{ value: "", text: person?.figure.driverId ? "driven live" : "none (holds still)" }]),
+        ...(clip ? [] : [{ value: "", text: person?.figure.status?.driverId ? "driven live" : "none (holds still)" }]),
         ...this.session.clips.map(same),
       ],
       clip,

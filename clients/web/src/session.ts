@@ -171,13 +171,13 @@ export class Session {
     this.people.clear();
     for (const entry of roster.figures) {
       const body = bodies.get(entry.body);
-      const figure = figures.figures.find((f) => f.name.endsWith(`/${entry.figure}`));
+      const figure = figures.figures.find((f) => f.name.endsWith(`/${entry.figureId}`));
       if (!body || !figure) continue;
       const before = old.get(entry.figureIndex);
-      if (before && before.name === entry.figure && before.body === body) {
+      if (before && before.name === entry.figureId && before.body === body) {
         before.figure = figure;
         this.people.set(entry.figureIndex, before);
-      } else this.people.set(entry.figureIndex, new Person(entry.figureIndex, entry.figure, body, figure));
+      } else this.people.set(entry.figureIndex, new Person(entry.figureIndex, entry.figureId, body, figure));
     }
     this.changed("roster");
   }
@@ -248,7 +248,7 @@ export class Session {
         await this.api.perturbations.clearPerturbations({ figure: p.figure.name });
         if (massKg <= 0) return;
         const load = (value: { segment: string; secondSegment?: string; massKg: number }): object => ({
-          figure: p.name,
+          figureId: p.name,
           kind: { case: "load" as const, value },
         });
         const perturbations = p.holdsCrate()

@@ -30,7 +30,7 @@ export function forecast(f: Forecast): string {
 
 /** What is worth a caption of its own, or nothing. Torque limits and falls are shown elsewhere while they last. */
 export function event(e: Event): { text: string; grave: boolean } | undefined {
-  const { figure } = e;
+  const { figureId: figure } = e;
   switch (e.type) {
     case EventType.BALANCE_LOST:
       return { text: `${figure} loses balance`, grave: true };

@@ -63,8 +63,11 @@ async function fell(api: Sinew, world: string, figure: string): Promise<void> {
     world,
     perturbations: [
       {
-        figure,
-        kind: { case: "impulse", value: { segment: "chest", impulseNs: { x: 300, y: 0, z: 0 }, durationS: 0.1 } },
+        figureId: figure,
+        kind: {
+          case: "impulse",
+          value: { segment: "chest", impulseNewtonSeconds: { x: 300, y: 0, z: 0 }, durationS: 0.1 },
+        },
       },
     ],
   });

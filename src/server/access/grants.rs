@@ -154,6 +154,31 @@ impl Rights {
     }
 }
 
+/// A new grant with its name, if there is room for it.
+fn admit(all: &BTreeMap<String, Grant>, world: &str, mut grant: Grant) -> Result<Grant, Fault> {
+    if grant.id.is_empty() {
+        grant.id = (1..)
+            .map(|n| format!("grant-{n}"))
+            .find(|id| !all.contains_key(id))
+            .expect("there is a free number");
+    }
+    if all.contains_key(&grant.id) {
+        return Err(Fault::Exists {
+            kind: "grant",
+            name: format!("worlds/{world}/grants/{}", grant.id),
+        });
+    }
+    if all.len() >= MOST_GRANTS {
+        return Err(Fault::Exhausted {
+            limit: "max_grants_per_world",
+            value: MOST_GRANTS as u64,
+            message: "one more grant".into(),
+            retry: None,
+        });
+    }
+    Ok(grant)
+}
+
 /// The grants of one world.
 #[derive(Debug)]
 pub struct Grants {
@@ -276,32 +301,21 @@ impl Grants {
         })
     }
 
+    /// The grant that [`Self::add`] would add.
+    ///
+    /// # Errors
+    /// Its own.
+    pub fn would_add(&self, world: &str, grant: Grant) -> Result<Grant, Fault> {
+        admit(&self.read(), world, grant)
+    }
+
     /// Adds a grant; an empty name is chosen here.
     ///
     /// # Errors
     /// The name is taken, or there are too many.
-    pub fn add(&self, world: &str, mut grant: Grant) -> Result<Grant, Fault> {
+    pub fn add(&self, world: &str, grant: Grant) -> Result<Grant, Fault> {
         let mut all = self.write();
-        if grant.id.is_empty() {
-            grant.id = (1..)
-                .map(|n| format!("grant-{n}"))
-                .find(|id| !all.contains_key(id))
-                .expect("there is a free number");
-        }
-        if all.contains_key(&grant.id) {
-            return Err(Fault::Exists {
-                kind: "grant",
-                name: format!("worlds/{world}/grants/{}", grant.id),
-            });
-        }
-        if all.len() >= MOST_GRANTS {
-            return Err(Fault::Exhausted {
-                limit: "max_grants_per_world",
-                value: MOST_GRANTS as u64,
-                message: "one more grant".into(),
-                retry: None,
-            });
-        }
+        let grant = admit(&all, world, grant)?;
         all.insert(grant.id.clone(), grant.clone());
         drop(all);
         self.version.send_modify(|v| *v += 1);
@@ -324,13 +338,21 @@ impl Grants {
             .ok_or_else(|| missing(world, id))
     }
 
-    /// Changes one.
+    /// Changes one, if `same` does not object to what it is now; `only`: tells what it would be.
     ///
     /// # Errors
-    /// There is none of that name.
-    pub fn update(&self, world: &str, id: &str, u: GrantUpdate) -> Result<Grant, Fault> {
+    /// There is none of that name; those of `same`.
+    pub fn update(
+        &self,
+        world: &str,
+        id: &str,
+        (u, only): (GrantUpdate, bool),
+        same: impl FnOnce(&Grant) -> Result<(), Fault>,
+    ) -> Result<Grant, Fault> {
         let mut all = self.write();
-        let grant = all.get_mut(id).ok_or_else(|| missing(world, id))?;
+        let kept = all.get_mut(id).ok_or_else(|| missing(world, id))?;
+        same(kept)?;
+        let mut grant = kept.clone();
         if let Some(roles) = u.roles {
             grant.roles = roles;
         }
@@ -346,18 +368,29 @@ impl Grants {
         if let Some(expires) = u.expires {
             grant.expires = expires;
         }
-        let grant = grant.clone();
+        if only {
+            return Ok(grant);
+        }
+        kept.clone_from(&grant);
         drop(all);
         self.version.send_modify(|v| *v += 1);
         Ok(grant)
     }
 
-    /// Takes one back.
+    /// Takes one back, if `same` does not object to what it is now.
     ///
     /// # Errors
-    /// There is none of that name.
-    pub fn remove(&self, world: &str, id: &str) -> Result<(), Fault> {
-        self.write().remove(id).ok_or_else(|| missing(world, id))?;
+    /// There is none of that name; those of `same`.
+    pub fn remove(
+        &self,
+        world: &str,
+        id: &str,
+        same: impl FnOnce(&Grant) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        let mut all = self.write();
+        same(all.get(id).ok_or_else(|| missing(world, id))?)?;
+        all.remove(id);
+        drop(all);
         self.version.send_modify(|v| *v += 1);
         Ok(())
     }

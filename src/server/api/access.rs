@@ -3,7 +3,8 @@
 use super::{Api, answer, caller};
 use crate::server::access::grants::{Grant, GrantUpdate};
 use crate::server::access::roles::Role;
-use crate::wire::convert::{access, new_id, page, timestamp, world_name};
+use crate::wire::convert::names::GRANT;
+use crate::wire::convert::{access, etags, new_id, page, timestamp, world_name};
 use crate::wire::pb::{self, access_service_server::AccessService};
 use crate::wire::status::Fault;
 use std::time::SystemTime;
@@ -26,16 +27,19 @@ fn roles(field: &str, wire: &[i32]) -> Result<Vec<Role>, Fault> {
 
 /// A grant on the wire.
 pub fn grant_out(world: &str, g: &Grant) -> pb::Grant {
-    pb::Grant {
-        name: format!("worlds/{world}/grants/{}", g.id),
+    let mut out = pb::Grant {
+        name: GRANT.name([world, &g.id]),
         principal: g.principal.to_string(),
         roles: g.roles.iter().map(|r| r.to_wire().into()).collect(),
-        figures: g.figures.clone(),
+        figure_ids: g.figures.clone(),
         bounds: g.bounds.map(access::bounds_out),
         max_priority: g.max_priority,
         create_time: Some(timestamp(g.created)),
         expire_time: g.expires.map(timestamp),
-    }
+        etag: String::new(),
+    };
+    out.etag = etags::grant(&out);
+    out
 }
 
 /// A grant as it was written by [`grant_out`].
@@ -49,7 +53,7 @@ pub fn grant_in(g: &pb::Grant) -> Result<Grant, Fault> {
         id: id.to_owned(),
         principal: access::principal("grant.principal", &g.principal)?.into(),
         roles: roles("grant.roles", &g.roles)?,
-        figures: access::figures("grant.figures", &g.figures)?,
+        figures: access::figures("grant.figure_ids", &g.figure_ids)?,
         bounds: access::bounds("grant.bounds", g.bounds.as_ref())?,
         max_priority: access::max_priority("grant.max_priority", g.max_priority)?,
         created: created.unwrap_or_else(SystemTime::now),
@@ -93,9 +97,9 @@ impl AccessService for Api {
         &self,
         request: Request<pb::CreateGrantRequest>,
     ) -> Result<Response<pb::CreateGrantResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let handle = self.world(&request, "parent", &r.parent)?;
+            let handle = api.world(&request, "parent", &r.parent)?;
             let id = new_id("grant_id", &r.grant_id)?.unwrap_or_default();
             let g = r
                 .grant
@@ -105,19 +109,25 @@ impl AccessService for Api {
                 id,
                 principal: access::principal("grant.principal", &g.principal)?.into(),
                 roles: roles("grant.roles", &g.roles)?,
-                figures: access::figures("grant.figures", &g.figures)?,
+                figures: access::figures("grant.figure_ids", &g.figure_ids)?,
                 bounds: access::bounds("grant.bounds", g.bounds.as_ref())?,
                 max_priority: access::max_priority("grant.max_priority", g.max_priority)?,
                 created: SystemTime::now(),
                 expires: access::expiry("grant.expire_time", g.expire_time)?,
             };
-            let grant = handle.grants.add(&handle.id, grant)?;
-            self.stored(&handle).await?;
+            let grant = if r.validate_only {
+                handle.grants.would_add(&handle.id, grant)?
+            } else {
+                handle.grants.add(&handle.id, grant)?
+            };
+            if !r.validate_only {
+                api.stored(&handle).await?;
+            }
             Ok(pb::CreateGrantResponse {
                 grant: Some(grant_out(&handle.id, &grant)),
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn get_grant(
@@ -143,7 +153,8 @@ impl AccessService for Api {
             let handle = self.world(&request, "parent", &r.parent)?;
             let all = handle.grants.list();
             let items = all.iter().map(|g| (g.id.clone(), grant_out(&handle.id, g)));
-            let (grants, next_page_token) = page(items.collect(), r.page_size, &r.page_token)?;
+            let list = GRANT.name([&handle.id, ""]);
+            let (grants, next_page_token) = page(&list, items, r.page_size, &r.page_token)?;
             Ok(pb::ListGrantsResponse {
                 grants,
                 next_page_token,
@@ -165,11 +176,11 @@ impl AccessService for Api {
             let (world, id) = access::grant_name("grant.name", &g.name)?;
             let handle = self.enter(caller(&request)?, world)?;
             let mut update = GrantUpdate::default();
-            for path in access::mask(r.update_mask.as_ref())? {
-                match path.as_str() {
+            for field in access::taken(g, r.update_mask.as_ref())? {
+                match field {
                     "roles" => update.roles = Some(roles("grant.roles", &g.roles)?),
-                    "figures" => {
-                        update.figures = Some(access::figures("grant.figures", &g.figures)?);
+                    "figure_ids" => {
+                        update.figures = Some(access::figures("grant.figure_ids", &g.figure_ids)?);
                     }
                     "bounds" => {
                         update.bounds = Some(access::bounds("grant.bounds", g.bounds.as_ref())?);
@@ -183,8 +194,16 @@ impl AccessService for Api {
                     }
                 }
             }
-            let grant = handle.grants.update(world, id, update)?;
-            self.stored(&handle).await?;
+            let same = |now: &Grant| {
+                let etag = || grant_out(world, now).etag;
+                etags::check(&g.name, &g.etag, etag)
+            };
+            let grant = handle
+                .grants
+                .update(world, id, (update, r.validate_only), same)?;
+            if !r.validate_only {
+                self.stored(&handle).await?;
+            }
             Ok(pb::UpdateGrantResponse {
                 grant: Some(grant_out(world, &grant)),
             })
@@ -196,13 +215,18 @@ impl AccessService for Api {
         &self,
         request: Request<pb::DeleteGrantRequest>,
     ) -> Result<Response<pb::DeleteGrantResponse>, Status> {
-        let result = async {
-            let (world, id) = access::grant_name("name", &request.get_ref().name)?;
-            let handle = self.enter(caller(&request)?, world)?;
-            handle.grants.remove(world, id)?;
-            self.stored(&handle).await?;
+        self.once(request, |api, request| async move {
+            let r = request.get_ref();
+            let (world, id) = access::grant_name("name", &r.name)?;
+            let handle = api.enter(caller(&request)?, world)?;
+            let same = |now: &Grant| {
+                let etag = || grant_out(world, now).etag;
+                etags::check(&r.name, &r.etag, etag)
+            };
+            handle.grants.remove(world, id, same)?;
+            api.stored(&handle).await?;
             Ok(pb::DeleteGrantResponse {})
-        };
-        answer(result.await)
+        })
+        .await
     }
 }

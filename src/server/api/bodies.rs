@@ -14,20 +14,14 @@ impl BodyService for Api {
         request: Request<pb::ListBodiesRequest>,
     ) -> Result<Response<pb::ListBodiesResponse>, Status> {
         let r = request.get_ref();
-        let items = self
-            .bodies
-            .list()
-            .iter()
-            .map(|b| (b.id.clone(), body::brief(b)))
-            .collect();
-        answer(
-            page(items, r.page_size, &r.page_token).map(|(bodies, next_page_token)| {
-                pb::ListBodiesResponse {
-                    bodies,
-                    next_page_token,
-                }
-            }),
-        )
+        let all = self.bodies.list();
+        let items = all.iter().map(|b| (b.id.clone(), body::brief(b)));
+        answer(page("bodies", items, r.page_size, &r.page_token).map(
+            |(bodies, next_page_token)| pb::ListBodiesResponse {
+                bodies,
+                next_page_token,
+            },
+        ))
     }
 
     async fn get_body(

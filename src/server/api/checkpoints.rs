@@ -9,6 +9,7 @@ use crate::server::tick::command::Origin;
 use crate::server::tick::shard::{Restored, SavedShard};
 use crate::sim::world::checkpoint::Capture;
 use crate::wire::convert::checkpoint::{CheckpointInfo, checkpoint_name, checkpoint_out};
+use crate::wire::convert::names::CHECKPOINT;
 use crate::wire::convert::{new_id, page, world, world_name};
 use crate::wire::pb::checkpoint_service_server::CheckpointService;
 use crate::wire::pb::{self, fork_world_request, restore_world_request};
@@ -93,14 +94,14 @@ impl CheckpointService for Api {
         &self,
         request: Request<pb::CheckpointWorldRequest>,
     ) -> Result<Response<pb::CheckpointWorldResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let (owner, origin) = (client(&request), origin(&request));
             let caller = caller(&request)?.clone();
             let r = request.into_inner();
             let id = new_id("checkpoint_id", &r.checkpoint_id)?.unwrap_or_default();
             let from = (&caller, origin);
-            let (world, shard, capture) = self.captured(from, ("name", &r.name)).await?;
-            let app = self.0.clone();
+            let (world, shard, capture) = api.captured(from, ("name", &r.name)).await?;
+            let app = api.0.clone();
             let (created, client) = (SystemTime::now(), owner.clone());
             let work = move || {
                 let new = Kept {
@@ -115,13 +116,13 @@ impl CheckpointService for Api {
                 };
                 app.checkpoints.keep(new)
             };
-            let kept = self.conversions.run(&client, move |_| work()).await?;
+            let kept = api.conversions.run(&client, move |_| work()).await?;
             Ok(pb::CheckpointWorldResponse {
                 checkpoint: Some(out(&kept)),
-                data: self.data(&kept, r.return_data)?,
+                data: api.data(&kept, r.return_data)?,
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn get_checkpoint(
@@ -147,8 +148,9 @@ impl CheckpointService for Api {
         let list = || {
             let handle = self.world(&request, "parent", &r.parent)?;
             let all = self.checkpoints.of_world(&handle.id);
-            let items = all.into_iter().map(|k| (k.id.clone(), k)).collect();
-            let (kept, next_page_token) = page(items, r.page_size, &r.page_token)?;
+            let items = all.into_iter().map(|k| (k.id.clone(), k));
+            let list = CHECKPOINT.name([&handle.id, ""]);
+            let (kept, next_page_token) = page(&list, items, r.page_size, &r.page_token)?;
             Ok(pb::ListCheckpointsResponse {
                 checkpoints: kept.iter().map(|k| out(k)).collect(),
                 next_page_token,
@@ -161,32 +163,32 @@ impl CheckpointService for Api {
         &self,
         request: Request<pb::DeleteCheckpointRequest>,
     ) -> Result<Response<pb::DeleteCheckpointResponse>, Status> {
-        let delete = || {
+        self.once(request, |api, request| async move {
             let (world, id) = checkpoint_name("name", &request.get_ref().name)?;
-            self.enter(caller(&request)?, world)?;
-            self.checkpoints.remove(world, id)?;
+            api.enter(caller(&request)?, world)?;
+            api.checkpoints.remove(world, id)?;
             Ok(pb::DeleteCheckpointResponse {})
-        };
-        answer(delete())
+        })
+        .await
     }
 
     async fn restore_world(
         &self,
         request: Request<pb::RestoreWorldRequest>,
     ) -> Result<Response<pb::RestoreWorldResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let (client, origin) = (client(&request), origin(&request));
             let caller = caller(&request)?.clone();
-            let handle = self.world(&request, "name", &request.get_ref().name)?;
+            let handle = api.world(&request, "name", &request.get_ref().name)?;
             let r = request.into_inner();
             let source = match r.source {
                 Some(restore_world_request::Source::Checkpoint(name)) => {
-                    Source::Kept(self.kept(&caller, "checkpoint", &name)?)
+                    Source::Kept(api.kept(&caller, "checkpoint", &name)?)
                 }
                 Some(restore_world_request::Source::Data(data)) => Source::Data("data", data),
                 None => return Err(Fault::invalid("source", "must be given")),
             };
-            let restored = self.restored(&client, source).await?;
+            let restored = api.restored(&client, source).await?;
             let cleared = handle.clone();
             let info = handle
                 .call(origin, move |s| {
@@ -199,15 +201,15 @@ impl CheckpointService for Api {
             Ok(pb::RestoreWorldResponse {
                 world: Some(world::world_out(&info)),
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn fork_world(
         &self,
         request: Request<pb::ForkWorldRequest>,
     ) -> Result<Response<pb::ForkWorldResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let (owner, origin) = (client(&request), origin(&request));
             let caller = caller(&request)?.clone();
             let r = request.into_inner();
@@ -215,27 +217,27 @@ impl CheckpointService for Api {
             caller.check_new_name("world_id", id.as_deref())?;
             let source = match r.source {
                 Some(fork_world_request::Source::Checkpoint(name)) => {
-                    Source::Kept(self.kept(&caller, "checkpoint", &name)?)
+                    Source::Kept(api.kept(&caller, "checkpoint", &name)?)
                 }
                 Some(fork_world_request::Source::Data(data)) => Source::Data("data", data),
                 Some(fork_world_request::Source::World(name)) => {
                     let from = (&caller, origin);
-                    let (_, shard, capture) = self.captured(from, ("world", &name)).await?;
+                    let (_, shard, capture) = api.captured(from, ("world", &name)).await?;
                     Source::Now(Box::new((shard, capture)))
                 }
                 None => return Err(Fault::invalid("source", "must be given")),
             };
-            let restored = self.restored(&owner, source).await?;
-            if let (Some(id), Some(persistence)) = (&id, &self.persistence) {
+            let restored = api.restored(&owner, source).await?;
+            if let (Some(id), Some(persistence)) = (&id, &api.persistence) {
                 persistence.check(id)?;
             }
             let owner = (owner, first_grants(&caller));
-            let handle = self.worlds.fork(id, restored, r.paused, owner)?;
-            self.written(&handle).await?;
+            let handle = api.worlds.fork(id, restored, r.paused, owner)?;
+            api.written(&handle).await?;
             Ok(pb::ForkWorldResponse {
                 world: Some(world::world_out(&handle.info())),
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 }

@@ -1,13 +1,17 @@
 //! `MotionService`: stored clips, playing them, and the unary twin of live driving. The stream itself is in `drive`.
 
-use super::{Api, answer, caller, client, drive, origin, refusal};
+use super::{Api, answer, caller, client, drive, long, origin, refusal};
 use crate::server::access::caller::Caller;
 use crate::server::access::roles::{Role, Roles};
 use crate::server::library::NewClip;
+use crate::server::progress::Progress;
+use crate::server::shares::Client;
+use crate::server::workers::Turn;
 use crate::wire::convert::{body, clip_name, control, display_name, motion, new_id, page};
 use crate::wire::pb::{self, motion_service_server::MotionService};
 use crate::wire::status::Fault;
 use crate::wire::types::ClipInfo;
+use std::cell::Cell;
 use tonic::{Request, Response, Status, Streaming};
 
 /// Whether a caller may see (`Viewer`) or forget (`Owner`) a clip: its own, those that come with the server, and those
@@ -33,51 +37,111 @@ pub(super) fn seen(api: &Api, caller: &Caller, id: &str) -> Result<ClipInfo, Fau
     Err(Fault::not_found("clip", format!("clips/{id}")))
 }
 
+/// Stages of a conversion, after each of which it asks whether to go on.
+const STAGES: f64 = 9.0;
+
+/// Stores a clip, or says what would be stored.
+pub(super) async fn create(
+    api: &Api,
+    (caller, client): (&Caller, Client),
+    r: pb::CreateClipRequest,
+    progress: Progress,
+) -> Result<pb::CreateClipResponse, Fault> {
+    let id = new_id("clip_id", &r.clip_id)?;
+    caller.check_new_name("clip_id", id.as_deref())?;
+    let known = !caller.identity.is_anonymous();
+    let new = NewClip {
+        id,
+        display_name: display_name("display_name", &r.display_name)?,
+        owner: known.then(|| caller.principal().clone()),
+    };
+    let reference = body::reference("body", &r.body, "profile", None)?;
+    let max_bytes = api.config.max_clip_bytes;
+    let app = api.0.clone();
+    let persistence = api.persistence.as_ref();
+    let only = r.validate_only;
+    let stored = persistence.filter(|_| !only).map(|_| r.clone());
+    let convert = move |turn: &Turn| {
+        let stage = Cell::new(0.0);
+        let stop = || {
+            progress.tell(stage.replace(stage.get() + 1.0), STAGES);
+            turn.stop()
+        };
+        if stop() {
+            return Err(Turn::gone());
+        }
+        let source = motion::clip_source(r.source, max_bytes)?;
+        app.clips.check_room(&new, &source)?;
+        let built = app.bodies.get("body", &reference)?;
+        if only {
+            app.clips
+                .would_create(&new, &reference, &built, &source, &stop)
+        } else {
+            app.clips.create(new, &reference, &built, source, &stop)
+        }
+    };
+    let info = api.conversions.run(&client, convert).await?;
+    let clip = motion::clip_out(&info, true);
+    if let (Some(persistence), Some(r)) = (persistence, stored)
+        && let Err(fault) = persistence
+            .clip_created(&clip, info.owner.as_deref(), r)
+            .await
+    {
+        api.clips.delete(&info.id)?;
+        return Err(fault);
+    }
+    Ok(pb::CreateClipResponse { clip: Some(clip) })
+}
+
 #[tonic::async_trait]
 impl MotionService for Api {
     async fn create_clip(
         &self,
         request: Request<pb::CreateClipRequest>,
     ) -> Result<Response<pb::CreateClipResponse>, Status> {
-        let result = async {
-            let client = client(&request);
-            let caller = caller(&request)?.clone();
-            let r = request.into_inner();
-            let id = new_id("clip_id", &r.clip_id)?;
-            caller.check_new_name("clip_id", id.as_deref())?;
-            let known = !caller.identity.is_anonymous();
-            let new = NewClip {
-                id,
-                display_name: display_name("display_name", &r.display_name)?,
-                owner: known.then(|| caller.principal().clone()),
+        self.once(request, |api, request| async move {
+            let (client, caller) = (client(&request), caller(&request)?.clone());
+            create(
+                &api,
+                (&caller, client),
+                request.into_inner(),
+                Progress::default(),
+            )
+            .await
+        })
+        .await
+    }
+
+    type StreamCreateClipStream = long::Messages<pb::StreamCreateClipResponse>;
+
+    async fn stream_create_clip(
+        &self,
+        request: Request<pb::StreamCreateClipRequest>,
+    ) -> Result<Response<Self::StreamCreateClipStream>, Status> {
+        use pb::stream_create_clip_response::Message;
+        let start = || {
+            let (client, caller) = (client(&request), caller(&request)?.clone());
+            let r = request.into_inner().create_clip;
+            let r = r.ok_or_else(|| Fault::invalid("create_clip", "must be given"))?;
+            let (api, progress) = (self.clone(), Progress::default());
+            let told = progress.watch();
+            let who = caller.clone();
+            let work = async move {
+                let made = create(&api, (&who, client), r, progress).await;
+                made.map_err(|fault| fault.within("create_clip"))
             };
-            let reference = body::reference("body", &r.body, "profile", None)?;
-            let max_bytes = self.config.max_clip_bytes;
-            let app = self.0.clone();
-            let persistence = self.persistence.as_ref();
-            let stored = persistence.map(|_| r.clone());
-            let info = self
-                .conversions
-                .run(&client, move |turn| {
-                    let source = motion::clip_source(r.source, max_bytes)?;
-                    app.clips.check_room(&new, &source)?;
-                    let built = app.bodies.get("body", &reference)?;
-                    let stop = || turn.stop();
-                    app.clips.create(new, &reference, &built, source, &stop)
-                })
-                .await?;
-            let clip = motion::clip_out(&info, true);
-            if let (Some(persistence), Some(r)) = (persistence, stored)
-                && let Err(fault) = persistence
-                    .clip_created(&clip, info.owner.as_deref(), r)
-                    .await
-            {
-                self.clips.delete(&info.id)?;
-                return Err(fault);
+            let message = |message| pb::StreamCreateClipResponse {
+                message: Some(message),
+            };
+            Ok(long::Stream {
+                caller,
+                told,
+                progress: Some(move |share| message(Message::Progress(share))),
+                last: move |made| message(Message::CreateClip(made)),
             }
-            Ok(pb::CreateClipResponse { clip: Some(clip) })
+            .run(work, self.stopping.clone()))
         };
-        answer(result.await)
+        start().map(Response::new).map_err(refusal)
     }
 
     async fn get_clip(
@@ -99,15 +163,13 @@ impl MotionService for Api {
     ) -> Result<Response<pb::ListClipsResponse>, Status> {
         let r = request.get_ref();
         let caller = caller(&request).map_err(refusal)?;
-        let items = self
-            .clips
-            .list()
+        let all = self.clips.list();
+        let items = all
             .iter()
             .filter(|c| may(caller, c, Role::Viewer))
-            .map(|c| (c.id.clone(), motion::clip_out(c, false)))
-            .collect();
+            .map(|c| (c.id.clone(), motion::clip_out(c, false)));
         answer(
-            page(items, r.page_size, &r.page_token).map(|(clips, next_page_token)| {
+            page("clips", items, r.page_size, &r.page_token).map(|(clips, next_page_token)| {
                 pb::ListClipsResponse {
                     clips,
                     next_page_token,
@@ -120,46 +182,46 @@ impl MotionService for Api {
         &self,
         request: Request<pb::DeleteClipRequest>,
     ) -> Result<Response<pb::DeleteClipResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let id = clip_name("name", &request.get_ref().name)?;
             let caller = caller(&request)?;
-            let info = seen(self, caller, id)?;
+            let info = seen(&api, caller, id)?;
             // Built-in clips say themselves that they stay.
             if !info.builtin && !may(caller, &info, Role::Owner) {
                 return Err(caller.denied(Role::Owner, &format!("clips/{id}")));
             }
-            self.clips.delete(id)?;
-            if let Some(persistence) = &self.persistence {
+            api.clips.delete(id)?;
+            if let Some(persistence) = &api.persistence {
                 persistence.clip_deleted(id).await?;
             }
             Ok(pb::DeleteClipResponse {})
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn play_clip(
         &self,
         request: Request<pb::PlayClipRequest>,
     ) -> Result<Response<pb::PlayClipResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let (handle, figure) = self.figure(&request, "figure", &r.figure)?;
+            let (handle, figure) = api.figure(&request, "figure", &r.figure)?;
             let figure = figure.to_owned();
             let mut playback = motion::playback(r)?;
             let clip_id = clip_name("clip", &r.clip)?.to_owned();
             let caller = caller(&request)?;
             let who = control::single(caller.principal(), "control_token", &r.control_token)?;
-            seen(self, caller, &clip_id)?;
-            let (manner, rest) = self
+            seen(&api, caller, &clip_id)?;
+            let (manner, rest) = api
                 .clips
                 .manner(&clip_id, playback.looped, playback.speed)?;
             playback.speed = rest;
             let (body_id, body) = handle.body_of(&figure)?;
-            let clip = match self.clips.ready(&clip_id, &body_id, manner) {
+            let clip = match api.clips.ready(&clip_id, &body_id, manner) {
                 Some(clip) => clip,
                 None => {
-                    let (app, id) = (self.0.clone(), clip_id.clone());
-                    self.conversions
+                    let (app, id) = (api.0.clone(), clip_id.clone());
+                    api.conversions
                         .run(&client(&request), move |turn| {
                             let stop = || turn.stop();
                             app.clips.prepared(&id, &body_id, &body, manner, &stop)
@@ -173,17 +235,17 @@ impl MotionService for Api {
                 })
                 .await?;
             Ok(pb::PlayClipResponse { start_time_s })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn stop_clip(
         &self,
         request: Request<pb::StopClipRequest>,
     ) -> Result<Response<pb::StopClipResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let (handle, figure) = self.figure(&request, "figure", &r.figure)?;
+            let (handle, figure) = api.figure(&request, "figure", &r.figure)?;
             let figure = figure.to_owned();
             let principal = caller(&request)?.principal();
             let who = control::single(principal, "control_token", &r.control_token)?;
@@ -191,8 +253,8 @@ impl MotionService for Api {
                 .call(origin(&request), move |s| s.stop(&figure, &who))
                 .await?;
             Ok(pb::StopClipResponse {})
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn push_motion(

@@ -24,10 +24,10 @@ impl ControlService for Api {
         &self,
         request: Request<pb::AcquireControlRequest>,
     ) -> Result<Response<pb::AcquireControlResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
             let caller = caller(&request)?;
-            let (handle, figure) = self.figure(&request, "figure", &r.figure)?;
+            let (handle, figure) = api.figure(&request, "figure", &r.figure)?;
             let figure = figure.to_owned();
             let most = handle
                 .grants
@@ -48,17 +48,17 @@ impl ControlService for Api {
                 lease: Some(control::lease(&handle.id, &info)),
                 control_token: token,
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn release_control(
         &self,
         request: Request<pb::ReleaseControlRequest>,
     ) -> Result<Response<pb::ReleaseControlResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let (handle, figure) = self.figure(&request, "figure", &r.figure)?;
+            let (handle, figure) = api.figure(&request, "figure", &r.figure)?;
             let figure = figure.to_owned();
             let principal = caller(&request)?.principal();
             let who = control::single(principal, "control_token", &r.control_token)?;
@@ -66,17 +66,17 @@ impl ControlService for Api {
                 .call(origin(&request), move |s| s.release(&figure, &who))
                 .await?;
             Ok(pb::ReleaseControlResponse {})
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn transfer_control(
         &self,
         request: Request<pb::TransferControlRequest>,
     ) -> Result<Response<pb::TransferControlResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let (handle, figure) = self.figure(&request, "figure", &r.figure)?;
+            let (handle, figure) = api.figure(&request, "figure", &r.figure)?;
             let figure = figure.to_owned();
             let principal = caller(&request)?.principal();
             let who = control::single(principal, "control_token", &r.control_token)?;
@@ -101,17 +101,17 @@ impl ControlService for Api {
                 lease: Some(control::lease(&handle.id, &info)),
                 offer_token,
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn accept_control(
         &self,
         request: Request<pb::AcceptControlRequest>,
     ) -> Result<Response<pb::AcceptControlResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let (handle, figure) = self.figure(&request, "figure", &r.figure)?;
+            let (handle, figure) = api.figure(&request, "figure", &r.figure)?;
             let figure = figure.to_owned();
             let principal = caller(&request)?.principal();
             let who = control::single(principal, "offer_token", &r.offer_token)?;
@@ -126,24 +126,20 @@ impl ControlService for Api {
                 lease: Some(control::lease(&handle.id, &info)),
                 control_token: token,
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn get_control(
         &self,
         request: Request<pb::GetControlRequest>,
     ) -> Result<Response<pb::GetControlResponse>, Status> {
-        let result = async {
+        let result = || {
             let (handle, figure) = self.figure(&request, "figure", &request.get_ref().figure)?;
-            let figure = figure.to_owned();
-            let info = handle
-                .call(origin(&request), move |s| s.control(&figure))
-                .await?;
             Ok(pb::GetControlResponse {
-                lease: Some(control::lease(&handle.id, &info)),
+                lease: Some(control::lease(&handle.id, &handle.control(figure)?)),
             })
         };
-        answer(result.await)
+        answer(result())
     }
 }

@@ -2,6 +2,8 @@
 
 use super::{Api, answer, caller, origin};
 use crate::server::access::roles::Role;
+use crate::server::engine;
+use crate::wire::convert::names::FIGURE;
 use crate::wire::convert::{control, figure, new_id, page, place};
 use crate::wire::pb::{self, figure_service_server::FigureService};
 use crate::wire::status::Fault;
@@ -13,23 +15,33 @@ impl FigureService for Api {
         &self,
         request: Request<pb::CreateFigureRequest>,
     ) -> Result<Response<pb::CreateFigureResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let handle = self.world(&request, "parent", &r.parent)?;
+            let handle = api.world(&request, "parent", &r.parent)?;
             let id = new_id("figure_id", &r.figure_id)?;
             let settings = figure::settings("figure", r.figure.as_ref())?;
-            let body = self.body("figure.profile", &settings.body).await?;
+            let body = api.body("figure.profile", &settings.body).await?;
+            let only = r.validate_only;
+            if only {
+                engine::check_figure(&handle.described().world.settings, &settings, body.clone())?;
+            }
             let info = handle
                 .call(origin(&request), move |s| {
-                    s.create_figure(id, settings, body)
+                    if only {
+                        s.would_create_figure(id, settings)
+                    } else {
+                        s.create_figure(id, settings, body)
+                    }
                 })
                 .await?;
-            self.stored(&handle).await?;
+            if !only {
+                api.stored(&handle).await?;
+            }
             Ok(pb::CreateFigureResponse {
                 figure: Some(figure::figure_out(&info)),
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn get_figure(
@@ -51,14 +63,15 @@ impl FigureService for Api {
     ) -> Result<Response<pb::ListFiguresResponse>, Status> {
         let result = || {
             let r = request.get_ref();
-            let described = self.world(&request, "parent", &r.parent)?.described();
+            let handle = self.world(&request, "parent", &r.parent)?;
+            let described = handle.described();
             // Indices grow in the order of creation; padded they sort as text.
             let items = described
                 .figures
                 .iter()
-                .map(|f| (format!("{:010}", f.index), figure::figure_out(f)))
-                .collect();
-            let (figures, next_page_token) = page(items, r.page_size, &r.page_token)?;
+                .map(|f| (format!("{:010}", f.index), figure::figure_out(f)));
+            let list = FIGURE.name([&handle.id, ""]);
+            let (figures, next_page_token) = page(&list, items, r.page_size, &r.page_token)?;
             Ok(pb::ListFiguresResponse {
                 figures,
                 next_page_token,
@@ -85,12 +98,28 @@ impl FigureService for Api {
             let roles = handle.grants.rights(&caller.identity, &handle.id).roles;
             // A director sets the scene, whoever drives in it.
             let who = (!roles.contain(Role::Director)).then_some(who);
+            let (etag, only) = (f.etag.clone(), r.validate_only);
+            let settings = if only {
+                let now = handle.figure(&id)?.settings;
+                let settings = update.clone().applied(now);
+                let body = self.body("figure.body", &settings.body).await?;
+                engine::check_figure(&handle.described().world.settings, &settings, body)?;
+                Some(settings)
+            } else {
+                None
+            };
             let info = handle
                 .call(origin(&request), move |s| {
-                    s.update_figure(&id, update, who.as_ref())
+                    figure::check_etag(&s.figure(&id)?, &etag)?;
+                    match settings {
+                        Some(settings) => s.would_update_figure(&id, settings, who.as_ref()),
+                        None => s.update_figure(&id, update, who.as_ref()),
+                    }
                 })
                 .await?;
-            self.stored(&handle).await?;
+            if !only {
+                self.stored(&handle).await?;
+            }
             Ok(pb::UpdateFigureResponse {
                 figure: Some(figure::figure_out(&info)),
             })
@@ -102,25 +131,29 @@ impl FigureService for Api {
         &self,
         request: Request<pb::DeleteFigureRequest>,
     ) -> Result<Response<pb::DeleteFigureResponse>, Status> {
-        let result = async {
-            let (handle, id) = self.figure(&request, "name", &request.get_ref().name)?;
-            let id = id.to_owned();
+        self.once(request, |api, request| async move {
+            let r = request.get_ref();
+            let (handle, id) = api.figure(&request, "name", &r.name)?;
+            let (id, etag) = (id.to_owned(), r.etag.clone());
             handle
-                .call(origin(&request), move |s| s.delete_figure(&id))
+                .call(origin(&request), move |s| {
+                    figure::check_etag(&s.figure(&id)?, &etag)?;
+                    s.delete_figure(&id)
+                })
                 .await?;
-            self.stored(&handle).await?;
+            api.stored(&handle).await?;
             Ok(pb::DeleteFigureResponse {})
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn reset_figure(
         &self,
         request: Request<pb::ResetFigureRequest>,
     ) -> Result<Response<pb::ResetFigureResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let (handle, id) = self.figure(&request, "name", &r.name)?;
+            let (handle, id) = api.figure(&request, "name", &r.name)?;
             let id = id.to_owned();
             let at = r.placement.map(|p| place("placement", p)).transpose()?;
             let principal = caller(&request)?.principal();
@@ -131,7 +164,7 @@ impl FigureService for Api {
             Ok(pb::ResetFigureResponse {
                 figure: Some(figure::figure_out(&info)),
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 }

@@ -8,6 +8,9 @@ mod control;
 mod drive;
 mod figures;
 mod info;
+mod long;
+mod obstacles;
+mod operations;
 mod permit;
 mod perturbations;
 mod simulation;
@@ -22,23 +25,29 @@ use super::access::roles::{Role, Rule};
 use super::checkpoints::Checkpoints;
 use super::config::Config;
 use super::library::{Bodies, Clips};
+use super::operations::{self as long_work, Operations};
 use super::persistence::Persistence;
+use super::repeats::{self, Repeats};
 use super::shares::{Client, Place, Places};
 use super::tick::command::Origin;
 use super::workers::Pool;
 use super::worlds::{Registry, WorldHandle};
-use crate::wire::convert::world_name;
+use crate::wire::convert::{client_id, world_name};
 use crate::wire::pb;
+use crate::wire::repeatable::Repeatable;
 use crate::wire::status::Fault;
+use bytes::Bytes;
+use std::future::Future;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::SystemTime;
+use std::time::{Duration, Instant, SystemTime};
 use tokio::sync::watch;
 use tonic::service::RoutesBuilder;
 use tonic::{Request, Response, Status};
+use xxhash_rust::xxh3::xxh3_64;
 
 /// Names of the services, for health checks; the empty name is the server as a whole.
-pub const SERVICE_NAMES: [&str; 12] = [
+pub const SERVICE_NAMES: [&str; 14] = [
     "",
     pb::world_service_server::SERVICE_NAME,
     pb::figure_service_server::SERVICE_NAME,
@@ -51,16 +60,24 @@ pub const SERVICE_NAMES: [&str; 12] = [
     pb::access_service_server::SERVICE_NAME,
     pb::control_service_server::SERVICE_NAME,
     pb::checkpoint_service_server::SERVICE_NAME,
+    pb::obstacle_service_server::SERVICE_NAME,
+    pb::operation_service_server::SERVICE_NAME,
 ];
 
 /// Calls that carry a clip or a checkpoint in their request: up to `max_clip_bytes`. All others take up to
 /// `max_request_bytes`.
-pub const UPLOADS: [&str; 4] = [
+pub const UPLOADS: [&str; 7] = [
     "/sinew.v1.MotionService/CreateClip",
+    "/sinew.v1.MotionService/StreamCreateClip",
     "/sinew.v1.SimulationService/SimulateClip",
+    "/sinew.v1.SimulationService/StreamSimulateClip",
+    "/sinew.v1.OperationService/StartOperation",
     "/sinew.v1.CheckpointService/RestoreWorld",
     "/sinew.v1.CheckpointService/ForkWorld",
 ];
+
+/// How often worlds are looked at that may be idle only for some time.
+const IDLE_LOOK: Duration = Duration::from_millis(250);
 
 /// Grants of a world that a caller makes: who has said who it is owns it.
 fn first_grants(caller: &Caller) -> Vec<Grant> {
@@ -99,6 +116,10 @@ pub struct App {
     pub access: Arc<Access>,
     /// The data directory.
     pub persistence: Option<Arc<Persistence>>,
+    /// Long work that nobody waits for.
+    operations: Arc<Operations<pb::operation::Result>>,
+    /// Recent requests by name, with their answers.
+    repeats: Arc<Repeats>,
     /// When the server started.
     pub started: SystemTime,
     /// Turns true when streams are to end.
@@ -142,6 +163,13 @@ impl App {
                     facts: vec![],
                 })?
                 .map(Arc::new),
+            operations: Operations::new(long_work::Limits {
+                most: config.max_operations,
+                share,
+                bytes: config.max_operation_bytes,
+                ttl: Duration::from_secs_f64(config.operation_ttl_s),
+            }),
+            repeats: Repeats::new(config.max_request_ids, share),
             started: SystemTime::now(),
             stopping,
             viewers: Places::new("max_viewers", config.max_viewers, share, "sinew_viewers"),
@@ -182,7 +210,9 @@ impl App {
         if let Some(persistence) = &self.persistence
             && let Err(fault) = persistence.created(handle).await
         {
-            self.worlds.delete(&handle.id).await?;
+            self.worlds
+                .delete(&handle.id, "it could not be stored")
+                .await?;
             return Err(fault);
         }
         Ok(())
@@ -276,7 +306,10 @@ impl App {
             None
         };
         match missing {
-            None => Ok(handle),
+            None => {
+                handle.usage.note();
+                Ok(handle)
+            }
             Some((place, figure)) => {
                 if role != Role::Viewer {
                     handle.tell_refused(caller, figure);
@@ -291,6 +324,45 @@ impl App {
         match self.existing(id) {
             Ok(handle) => self.admit(caller, handle, (role, &[])),
             Err(fault) => caller.check_claim(role, id).and(Err(fault)),
+        }
+    }
+
+    /// Ends a world, also on disk. `by`: who wants it.
+    async fn delete_world_by(&self, id: &str, by: &str) -> Result<(), Fault> {
+        let ended = self.worlds.delete(id, by).await;
+        let stored = self.forget_world(id).await?;
+        if stored { Ok(()) } else { ended }
+    }
+
+    /// Forgets what is kept of a world that has ended; whether there was something on disk.
+    async fn forget_world(&self, id: &str) -> Result<bool, Fault> {
+        self.checkpoints.forget_world(id);
+        match &self.persistence {
+            Some(persistence) => persistence.deleted(id).await,
+            None => Ok(false),
+        }
+    }
+
+    /// Ends worlds that nobody has used for as long as they may be idle, for ever.
+    pub async fn end_idle_worlds(&self) {
+        loop {
+            tokio::time::sleep(IDLE_LOOK).await;
+            for handle in self.worlds.list() {
+                let idle = |w: &WorldHandle| {
+                    let ttl = w.described().world.settings.pace.idle_ttl;
+                    ttl.is_some_and(|ttl| w.usage.idle(Instant::now()) >= ttl)
+                };
+                if !idle(&handle) {
+                    continue;
+                }
+                // Whoever came in the meantime keeps it; one that somebody else deletes is gone, too.
+                let ended = self.worlds.delete_if(&handle.id, "idle_ttl", idle).await;
+                if matches!(ended, Ok(true))
+                    && let Err(fault) = self.forget_world(&handle.id).await
+                {
+                    tracing::error!(world = &*handle.id, %fault, "an idle world is still stored");
+                }
+            }
         }
     }
 
@@ -331,6 +403,38 @@ impl std::ops::Deref for Api {
     }
 }
 
+impl Api {
+    /// Answers a request that is done once, however often it comes under the same `request_id`.
+    async fn once<Q, R, W>(
+        &self,
+        request: Request<Q>,
+        work: impl FnOnce(Self, Request<Q>) -> W,
+    ) -> Result<Response<R>, Status>
+    where
+        Q: Repeatable,
+        R: prost::Message + Default,
+        W: Future<Output = Result<R, Fault>> + Send + 'static,
+    {
+        let id = client_id("request_id", request.get_ref().request_id()).map_err(refusal)?;
+        if id.is_empty() {
+            return answer(work(self.clone(), request).await);
+        }
+        let caller = caller(&request).map_err(refusal)?;
+        let key = repeats::Key {
+            principal: caller.principal().clone(),
+            call: caller.call.clone(),
+            id,
+        };
+        let hash = xxh3_64(&request.get_ref().encode_to_vec());
+        let work = work(self.clone(), request);
+        let encoded = async move { work.await.map(|r| Bytes::from(r.encode_to_vec())) };
+        let done = self.repeats.once(key, hash, encoded).await;
+        answer(done.and_then(|bytes| {
+            R::decode(bytes).map_err(|e| Fault::Internal(format!("an answer was kept badly: {e}")))
+        }))
+    }
+}
+
 /// Adds every service to the routes.
 pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
     let api = Api(app.clone());
@@ -358,6 +462,8 @@ pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
         access_service_server::AccessServiceServer;
         control_service_server::ControlServiceServer;
         checkpoint_service_server::CheckpointServiceServer;
+        obstacle_service_server::ObstacleServiceServer;
+        operation_service_server::OperationServiceServer;
     }
 }
 

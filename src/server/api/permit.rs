@@ -3,6 +3,7 @@
 use super::App;
 use crate::server::access::caller::Caller;
 use crate::server::worlds::WorldHandle;
+use crate::server::worlds::usage::InUse;
 use crate::wire::status::Fault;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
@@ -18,6 +19,7 @@ pub(super) struct Permit {
     caller: Caller,
     figures: Vec<String>,
     changes: watch::Receiver<u64>,
+    _in_use: InUse,
 }
 
 impl Permit {
@@ -31,6 +33,7 @@ impl Permit {
         Self {
             app: app.clone(),
             changes: handle.grants.changes(),
+            _in_use: handle.usage.begin(),
             handle: handle.clone(),
             caller: caller.clone(),
             figures: figures.to_vec(),

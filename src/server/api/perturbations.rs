@@ -1,6 +1,6 @@
 //! `PerturbationService`.
 
-use super::{Api, answer, caller, origin};
+use super::{Api, caller, origin};
 use crate::server::access::caller::Caller;
 use crate::wire::convert::{client_id, perturbation};
 use crate::wire::pb::{self, perturbation_service_server::PerturbationService};
@@ -26,10 +26,10 @@ impl PerturbationService for Api {
         &self,
         request: Request<pb::ApplyPerturbationsRequest>,
     ) -> Result<Response<pb::ApplyPerturbationsResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let mut from = origin(&request);
             let r = request.get_ref();
-            let handle = self.world(&request, "world", &r.world)?;
+            let handle = api.world(&request, "world", &r.world)?;
             let client = client_id("client_id", &r.client_id)?;
             let caller = caller(&request)?;
             from.client = order(caller, &client);
@@ -37,25 +37,34 @@ impl PerturbationService for Api {
             let batch = perturbation::batch(&r.perturbations)?;
             let rights = handle.grants.rights(&caller.identity, &handle.id);
             handle.grants.admit(caller, &rights, &batch)?;
-            let tick = handle.call(from, move |s| s.perturb(&batch)).await?;
+            let only = r.validate_only;
+            let tick = handle
+                .call(from, move |s| {
+                    if only {
+                        s.would_perturb(&batch)
+                    } else {
+                        s.perturb(&batch)
+                    }
+                })
+                .await?;
             Ok(pb::ApplyPerturbationsResponse { tick: tick as i64 })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn clear_perturbations(
         &self,
         request: Request<pb::ClearPerturbationsRequest>,
     ) -> Result<Response<pb::ClearPerturbationsResponse>, Status> {
-        let result = async {
-            let (handle, figure) = self.figure(&request, "figure", &request.get_ref().figure)?;
+        self.once(request, |api, request| async move {
+            let (handle, figure) = api.figure(&request, "figure", &request.get_ref().figure)?;
             let figure = figure.to_owned();
             let tick = handle
                 .call(origin(&request), move |s| s.clear_perturbations(&figure))
                 .await?;
             Ok(pb::ClearPerturbationsResponse { tick: tick as i64 })
-        };
-        answer(result.await)
+        })
+        .await
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Api, answer, caller, client, first_grants, origin};
 use crate::server::access::roles::Role;
 use crate::server::tick::shard::{Shard, StepRequest};
-use crate::wire::convert::{count, new_id, obstacle, page, world, world_name};
+use crate::wire::convert::{count, new_id, page, world, world_name};
 use crate::wire::pb::{self, world_service_server::WorldService};
 use crate::wire::status::Fault;
 use crate::wire::types::{WorldInfo, WorldUpdate};
@@ -34,26 +34,29 @@ impl WorldService for Api {
         &self,
         request: Request<pb::CreateWorldRequest>,
     ) -> Result<Response<pb::CreateWorldResponse>, Status> {
-        let owner = client(&request);
-        let caller = caller(&request).cloned();
-        let r = request.into_inner();
-        let create = async {
-            let caller = caller?;
+        self.once(request, |api, request| async move {
+            let owner = client(&request);
+            let caller = caller(&request)?.clone();
+            let r = request.into_inner();
             let id = new_id("world_id", &r.world_id)?;
             caller.check_new_name("world_id", id.as_deref())?;
-            let persistence = self.persistence.as_ref();
-            if let (Some(id), Some(persistence)) = (&id, persistence) {
+            if let (Some(id), Some(persistence)) = (&id, &api.persistence) {
                 persistence.check(id)?;
             }
             let settings = world::settings(r.world)?;
             let owner = (owner, first_grants(&caller));
-            let handle = self.worlds.create(id, settings, r.paused, owner)?;
-            self.written(&handle).await?;
+            let info = if r.validate_only {
+                api.worlds.would_create(id, settings, r.paused, &owner.0)?
+            } else {
+                let handle = api.worlds.create(id, settings, r.paused, owner)?;
+                api.written(&handle).await?;
+                handle.info()
+            };
             Ok(pb::CreateWorldResponse {
-                world: Some(world::world_out(&handle.info())),
+                world: Some(world::world_out(&info)),
             })
-        };
-        answer(create.await)
+        })
+        .await
     }
 
     async fn get_world(
@@ -79,10 +82,9 @@ impl WorldService for Api {
             .list()
             .into_iter()
             .filter(|w| self.sees(caller, w))
-            .map(|w| (w.id.to_string(), w))
-            .collect();
-        answer(
-            page(items, r.page_size, &r.page_token).map(|(handles, next_page_token)| {
+            .map(|w| (w.id.to_string(), w));
+        answer(page("worlds", items, r.page_size, &r.page_token).map(
+            |(handles, next_page_token)| {
                 pb::ListWorldsResponse {
                     worlds: handles
                         .iter()
@@ -90,8 +92,8 @@ impl WorldService for Api {
                         .collect(),
                     next_page_token,
                 }
-            }),
-        )
+            },
+        ))
     }
 
     async fn update_world(
@@ -104,46 +106,52 @@ impl WorldService for Api {
                 .world
                 .as_ref()
                 .ok_or_else(|| Fault::invalid("world", "must be given"))?;
-            self.world(&request, "world.name", &w.name)?;
+            let handle = self.world(&request, "world.name", &w.name)?;
             let update = world::update(w, r.update_mask.as_ref())?;
-            self.on_world(&request, &w.name, |s| s.update(update)).await
+            let (etag, only) = (w.etag.clone(), r.validate_only);
+            let info = handle
+                .call(origin(&request), move |s| {
+                    world::check_etag(&s.info(), &etag)?;
+                    if only {
+                        s.would_update(update)
+                    } else {
+                        s.update(update)
+                    }
+                })
+                .await?;
+            if !only {
+                self.stored(&handle).await?;
+            }
+            Ok(pb::UpdateWorldResponse {
+                world: Some(world::world_out(&info)),
+            })
         };
-        answer(
-            result
-                .await
-                .map(|w| pb::UpdateWorldResponse { world: Some(w) }),
-        )
+        answer(result.await)
     }
 
     async fn delete_world(
         &self,
         request: Request<pb::DeleteWorldRequest>,
     ) -> Result<Response<pb::DeleteWorldResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let caller = caller(&request)?;
-            let name = world_name("name", &request.get_ref().name)?;
+            let r = request.get_ref();
+            let name = world_name("name", &r.name)?;
             // One that is in quarantine is only stored: its grants are, too, and only claims count.
-            let quarantined = self
+            let quarantined = api
                 .persistence
                 .as_ref()
                 .is_some_and(|p| p.check(name).is_err());
             if quarantined {
                 caller.check_claim(Role::Owner, name)?;
             } else {
-                self.enter(caller, name)?;
+                let handle = api.enter(caller, name)?;
+                world::check_etag(&handle.info(), &r.etag)?;
             }
-            let ended = self.worlds.delete(name).await;
-            let stored = match &self.persistence {
-                Some(persistence) => persistence.deleted(name).await?,
-                None => false,
-            };
-            if !stored {
-                ended?;
-            }
-            self.checkpoints.forget_world(name);
+            api.delete_world_by(name, caller.principal()).await?;
             Ok(pb::DeleteWorldResponse {})
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn pause_world(
@@ -174,9 +182,9 @@ impl WorldService for Api {
         &self,
         request: Request<pb::StepWorldRequest>,
     ) -> Result<Response<pb::StepWorldResponse>, Status> {
-        let result = async {
+        self.once(request, |api, request| async move {
             let r = request.get_ref();
-            let handle = self.world(&request, "name", &r.name)?;
+            let handle = api.world(&request, "name", &r.name)?;
             let left = count("tick_count", r.tick_count, 1, 1, MAX_STEPS)?;
             let (tx, rx) = oneshot::channel();
             let slot = Arc::new(std::sync::Mutex::new(Some(tx)));
@@ -203,14 +211,15 @@ impl WorldService for Api {
                     }),
                 });
             })?;
+            let _in_use = handle.usage.begin();
             let snapshot = handle.answer(rx).await?;
             Ok(pb::StepWorldResponse {
                 tick: snapshot.tick as i64,
                 time_s: snapshot.time,
                 state_hash: snapshot.hash as i64,
             })
-        };
-        answer(result.await)
+        })
+        .await
     }
 
     async fn set_world_speed(
@@ -230,82 +239,6 @@ impl WorldService for Api {
             result
                 .await
                 .map(|w| pb::SetWorldSpeedResponse { world: Some(w) }),
-        )
-    }
-
-    async fn add_obstacle(
-        &self,
-        request: Request<pb::AddObstacleRequest>,
-    ) -> Result<Response<pb::AddObstacleResponse>, Status> {
-        let result = async {
-            let r = request.get_ref();
-            let handle = self.world(&request, "parent", &r.parent)?;
-            let id = new_id("obstacle_id", &r.obstacle_id)?;
-            let setup = obstacle::setup("obstacle", r.obstacle.as_ref())?;
-            let info = handle
-                .call(origin(&request), move |s| s.add_obstacle(id, setup))
-                .await?;
-            self.stored(&handle).await?;
-            Ok(pb::AddObstacleResponse {
-                obstacle: Some(obstacle::out(&handle.id, &info)),
-            })
-        };
-        answer(result.await)
-    }
-
-    async fn update_obstacle(
-        &self,
-        request: Request<pb::UpdateObstacleRequest>,
-    ) -> Result<Response<pb::UpdateObstacleResponse>, Status> {
-        let result = async {
-            let r = request.get_ref();
-            let name = r.obstacle.as_ref().map_or("", |o| &o.name);
-            let (world, id) = obstacle::name("obstacle.name", name)?;
-            let handle = self.enter(caller(&request)?, world)?;
-            let setup = obstacle::setup("obstacle", r.obstacle.as_ref())?;
-            let id = id.to_owned();
-            let info = handle
-                .call(origin(&request), move |s| s.update_obstacle(&id, setup))
-                .await?;
-            self.stored(&handle).await?;
-            Ok(pb::UpdateObstacleResponse {
-                obstacle: Some(obstacle::out(&handle.id, &info)),
-            })
-        };
-        answer(result.await)
-    }
-
-    async fn remove_obstacle(
-        &self,
-        request: Request<pb::RemoveObstacleRequest>,
-    ) -> Result<Response<pb::RemoveObstacleResponse>, Status> {
-        let result = async {
-            let (world, id) = obstacle::name("name", &request.get_ref().name)?;
-            let handle = self.enter(caller(&request)?, world)?;
-            let id = id.to_owned();
-            handle
-                .call(origin(&request), move |s| s.remove_obstacle(&id))
-                .await?;
-            self.stored(&handle).await?;
-            Ok(pb::RemoveObstacleResponse {})
-        };
-        answer(result.await)
-    }
-
-    async fn list_obstacles(
-        &self,
-        request: Request<pb::ListObstaclesRequest>,
-    ) -> Result<Response<pb::ListObstaclesResponse>, Status> {
-        answer(
-            self.world(&request, "parent", &request.get_ref().parent)
-                .map(|handle| pb::ListObstaclesResponse {
-                    obstacles: handle
-                        .latest()
-                        .obstacles
-                        .iter()
-                        .map(|o| obstacle::out(&handle.id, o))
-                        .collect(),
-                }),
         )
     }
 }

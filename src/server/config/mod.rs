@@ -308,6 +308,15 @@ settings! {
     max_tick_budget: float = 0.7, 0.01, 1000.0;
     /// Requests that wait for the next tick of one world.
     command_queue: int = 1024, 16, 1_000_000;
+    /// Requests that are remembered by their `request_id`, with their answers; one principal has `max_client_share` of
+    /// them.
+    max_request_ids: int = 16_384, 16, 1_000_000;
+    /// Operations that are held, those that are done included.
+    max_operations: int = 256, 2, 100_000;
+    /// Bytes of the results of operations.
+    max_operation_bytes: int = 134_217_728, 1_048_576, 68_719_476_736;
+    /// How long an operation that is done is kept, s.
+    operation_ttl_s: float = 600.0, 1.0, 86_400.0;
     /// Ticks of one world that are held for late readers.
     history_ticks: int = 64, 1, 100_000;
     /// Event messages that are held for slow viewers.

@@ -150,6 +150,11 @@ impl Peer {
         self.used.store(now, Ordering::Relaxed);
     }
 
+    /// Requests that are worked on, streams included.
+    pub(super) fn open_requests(&self) -> u64 {
+        self.requests.load(Ordering::Relaxed) as u64
+    }
+
     fn is_idle(&self) -> bool {
         self.requests.load(Ordering::Relaxed) == 0
     }

@@ -4,10 +4,12 @@
 //! Everything here is about strangers: a client that keeps to the limits does not notice it.
 
 pub(super) mod connections;
+mod errors;
 pub(super) mod hosts;
 mod replies;
 mod requests;
 
+pub(super) use errors::reasons;
 pub(super) use requests::sizes;
 
 use super::config::Config;
@@ -50,6 +52,9 @@ pub(super) struct Edge {
     max_requests: u64,
     /// The server ends: what comes now is refused.
     ending: AtomicBool,
+    max_requests_of_one: u64,
+    /// How long a request may take before its response begins.
+    timeout: Duration,
 }
 
 impl Edge {
@@ -63,6 +68,8 @@ impl Edge {
             requests: Arc::new(Semaphore::new(config.max_requests as usize)),
             max_requests: config.max_requests,
             ending: AtomicBool::new(false),
+            max_requests_of_one: config.max_requests_per_connection,
+            timeout: Duration::from_secs_f64(config.request_timeout_s),
         })
     }
 
@@ -109,6 +116,17 @@ pub(super) async fn admit(
     }
     if edge.ending.load(Ordering::SeqCst) && !vital {
         return refused(Fault::Draining, &request);
+    }
+    if peer.open_requests() > edge.max_requests_of_one && !vital {
+        return refused(
+            Fault::Exhausted {
+                limit: "max_requests_per_connection",
+                value: edge.max_requests_of_one,
+                message: "one more request at a time over this connection".into(),
+                retry: Some(Duration::from_millis(100)),
+            },
+            &request,
+        );
     }
     let place = if vital {
         None

@@ -123,6 +123,15 @@ impl Budget {
         self.change(account, account.cost.get(), pace)
     }
 
+    /// Checks what [`Self::set_pace`] would do.
+    ///
+    /// # Errors
+    /// It would be faster and there is no room in the budget.
+    pub fn would_set_pace(&self, account: &Account, pace: f64) -> Result<(), Fault> {
+        let accounts = self.accounts();
+        self.admit(&accounts, account, account.cost.get() * pace)
+    }
+
     /// Makes room for one more figure.
     ///
     /// # Errors
@@ -141,18 +150,23 @@ impl Budget {
     /// Checks and books in one step, so that two worlds do not take the same room.
     fn change(&self, account: &Account, cost: f64, pace: f64) -> Result<(), Fault> {
         let accounts = self.accounts();
+        self.admit(&accounts, account, cost * pace)?;
+        account.cost.set(cost);
+        account.pace.set(pace);
+        Ok(())
+    }
+
+    /// Whether a world may need so much.
+    fn admit(&self, accounts: &[Weak<Account>], account: &Account, need: f64) -> Result<(), Fault> {
         let others: Vec<Arc<Account>> = accounts
             .iter()
             .filter_map(Weak::upgrade)
             .filter(|a| !std::ptr::eq(&**a, account))
             .collect();
-        let need = cost * pace;
         if need > account.need() {
             self.check("the world", need, 1.0)?;
             self.check("the machine", total(&others) + need, self.processors)?;
         }
-        account.cost.set(cost);
-        account.pace.set(pace);
         Ok(())
     }
 

@@ -140,6 +140,11 @@ impl Leases {
         self.epochs.remove(figure);
     }
 
+    /// Whether one of them ends unless it is used.
+    pub fn end_by_themselves(&self) -> bool {
+        self.by_figure.values().any(|l| l.expires.is_some())
+    }
+
     /// A lease whose time is over.
     pub fn expired(&self, now: Instant) -> Option<String> {
         let over = |l: &Lease| l.expires.is_some_and(|at| at <= now);

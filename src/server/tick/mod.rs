@@ -69,6 +69,8 @@ impl Outlet {
         let described = Described {
             world: shard.info(),
             figures: shard.figures(),
+            controls: shard.controls(),
+            at: Instant::now(),
         };
         Self {
             lost: watch::Sender::new(None),
@@ -214,6 +216,7 @@ impl Runner {
             s.offer_plans();
         });
         if shard.closing.is_some() {
+            publish_events(shard, outlet); // that it was deleted is the last one
             return;
         }
         let commands_done = Instant::now();

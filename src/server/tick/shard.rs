@@ -2,6 +2,7 @@
 //! thread runs it; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
 mod checkpoint;
+mod clips;
 mod control;
 mod desired_motion;
 mod figures;
@@ -20,8 +21,8 @@ use crate::server::engine::{self, FigureKey, ObstacleKey, Planning, World};
 use crate::server::ingest::mailbox::Mailboxes;
 use crate::wire::status::Fault;
 use crate::wire::types::{
-    Described, EventKind, FigureSettings, Overrun, RosterEntry, Snapshot, WorldCondition,
-    WorldEvent, WorldInfo, WorldSettings, WorldUpdate,
+    Described, EventKind, FigureSettings, RosterEntry, Snapshot, WorldCondition, WorldEvent,
+    WorldInfo, WorldSettings, WorldUpdate,
 };
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -42,6 +43,8 @@ struct Member {
     index: i32,
     settings: FigureSettings,
     clip: Option<String>,
+    /// The clip that events have told of.
+    told: Option<clips::Playing>,
 }
 
 /// Steps that a client waits for.
@@ -150,7 +153,7 @@ impl Shard {
     }
 
     /// Last part of its name.
-    pub(super) fn id(&self) -> &str {
+    pub fn id(&self) -> &str {
         &self.id
     }
 
@@ -233,6 +236,18 @@ impl Shard {
         );
     }
 
+    /// The world as [`Self::update`] would leave it.
+    pub fn would_update(&self, u: WorldUpdate) -> Result<WorldInfo, Fault> {
+        self.working()?;
+        if let Some(speed) = u.speed.filter(|_| !self.paused) {
+            let rate = self.settings.rate_hz;
+            self.budget.would_set_pace(&self.account, rate * speed)?;
+        }
+        let mut info = self.info();
+        u.apply(&mut info.settings.pace);
+        Ok(info)
+    }
+
     /// Changes pace or name.
     pub fn update(&mut self, u: WorldUpdate) -> Result<WorldInfo, Fault> {
         self.working()?;
@@ -240,23 +255,8 @@ impl Shard {
             self.budget
                 .set_pace(&self.account, self.settings.rate_hz * speed)?;
         }
-        let pace = &mut self.settings.pace;
         let timed = u.overrun.is_some() || u.catch_up_limit.is_some() || u.speed.is_some();
-        if let Some(name) = u.display_name {
-            pace.display_name = name;
-        }
-        if let Some(limit) = u.catch_up_limit {
-            pace.catch_up_limit = limit;
-        }
-        if let Some(overrun) = u.overrun {
-            pace.overrun = overrun;
-        }
-        if let Overrun::CatchUp(limit) = &mut pace.overrun {
-            *limit = pace.catch_up_limit;
-        }
-        if let Some(speed) = u.speed {
-            pace.speed = speed;
-        }
+        u.apply(&mut self.settings.pace);
         if timed {
             self.restart_clock();
         }
@@ -322,6 +322,7 @@ impl Shard {
             let f = self.world.figure(m.key);
             f.is_some_and(|f| f.next_clip().is_some() || !f.constraints().is_empty())
         });
+        let passing = passing || self.control_passes();
         let before = std::mem::replace(&mut self.passing, passing);
         if std::mem::replace(&mut self.described, true) && !passing && !before {
             return None;
@@ -329,6 +330,8 @@ impl Shard {
         Some(Arc::new(Described {
             world: self.info(),
             figures: self.figures(),
+            controls: self.controls(),
+            at: Instant::now(),
         }))
     }
 
@@ -348,8 +351,12 @@ impl Shard {
         }
     }
 
-    /// Ends the world after this round of commands; who waits for steps learns why.
-    pub fn close(&mut self, why: Fault) {
+    /// Ends the world after this round of commands; who waits for steps learns why. `by`: who deleted it, for those who
+    /// watch its events.
+    pub fn close(&mut self, why: Fault, by: Option<String>) {
+        if let Some(by) = by {
+            self.world_event(EventKind::Deleted(by));
+        }
         self.closing.get_or_insert(why);
     }
 
@@ -421,6 +428,7 @@ impl Shard {
 
     /// Events since the last call.
     pub(super) fn take_events(&mut self) -> Vec<WorldEvent> {
+        self.tell_clips();
         std::mem::take(&mut self.events)
     }
 

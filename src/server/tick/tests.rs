@@ -87,7 +87,7 @@ impl Running {
 
     /// Waits until it has ended.
     fn end(self) {
-        self.send(|s| s.close(Fault::Draining));
+        self.send(|s| s.close(Fault::Draining, None));
         while self.added.closed.has_changed().is_ok() {
             std::thread::yield_now();
         }

@@ -1,5 +1,6 @@
 //! Worlds by name.
 
 pub mod registry;
+pub mod usage;
 
 pub use registry::{Registry, WorldHandle};

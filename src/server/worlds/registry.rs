@@ -14,9 +14,10 @@ use crate::server::tick::planners::Planners;
 use crate::server::tick::scheduler::{Added, Plan, Priority, Scheduler, Ticket};
 use crate::server::tick::shard::{Limits, Restored, Shard};
 use crate::server::tick::stage_times::{Percentiles, STAGES};
+use crate::server::worlds::usage::Usage;
 use crate::sim::body::Body;
 use crate::wire::status::Fault;
-use crate::wire::types::{Described, FigureInfo, Snapshot, WorldInfo, WorldSettings};
+use crate::wire::types::{ControlInfo, Described, FigureInfo, Snapshot, WorldInfo, WorldSettings};
 use std::collections::{BTreeMap, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
@@ -45,6 +46,8 @@ pub struct WorldHandle {
     pub refused: AtomicU64,
     /// Viewers.
     pub viewers: AtomicI64,
+    /// When it was used last.
+    pub usage: Usage,
     /// Who has which roles in it.
     pub grants: Grants,
     /// Who created it.
@@ -255,6 +258,7 @@ impl WorldHandle {
         f: impl FnOnce(&mut Shard) -> Result<T, Fault> + Send + 'static,
     ) -> Result<T, Fault> {
         let (tx, rx) = oneshot::channel();
+        let _in_use = self.usage.begin();
         self.send(origin, move |shard| {
             let done = catch_unwind(AssertUnwindSafe(|| f(shard)));
             match done {
@@ -303,6 +307,21 @@ impl WorldHandle {
         found.ok_or_else(|| {
             Fault::not_found("figure", format!("worlds/{}/figures/{figure}", self.id))
         })
+    }
+
+    /// Who controls a figure.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn control(&self, figure: &str) -> Result<ControlInfo, Fault> {
+        let described = self.described();
+        let found = described.controls.iter().find(|c| c.figure == figure);
+        let mut info = found.cloned().ok_or_else(|| {
+            Fault::not_found("figure", format!("worlds/{}/figures/{figure}", self.id))
+        })?;
+        let since = described.at.elapsed();
+        info.expires_in = info.expires_in.map(|left| left.saturating_sub(since));
+        Ok(info)
     }
 
     /// The body of a figure, and the last part of its name.
@@ -437,14 +456,13 @@ impl Registry {
         self.start(id, (settings, Some(from)), paused, owner)
     }
 
-    fn start(
+    /// The name of a new world, one that is free if none is given; there must be room for it.
+    fn admit(
         &self,
+        worlds: &BTreeMap<String, Arc<WorldHandle>>,
         id: Option<String>,
-        (settings, from): (WorldSettings, Option<Restored>),
-        paused: bool,
-        (owner, grants): (Client, Vec<Grant>),
-    ) -> Result<Arc<WorldHandle>, Fault> {
-        let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
+        owner: &Client,
+    ) -> Result<String, Fault> {
         if self.draining.load(Ordering::SeqCst) {
             return Err(Fault::Draining);
         }
@@ -471,18 +489,52 @@ impl Registry {
                 retry: None,
             });
         }
-        let own = worlds.values().filter(|w| w.owner == owner).count() as u64;
+        let own = worlds.values().filter(|w| w.owner == *owner).count() as u64;
         let (most, share) = (self.config.max_worlds, self.config.max_client_share);
         check_part("max_worlds", own, most, share)?;
-        let rate_hz = settings.rate_hz;
-        let name: Arc<str> = id.as_str().into();
+        Ok(id)
+    }
+
+    /// The world that [`Self::create`] would create.
+    ///
+    /// # Errors
+    /// Its own.
+    pub fn would_create(
+        &self,
+        id: Option<String>,
+        settings: WorldSettings,
+        paused: bool,
+        owner: &Client,
+    ) -> Result<WorldInfo, Fault> {
+        let worlds = self.worlds.read().unwrap_or_else(PoisonError::into_inner);
+        let id = self.admit(&worlds, id, owner)?;
+        self.shard(id.as_str().into(), settings, paused)
+            .map(|shard| shard.info())
+    }
+
+    /// A world that has no thread yet.
+    fn shard(&self, id: Arc<str>, settings: WorldSettings, paused: bool) -> Result<Shard, Fault> {
         let limits = Limits {
             figures: self.config.max_figures_per_world,
             window: self.config.live_window_ms / 1e3,
         };
         let planners = Arc::clone(&self.planners);
         let budget = Arc::clone(&self.budget);
-        let mut shard = Shard::new(name.clone(), settings, paused, limits, planners, budget)?;
+        Shard::new(id, settings, paused, limits, planners, budget)
+    }
+
+    fn start(
+        &self,
+        id: Option<String>,
+        (settings, from): (WorldSettings, Option<Restored>),
+        paused: bool,
+        (owner, grants): (Client, Vec<Grant>),
+    ) -> Result<Arc<WorldHandle>, Fault> {
+        let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
+        let id = self.admit(&worlds, id, &owner)?;
+        let rate_hz = settings.rate_hz;
+        let name: Arc<str> = id.as_str().into();
+        let mut shard = self.shard(name.clone(), settings, paused)?;
         if let Some(from) = from {
             shard.restore(from)?;
         }
@@ -516,6 +568,7 @@ impl Registry {
             dropped: AtomicU64::new(0),
             refused: AtomicU64::new(0),
             viewers: AtomicI64::new(0),
+            usage: Usage::default(),
             commands,
             ticket,
             draining: Arc::clone(&self.ending),
@@ -568,13 +621,31 @@ impl Registry {
             .collect()
     }
 
-    /// Ends a world and waits until it has ended.
+    /// Ends a world and waits until it has ended. `by`: who wants it, or why, for those who watch its
+    /// events.
     ///
     /// # Errors
     /// There is none of that name.
-    pub async fn delete(&self, id: &str) -> Result<(), Fault> {
+    pub async fn delete(&self, id: &str, by: &str) -> Result<(), Fault> {
+        self.delete_if(id, by, |_| true).await.map(|_| ())
+    }
+
+    /// Ends a world if `still` says so once nobody can get hold of it any more; false if it goes on.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub async fn delete_if(
+        &self,
+        id: &str,
+        by: &str,
+        still: impl FnOnce(&WorldHandle) -> bool,
+    ) -> Result<bool, Fault> {
         let handle = {
             let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
+            let found = worlds.get(id).ok_or_else(|| self.missing(id))?;
+            if !still(found) {
+                return Ok(false);
+            }
             let handle = worlds.remove(id).ok_or_else(|| self.missing(id))?;
             metrics::gauge!("sinew_worlds").set(worlds.len() as f64);
             handle
@@ -583,9 +654,9 @@ impl Registry {
             reason: "WORLD_DELETED",
             message: "the world was deleted before its steps were done".into(),
         };
-        end(&handle, why).await;
-        tracing::info!(world = id, "world deleted");
-        Ok(())
+        end(&handle, why, Some(by)).await;
+        tracing::info!(world = id, by, "world deleted");
+        Ok(true)
     }
 
     /// Ends all worlds; none can be created afterwards.
@@ -596,20 +667,22 @@ impl Registry {
             self.ending.store(true, Ordering::SeqCst);
             std::mem::take(&mut *worlds)
         };
-        let ends = all.values().map(|handle| end(handle, Fault::Draining));
+        let ends = all
+            .values()
+            .map(|handle| end(handle, Fault::Draining, None));
         futures_util::future::join_all(ends).await;
     }
 }
 
-async fn end(handle: &WorldHandle, why: Fault) {
+async fn end(handle: &WorldHandle, why: Fault, by: Option<&str>) {
     // A full queue must not keep the world alive; it drains within a tick.
     let origin = Origin {
         client: "".into(),
         sequence: i64::MIN,
     };
     loop {
-        let why = why.clone();
-        let sent = handle.send(origin.clone(), |s| s.close(why));
+        let (why, by) = (why.clone(), by.map(str::to_owned));
+        let sent = handle.send(origin.clone(), |s| s.close(why, by));
         if !matches!(sent, Err(Fault::Exhausted { .. })) {
             break;
         }

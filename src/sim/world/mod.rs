@@ -263,15 +263,24 @@ impl World {
         self.figures.iter().map(|(k, f)| (*k, &**f))
     }
 
+    /// Checks an obstacle that is to be put into the world (`new`), or in the place of another one.
+    ///
+    /// # Errors
+    /// As [`Self::add_obstacle`].
+    pub fn check_obstacle(&self, setup: &ObstacleSetup, new: bool) -> Result<(), WorldError> {
+        validate::obstacle(setup)?;
+        if new && self.obstacles.len() >= MAX_OBSTACLES {
+            return Err(WorldError::TooManyObstacles);
+        }
+        Ok(())
+    }
+
     /// Puts an obstacle into the world.
     ///
     /// # Errors
     /// [`WorldError::Range`] naming the field, a plane that is to move freely, or no room.
     pub fn add_obstacle(&mut self, setup: ObstacleSetup) -> Result<ObstacleKey, WorldError> {
-        validate::obstacle(&setup)?;
-        if self.obstacles.len() >= MAX_OBSTACLES {
-            return Err(WorldError::TooManyObstacles);
-        }
+        self.check_obstacle(&setup, true)?;
         let key = ObstacleKey(self.next_obstacle);
         self.next_obstacle += 1;
         self.obstacles.push((key, Obstacle::new(setup)));
@@ -287,7 +296,7 @@ impl World {
         key: ObstacleKey,
         setup: ObstacleSetup,
     ) -> Result<(), WorldError> {
-        validate::obstacle(&setup)?;
+        self.check_obstacle(&setup, false)?;
         let found = self.obstacles.iter_mut().find(|(k, _)| *k == key);
         let (_, old) = found.ok_or(WorldError::UnknownObstacle(key))?;
         *old = Obstacle::new(setup);

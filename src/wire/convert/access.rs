@@ -2,7 +2,9 @@
 
 use super::super::pb;
 use super::super::status::Fault;
-use super::{mask_paths, shortened, within};
+use super::masks::Fields;
+pub use super::names::grant_name;
+use super::{shortened, within};
 use std::time::SystemTime;
 
 /// Entries of the list of roles: more than there are.
@@ -11,8 +13,6 @@ pub const MOST_ROLES: usize = 8;
 const MOST_FIGURES: usize = 64;
 /// Bytes of a principal.
 const MOST_PRINCIPAL: usize = 256;
-/// Fields that an update may name.
-const MASK: [&str; 5] = ["roles", "figures", "bounds", "max_priority", "expire_time"];
 
 /// To whom a grant is.
 pub fn principal<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
@@ -61,7 +61,7 @@ pub fn bounds(
         value.map(|v| within(&at, v, least, most)).transpose()
     };
     Ok(Some([
-        checked("max_force_n", b.max_force_n, 0.0, 1e6)?,
+        checked("max_force_newtons", b.max_force_newtons, 0.0, 1e6)?,
         checked("max_mass_kg", b.max_mass_kg, 0.0, 500.0)?,
         checked("max_rate_hz", b.max_rate_hz, 0.01, 1000.0)?,
     ]))
@@ -69,10 +69,10 @@ pub fn bounds(
 
 /// Bounds for a response.
 pub fn bounds_out(
-    [max_force_n, max_mass_kg, max_rate_hz]: [Option<f64>; 3],
+    [max_force_newtons, max_mass_kg, max_rate_hz]: [Option<f64>; 3],
 ) -> pb::PerturbationBounds {
     pb::PerturbationBounds {
-        max_force_n,
+        max_force_newtons,
         max_mass_kg,
         max_rate_hz,
     }
@@ -107,37 +107,24 @@ pub fn time(field: &str, at: Option<prost_types::Timestamp>) -> Result<Option<Sy
     time.map_err(|_| Fault::invalid(field, "must be a time"))
 }
 
-/// The paths of an update mask.
-pub fn mask(mask: Option<&prost_types::FieldMask>) -> Result<&[String], Fault> {
-    let paths = mask_paths(mask)?;
-    for (i, path) in paths.iter().enumerate() {
-        if !MASK.contains(&path.as_str()) {
-            return Err(Fault::invalid(
-                format!("update_mask.paths[{i}]"),
-                format!(
-                    "must be one of {}, got {:?}",
-                    MASK.join(", "),
-                    shortened(path)
-                ),
-            ));
-        }
+/// The fields that an update takes.
+///
+/// # Errors
+/// The mask names something else.
+pub fn taken(
+    g: &pb::Grant,
+    mask: Option<&prost_types::FieldMask>,
+) -> Result<Vec<&'static str>, Fault> {
+    Fields {
+        settable: &[
+            ("roles", !g.roles.is_empty()),
+            ("figure_ids", !g.figure_ids.is_empty()),
+            ("bounds", g.bounds.is_some()),
+            ("max_priority", g.max_priority != 0),
+            ("expire_time", g.expire_time.is_some()),
+        ],
+        fixed: &["principal"],
+        output: &["name", "create_time", "etag"],
     }
-    Ok(paths)
-}
-
-/// World and grant of `worlds/{world}/grants/{grant}`.
-pub fn grant_name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault> {
-    let parts: Vec<&str> = name.splitn(5, '/').collect();
-    match parts[..] {
-        ["worlds", world, "grants", grant] if !world.is_empty() && !grant.is_empty() => {
-            Ok((world, grant))
-        }
-        _ => Err(Fault::invalid(
-            field,
-            format!(
-                "must be a resource name worlds/{{world}}/grants/{{grant}}, got {:?}",
-                shortened(name)
-            ),
-        )),
-    }
+    .taken(mask)
 }

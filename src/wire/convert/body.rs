@@ -3,6 +3,7 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::BodyRef;
+use super::names::BODY;
 use super::{shortened, vector_out};
 use crate::sim::body::names::DEFAULT_BODY;
 use crate::sim::body::provenance::Provenance;
@@ -25,7 +26,7 @@ pub fn by_id(id: &str) -> Option<BodyRef> {
 
 /// The body of a resource name.
 pub fn by_name(field: &str, name: &str) -> Result<BodyRef, Fault> {
-    let id = super::last_part(field, name, "bodies/{body}", "bodies/")?;
+    let [id] = BODY.ids(field, name)?;
     by_id(id).ok_or_else(|| Fault::not_found("body", shortened(name)))
 }
 
@@ -43,7 +44,7 @@ pub fn reference(
             "must be absent when the body is given by name",
         )),
         (false, None) => by_name(field, name),
-        (true, None) => by_name(field, &format!("bodies/{DEFAULT_BODY}")),
+        (true, None) => by_name(field, &BODY.name([DEFAULT_BODY])),
         (true, Some(p)) => {
             let sex = match pb::Sex::try_from(p.sex) {
                 Ok(pb::Sex::Male) => Sex::Male,
@@ -96,7 +97,7 @@ pub fn profile_out(p: &Profile) -> pb::BodyProfile {
 /// Name and profile only.
 pub fn brief(body: &BodyRef) -> pb::Body {
     pb::Body {
-        name: format!("bodies/{}", body.id),
+        name: BODY.name([&body.id]),
         profile: Some(profile_out(&body.profile)),
         ..Default::default()
     }
@@ -156,7 +157,7 @@ pub fn describe(id: &str, body: &Body, geometry: bool) -> pb::Body {
         armature_kgm2: body.armature[d],
     };
     pb::Body {
-        name: format!("bodies/{id}"),
+        name: BODY.name([id]),
         profile: Some(profile_out(&body.profile)),
         segments: (0..SEGMENT_COUNT).map(segment).collect(),
         joints: (0..SEGMENT_COUNT).map(joint).collect(),

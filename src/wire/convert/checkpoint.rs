@@ -1,8 +1,9 @@
 //! Checkpoints of worlds.
 
-use super::{shortened, timestamp};
+use super::names::CHECKPOINT;
+pub use super::names::checkpoint_name;
+use super::timestamp;
 use crate::wire::pb;
-use crate::wire::status::Fault;
 use std::time::SystemTime;
 
 /// What a checkpoint is told by.
@@ -26,31 +27,11 @@ pub struct CheckpointInfo<'a> {
 pub fn checkpoint_out(c: &CheckpointInfo<'_>) -> pb::Checkpoint {
     let (world, id) = c.name;
     pb::Checkpoint {
-        name: format!("worlds/{world}/checkpoints/{id}"),
+        name: CHECKPOINT.name([world, id]),
         tick: c.tick as i64,
         time_s: c.time,
         state_hash: c.hash as i64,
         size_bytes: c.size as i64,
         create_time: Some(timestamp(c.created)),
-    }
-}
-
-/// World and checkpoint of `worlds/{world}/checkpoints/{checkpoint}`.
-///
-/// # Errors
-/// It is not such a name.
-pub fn checkpoint_name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault> {
-    let parts: Vec<&str> = name.splitn(5, '/').collect();
-    match parts[..] {
-        ["worlds", world, "checkpoints", id] if !world.is_empty() && !id.is_empty() => {
-            Ok((world, id))
-        }
-        _ => Err(Fault::invalid(
-            field,
-            format!(
-                "must be a resource name worlds/{{world}}/checkpoints/{{checkpoint}}, got {:?}",
-                shortened(name)
-            ),
-        )),
     }
 }

@@ -4,6 +4,7 @@ use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{ControlInfo, ControlKey};
 use super::motion::MAX_DRIVEN_FIGURES;
+use super::names::FIGURE;
 use super::{or_default, timestamp, within};
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
@@ -75,7 +76,7 @@ pub fn offer(blend_ms: f64, offer_ms: f64) -> Result<(f64, Duration), Fault> {
 pub fn lease(world: &str, c: &ControlInfo) -> pb::ControlLease {
     let text = |t: &Option<Arc<str>>| t.as_deref().unwrap_or_default().to_owned();
     pb::ControlLease {
-        figure: format!("worlds/{world}/figures/{}", c.figure),
+        figure: FIGURE.name([world, &c.figure]),
         holder: text(&c.holder),
         control_epoch: c.epoch,
         priority: c.priority,

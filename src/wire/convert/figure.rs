@@ -3,7 +3,11 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{FigureInfo, FigureSettings, FigureUpdate};
-use super::{body, constraint, display_name, or_default, place, place_out, shortened, within};
+use super::masks::Fields;
+use super::names::{BODY, CLIP, FIGURE};
+use super::{
+    body, constraint, display_name, etags, or_default, place, place_out, shortened, within,
+};
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::figure::{
     ControlParams, ControllerKind, FigureOptions, Metric, Priority, Share, StepperKind,
@@ -190,9 +194,23 @@ pub fn update(
     f: &pb::Figure,
     mask: Option<&prost_types::FieldMask>,
 ) -> Result<FigureUpdate, Fault> {
+    let fields = Fields {
+        settable: &[
+            ("display_name", !f.display_name.is_empty()),
+            ("strength", f.strength.is_some()),
+            ("controller", f.controller != 0),
+            ("fatigue_time_scale", f.fatigue_time_scale != 0.0),
+            ("assist", f.assist != 0.0),
+            ("paper", f.paper.is_some()),
+            ("constraints", !f.constraints.is_empty()),
+            ("protective_steps", f.protective_steps.is_some()),
+        ],
+        fixed: &["body", "profile", "stepper", "placement"],
+        output: &["name", "status", "etag"],
+    };
     let mut out = FigureUpdate::default();
-    for (i, path) in super::mask_paths(mask)?.iter().enumerate() {
-        match path.as_str() {
+    for field in fields.taken(mask)? {
+        match field {
             "display_name" => {
                 out.display_name = Some(display_name("figure.display_name", &f.display_name)?)
             }
@@ -207,17 +225,7 @@ pub fn update(
                 out.constraints = Some(constraint::list("figure.constraints", &f.constraints)?);
             }
             "protective_steps" => out.protective_steps = Some(f.protective_steps.unwrap_or(true)),
-            "assist" => out.assist = Some(within("figure.assist", f.assist, 0.0, 1.0)?),
-            other => {
-                return Err(Fault::invalid(
-                    format!("update_mask.paths[{i}]"),
-                    format!(
-                        "must be display_name, strength, controller, paper, fatigue_time_scale, assist, constraints or \
-                         protective_steps, got {:?}",
-                        shortened(other)
-                    ),
-                ));
-            }
+            _ => out.assist = Some(within("figure.assist", f.assist, 0.0, 1.0)?),
         }
     }
     Ok(out)
@@ -225,17 +233,25 @@ pub fn update(
 
 /// Resource name of a clip, if there is one.
 fn clip_resource(id: &Option<String>) -> String {
-    id.as_ref()
-        .map_or_else(String::new, |c| format!("clips/{c}"))
+    id.as_ref().map_or_else(String::new, |c| CLIP.name([c]))
+}
+
+/// Checks the etag of a request, if it has one.
+///
+/// # Errors
+/// The figure has changed.
+pub fn check_etag(now: &FigureInfo, sent: &str) -> Result<(), Fault> {
+    let name = FIGURE.name([&now.world, &now.id]);
+    etags::check(&name, sent, || figure_out(now).etag)
 }
 
 /// A figure for a response.
 pub fn figure_out(f: &FigureInfo) -> pb::Figure {
     let s = &f.settings;
-    pb::Figure {
-        name: format!("worlds/{}/figures/{}", f.world, f.id),
+    let mut out = pb::Figure {
+        name: FIGURE.name([&f.world, &f.id]),
         display_name: s.display_name.clone(),
-        body: format!("bodies/{}", s.body.id),
+        body: BODY.name([&s.body.id]),
         profile: Some(body::profile_out(&s.body.profile)),
         strength: Some(pb::StrengthScale {
             all: s.strength.all,
@@ -265,16 +281,21 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         }
         .into(),
         placement: Some(place_out(s.place)),
-        clip: clip_resource(&f.clip),
-        next_clip: clip_resource(&f.next_clip),
-        driver_id: f.driver.clone().unwrap_or_default(),
-        figure_index: f.index,
+        status: Some(pb::FigureStatus {
+            clip: clip_resource(&f.clip),
+            next_clip: clip_resource(&f.next_clip),
+            driver_id: f.driver.clone().unwrap_or_default(),
+            figure_index: f.index,
+        }),
         fatigue_time_scale: s.options.fatigue_time_scale,
         assist: s.options.assist,
         paper: Some(paper_out(&s.params)),
         constraints: f.constraints.iter().map(constraint::out).collect(),
         protective_steps: Some(s.params.protective_steps),
-    }
+        etag: String::new(),
+    };
+    out.etag = etags::figure(&out);
+    out
 }
 
 #[cfg(test)]

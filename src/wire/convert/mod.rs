@@ -6,14 +6,21 @@ pub mod body;
 pub mod checkpoint;
 pub mod constraint;
 pub mod control;
+pub mod etags;
 pub mod figure;
+pub mod masks;
 pub mod motion;
+pub mod names;
 pub mod obstacle;
+mod pages;
 pub mod perturbation;
 pub mod server;
 pub mod simulation;
 pub mod state;
 pub mod world;
+
+pub use names::{clip_name, figure_name, obstacle_name, operation_name, world_name};
+pub use pages::page;
 
 use super::pb;
 use super::status::Fault;
@@ -125,18 +132,6 @@ pub fn place_out(p: Place) -> pb::Placement {
     }
 }
 
-/// The paths of an update mask; it must name some.
-pub(crate) fn mask_paths(mask: Option<&prost_types::FieldMask>) -> Result<&[String], Fault> {
-    let paths = mask.map(|m| m.paths.as_slice()).unwrap_or_default();
-    if paths.is_empty() {
-        return Err(Fault::invalid(
-            "update_mask",
-            "must name at least one field",
-        ));
-    }
-    Ok(paths)
-}
-
 /// A name for people.
 pub(crate) fn display_name(field: &str, name: &str) -> Result<String, Fault> {
     if name.len() > 128 {
@@ -193,78 +188,6 @@ pub(crate) fn shortened(text: &str) -> &str {
     }
 }
 
-fn last_part<'a>(
-    field: &str,
-    name: &'a str,
-    pattern: &str,
-    prefix: &str,
-) -> Result<&'a str, Fault> {
-    match name.strip_prefix(prefix) {
-        Some(rest) if !rest.is_empty() && !rest.contains('/') => Ok(rest),
-        _ => Err(Fault::invalid(
-            field,
-            format!(
-                "must be a resource name {pattern}, got {:?}",
-                shortened(name)
-            ),
-        )),
-    }
-}
-
-/// Last part of `worlds/{world}`.
-pub fn world_name<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
-    last_part(field, name, "worlds/{world}", "worlds/")
-}
-
-/// Last part of `clips/{clip}`.
-pub fn clip_name<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
-    last_part(field, name, "clips/{clip}", "clips/")
-}
-
-/// World and figure of `worlds/{world}/figures/{figure}`.
-pub fn figure_name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault> {
-    let parts: Vec<&str> = name.splitn(5, '/').collect();
-    match parts[..] {
-        ["worlds", world, "figures", figure] if !world.is_empty() && !figure.is_empty() => {
-            Ok((world, figure))
-        }
-        _ => Err(Fault::invalid(
-            field,
-            format!(
-                "must be a resource name worlds/{{world}}/figures/{{figure}}, got {:?}",
-                shortened(name)
-            ),
-        )),
-    }
-}
-
-/// Page of a sorted list: the items after `page_token` and the token of the next page.
-pub fn page<T>(
-    items: Vec<(String, T)>,
-    page_size: i32,
-    page_token: &str,
-) -> Result<(Vec<T>, String), Fault> {
-    let size = count("page_size", page_size, 100, 1, 1000)? as usize;
-    let from = if page_token.is_empty() {
-        0
-    } else {
-        // A token is the key of the last item of the page before; items may have come and gone since.
-        items.partition_point(|(key, _)| key.as_str() <= page_token)
-    };
-    let more = items.len() > from + size;
-    let mut last = String::new();
-    let page = items
-        .into_iter()
-        .skip(from)
-        .take(size)
-        .map(|(key, item)| {
-            last = key;
-            item
-        })
-        .collect();
-    Ok((page, if more { last } else { String::new() }))
-}
-
 /// A point in time for a response.
 pub fn timestamp(t: std::time::SystemTime) -> prost_types::Timestamp {
     t.into()
@@ -275,32 +198,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_taken_apart_or_refused() {
-        assert_eq!(world_name("name", "worlds/a").unwrap(), "a");
-        assert_eq!(
-            figure_name("name", "worlds/a/figures/b").unwrap(),
-            ("a", "b")
-        );
-        for bad in ["", "worlds/", "worlds/a/figures", "world/a", "worlds/a/b"] {
-            assert!(
-                matches!(world_name("name", bad), Err(Fault::Invalid { field, .. }) if field == "name"),
-                "{bad}"
-            );
-            assert!(figure_name("name", bad).is_err(), "{bad}");
+    fn new_names_are_short_and_plain() {
+        for bad in ["Ä", "-a", "1a", "a/b", &"a".repeat(64)] {
+            assert!(new_id("world_id", bad).is_err(), "{bad}");
         }
-        assert!(new_id("world_id", "Ä").is_err());
-        assert!(new_id("world_id", "-a").is_err());
         assert_eq!(new_id("world_id", "a-1").unwrap().as_deref(), Some("a-1"));
-    }
-
-    #[test]
-    fn pages_continue_where_the_last_one_ended() {
-        let items = || (0..5).map(|i| (format!("k{i}"), i)).collect::<Vec<_>>();
-        let (first, token) = page(items(), 2, "").unwrap();
-        assert_eq!((first, token.as_str()), (vec![0, 1], "k1"));
-        let (rest, token) = page(items(), 3, &token).unwrap();
-        assert_eq!((rest, token.as_str()), (vec![2, 3, 4], ""));
-        assert!(page(items(), -1, "").is_err());
+        assert_eq!(new_id("world_id", "").unwrap(), None);
     }
 
     #[test]

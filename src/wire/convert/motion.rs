@@ -7,6 +7,7 @@ use super::super::types::{
     BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, ForecastInfo,
     ForecastVerdict, MotionSample, MotionSource, Playback, ReadingReport, Supply,
 };
+use super::names::{BODY, CLIP};
 use super::{
     WORLD_EXTENT, client_id, or_default, place, rotation, shortened, timestamp, vector, within,
 };
@@ -136,19 +137,19 @@ pub fn drive_open(
 ) -> Result<DriveOpen, Fault> {
     let at = |part: &str| format!("{field}.{part}");
     let world = super::world_name(&at("world"), &h.world)?.to_owned();
-    if h.figures.is_empty() || h.figures.len() > MAX_DRIVEN_FIGURES {
+    if h.figure_ids.is_empty() || h.figure_ids.len() > MAX_DRIVEN_FIGURES {
         return Err(Fault::invalid(
-            at("figures"),
+            at("figure_ids"),
             format!(
                 "must name 1…{MAX_DRIVEN_FIGURES} figures, got {}",
-                h.figures.len()
+                h.figure_ids.len()
             ),
         ));
     }
-    for (i, name) in h.figures.iter().enumerate() {
-        if h.figures[..i].contains(name) {
+    for (i, name) in h.figure_ids.iter().enumerate() {
+        if h.figure_ids[..i].contains(name) {
             return Err(Fault::invalid(
-                at(&format!("figures[{i}]")),
+                at(&format!("figure_ids[{i}]")),
                 format!("{:?} is named twice", shortened(name)),
             ));
         }
@@ -182,7 +183,7 @@ pub fn drive_open(
     Ok(DriveOpen {
         who: super::control::key(principal, &at("control_tokens"), &h.control_tokens)?,
         world,
-        figures: h.figures.clone(),
+        figures: h.figure_ids.clone(),
         driver: client_id(&at("driver_id"), &h.driver_id)?,
         settings: DriveSettings {
             rate_hz: or_default(&at("nominal_rate_hz"), h.nominal_rate_hz, 60.0, 1.0, 1000.0)?,
@@ -399,23 +400,26 @@ pub fn batch(
         let mut samples: Vec<FigureSample> = Vec::with_capacity(frame.figures.len());
         for (j, m) in frame.figures.iter().enumerate() {
             let at = format!("{at}.figures[{j}]");
-            let slot = if m.figure.is_empty() && figures.len() == 1 {
+            let slot = if m.figure_id.is_empty() && figures.len() == 1 {
                 0
             } else {
-                figures.iter().position(|f| *f == m.figure).ok_or_else(|| {
-                    Fault::invalid(
-                        format!("{at}.figure"),
-                        format!(
-                            "must be a figure of the header, got {:?}",
-                            shortened(&m.figure)
-                        ),
-                    )
-                })?
+                figures
+                    .iter()
+                    .position(|f| *f == m.figure_id)
+                    .ok_or_else(|| {
+                        Fault::invalid(
+                            format!("{at}.figure_id"),
+                            format!(
+                                "must be a figure of the header, got {:?}",
+                                shortened(&m.figure_id)
+                            ),
+                        )
+                    })?
             };
             if samples.iter().any(|s| s.slot == slot) {
                 return Err(Fault::invalid(
-                    format!("{at}.figure"),
-                    format!("{:?} is given twice", shortened(&m.figure)),
+                    format!("{at}.figure_id"),
+                    format!("{:?} is given twice", shortened(&m.figure_id)),
                 ));
             }
             samples.push(figure_sample(&at, slot, m)?);
@@ -440,7 +444,7 @@ pub fn feedback_out(f: &Feedback) -> pb::DriveFeedback {
             .figures
             .iter()
             .map(|g| pb::FigureFeedback {
-                figure: g.figure.clone(),
+                figure_id: g.figure.clone(),
                 applied_sequence: g.applied_sequence,
                 applied_source_time_ns: g.applied_source_ns,
                 buffered_ms: g.buffered * 1e3,
@@ -488,7 +492,7 @@ pub fn report_out(r: &ReadingReport) -> pb::RetargetReport {
         sides_swapped: r.sides_swapped,
         scale: r.scale,
         source_rate_hz: r.source_rate_hz,
-        run_speed_m_s: r.run_speed,
+        run_speed_mps: r.run_speed,
         runs_walked: r.runs_walked,
         unit_m: r.unit_m,
         up_axis: r.up_axis.clone(),
@@ -523,10 +527,10 @@ pub fn report_out(r: &ReadingReport) -> pb::RetargetReport {
 /// A clip for a response.
 pub fn clip_out(c: &ClipInfo, with_report: bool) -> pb::Clip {
     pb::Clip {
-        name: format!("clips/{}", c.id),
+        name: CLIP.name([&c.id]),
         display_name: c.display_name.clone(),
         builtin: c.builtin,
-        body: format!("bodies/{}", c.body),
+        body: BODY.name([&c.body]),
         rate_hz: c.rate_hz,
         frame_count: c.frames as i32,
         duration_s: c.duration,
@@ -581,7 +585,7 @@ pub fn figure_motion(
 ) -> pb::FigureMotion {
     let (p, q) = (posture.root_position, posture.root_rotation);
     pb::FigureMotion {
-        figure: figure.to_owned(),
+        figure_id: figure.to_owned(),
         root: Some(pb::Pose {
             position_m: Some(super::vector_out(p)),
             rotation: Some(pb::Quaternion {

@@ -2,8 +2,10 @@
 
 use super::super::pb;
 use super::super::status::Fault;
-use super::super::types::ObstacleInfo;
-use super::{WORLD_EXTENT, rotation, shortened, vector, vector_out, within};
+use super::super::types::{FREE_PLANE, ObstacleInfo, ObstacleMobility, ObstacleUpdate};
+use super::masks::Fields;
+use super::names::OBSTACLE;
+use super::{WORLD_EXTENT, etags, rotation, vector, vector_out, within};
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::math::{Quat, Vec3};
 
@@ -58,75 +60,144 @@ fn shape(field: &str, s: Option<&pb::obstacle::Shape>) -> Result<Shape, Fault> {
     })
 }
 
+fn mobility(field: &str, value: i32) -> Result<ObstacleMobility, Fault> {
+    match pb::ObstacleMobility::try_from(value) {
+        Ok(pb::ObstacleMobility::Unspecified | pb::ObstacleMobility::Fixed) => {
+            Ok(ObstacleMobility::Fixed)
+        }
+        Ok(pb::ObstacleMobility::Led) => Ok(ObstacleMobility::Led),
+        Ok(pb::ObstacleMobility::Free) => Ok(ObstacleMobility::Free),
+        Err(_) => Err(Fault::invalid(
+            format!("{field}.mobility"),
+            format!("{value} is not a mobility"),
+        )),
+    }
+}
+
+fn mass(field: &str, value: f64) -> Result<f64, Fault> {
+    within(&format!("{field}.mass_kg"), value, 0.01, 10_000.0)
+}
+
+fn friction(field: &str, o: &pb::Obstacle) -> Result<f64, Fault> {
+    let value = o.friction.unwrap_or(FRICTION);
+    within(&format!("{field}.friction"), value, 0.05, 2.0)
+}
+
+fn pose(field: &str, o: &pb::Obstacle) -> Result<(Vec3, Quat), Fault> {
+    let pose = o.pose.unwrap_or_default();
+    let position = pose.position_m.unwrap_or_default();
+    let at = |part: &str| format!("{field}.pose.{part}");
+    Ok((
+        vector(&at("position_m"), position, WORLD_EXTENT)?,
+        match pose.rotation {
+            None => Quat::identity(),
+            Some(q) => rotation(&at("rotation"), q)?,
+        },
+    ))
+}
+
+fn motion(field: &str, name: &str, v: Option<pb::Vector3>) -> Result<Vec3, Fault> {
+    vector(&format!("{field}.{name}"), v.unwrap_or_default(), FASTEST)
+}
+
 /// An obstacle of a request.
 pub fn setup(field: &str, o: Option<&pb::Obstacle>) -> Result<ObstacleSetup, Fault> {
     let o = o.ok_or_else(|| Fault::invalid(field, "must be given"))?;
     let shape = shape(field, o.shape.as_ref())?;
-    let mobility = match pb::ObstacleMobility::try_from(o.mobility) {
-        Ok(pb::ObstacleMobility::Unspecified | pb::ObstacleMobility::Fixed) => Mobility::Fixed,
-        Ok(pb::ObstacleMobility::Led) => Mobility::Led,
-        Ok(pb::ObstacleMobility::Free) if shape == Shape::Plane => {
-            return Err(Fault::invalid(
-                format!("{field}.mobility"),
-                "a plane cannot move freely",
-            ));
+    let mobility = match mobility(field, o.mobility)? {
+        ObstacleMobility::Fixed => Mobility::Fixed,
+        ObstacleMobility::Led => Mobility::Led,
+        ObstacleMobility::Free if shape == Shape::Plane => {
+            return Err(Fault::invalid(format!("{field}.mobility"), FREE_PLANE));
         }
-        Ok(pb::ObstacleMobility::Free) => Mobility::Free(within(
-            &format!("{field}.mass_kg"),
-            o.mass_kg,
-            0.01,
-            10_000.0,
-        )?),
-        Err(_) => {
-            return Err(Fault::invalid(
-                format!("{field}.mobility"),
-                format!("{} is not a mobility", o.mobility),
-            ));
-        }
+        ObstacleMobility::Free => Mobility::Free(mass(field, o.mass_kg)?),
     };
-    let pose = o.pose.unwrap_or_default();
-    let motion = |name: &str, v: Option<pb::Vector3>| {
-        vector(&format!("{field}.{name}"), v.unwrap_or_default(), FASTEST)
-    };
+    let (position, rotation) = pose(field, o)?;
     Ok(ObstacleSetup {
         name: String::new(),
         shape,
         mobility,
-        friction: within(
-            &format!("{field}.friction"),
-            o.friction.unwrap_or(FRICTION),
-            0.05,
-            2.0,
-        )?,
-        position: vector(
-            &format!("{field}.pose.position_m"),
-            pose.position_m.unwrap_or_default(),
-            WORLD_EXTENT,
-        )?,
-        rotation: match pose.rotation {
-            None => Quat::identity(),
-            Some(q) => rotation(&format!("{field}.pose.rotation"), q)?,
-        },
-        velocity: motion("velocity_mps", o.velocity_mps)?,
-        angular_velocity: motion("angular_velocity_radps", o.angular_velocity_radps)?,
+        friction: friction(field, o)?,
+        position,
+        rotation,
+        velocity: motion(field, "velocity_mps", o.velocity_mps)?,
+        angular_velocity: motion(field, "angular_velocity_rad_s", o.angular_velocity_rad_s)?,
     })
 }
 
-/// World and obstacle of `worlds/{world}/obstacles/{obstacle}`.
-pub fn name<'a>(field: &str, name: &'a str) -> Result<(&'a str, &'a str), Fault> {
-    let parts: Vec<&str> = name.splitn(5, '/').collect();
-    match parts[..] {
-        ["worlds", world, "obstacles", id] if !world.is_empty() && !id.is_empty() => {
-            Ok((world, id))
-        }
-        _ => Err(Fault::invalid(
-            field,
-            format!(
-                "must be a resource name worlds/{{world}}/obstacles/{{obstacle}}, got {:?}",
-                shortened(name)
-            ),
-        )),
+/// Changes of an obstacle.
+pub fn update(
+    o: &pb::Obstacle,
+    mask: Option<&prost_types::FieldMask>,
+) -> Result<ObstacleUpdate, Fault> {
+    use pb::obstacle::Shape as S;
+    let given = |name: &str| match &o.shape {
+        Some(S::Sphere(_)) => name == "sphere",
+        Some(S::Capsule(_)) => name == "capsule",
+        Some(S::Box(_)) => name == "box",
+        Some(S::Plane(_)) => name == "plane",
+        None => false,
+    };
+    let shapes = ["sphere", "capsule", "box", "plane"];
+    let taken = Fields {
+        settable: &[
+            ("sphere", given("sphere")),
+            ("capsule", given("capsule")),
+            ("box", given("box")),
+            ("plane", given("plane")),
+            ("mobility", o.mobility != 0),
+            ("mass_kg", o.mass_kg != 0.0),
+            ("friction", o.friction.is_some()),
+            ("pose", o.pose.is_some()),
+            ("velocity_mps", o.velocity_mps.is_some()),
+            ("angular_velocity_rad_s", o.angular_velocity_rad_s.is_some()),
+        ],
+        fixed: &[],
+        output: &["name", "etag"],
     }
+    .taken(mask)?;
+    let has = |name: &str| taken.contains(&name);
+    let field = "obstacle";
+    // An obstacle has one shape: of those that are named the one that is given counts.
+    let shaped = shapes
+        .iter()
+        .copied()
+        .filter(|s| has(s))
+        .collect::<Vec<_>>();
+    let shape = match shaped[..] {
+        [] => None,
+        [named] if !given(named) => {
+            return Err(Fault::invalid(
+                format!("{field}.{named}"),
+                "must be given, as the mask names it",
+            ));
+        }
+        _ => Some(shape(field, o.shape.as_ref())?),
+    };
+    Ok(ObstacleUpdate {
+        shape,
+        mobility: has("mobility")
+            .then(|| mobility(field, o.mobility))
+            .transpose()?,
+        mass: has("mass_kg").then(|| mass(field, o.mass_kg)).transpose()?,
+        friction: has("friction").then(|| friction(field, o)).transpose()?,
+        pose: has("pose").then(|| pose(field, o)).transpose()?,
+        velocity: has("velocity_mps")
+            .then(|| motion(field, "velocity_mps", o.velocity_mps))
+            .transpose()?,
+        angular_velocity: has("angular_velocity_rad_s")
+            .then(|| motion(field, "angular_velocity_rad_s", o.angular_velocity_rad_s))
+            .transpose()?,
+    })
+}
+
+/// Checks the etag of a request, if it has one.
+///
+/// # Errors
+/// The obstacle has changed.
+pub fn check_etag(world: &str, now: &ObstacleInfo, sent: &str) -> Result<(), Fault> {
+    let name = OBSTACLE.name([world, &now.id]);
+    etags::check(&name, sent, || out(world, now).etag)
 }
 
 /// An obstacle for a response.
@@ -138,8 +209,8 @@ pub fn out(world: &str, o: &ObstacleInfo) -> pb::Obstacle {
         Mobility::Free(m) => (pb::ObstacleMobility::Free, m),
     };
     let q = s.rotation;
-    pb::Obstacle {
-        name: format!("worlds/{world}/obstacles/{}", o.id),
+    let mut out = pb::Obstacle {
+        name: OBSTACLE.name([world, &o.id]),
         shape: Some(match s.shape {
             Shape::Sphere { radius } => {
                 pb::obstacle::Shape::Sphere(pb::SphereShape { radius_m: radius })
@@ -169,8 +240,11 @@ pub fn out(world: &str, o: &ObstacleInfo) -> pb::Obstacle {
             }),
         }),
         velocity_mps: Some(vector_out(s.velocity)),
-        angular_velocity_radps: Some(vector_out(s.angular_velocity)),
-    }
+        angular_velocity_rad_s: Some(vector_out(s.angular_velocity)),
+        etag: String::new(),
+    };
+    out.etag = etags::obstacle(&out);
+    out
 }
 
 #[cfg(test)]
@@ -193,12 +267,99 @@ mod tests {
         let setup = setup("obstacle", Some(&ball())).unwrap();
         let info = ObstacleInfo {
             id: "ball".into(),
+            number: 1,
             setup: setup.clone(),
             force: Vec3::zero(),
         };
         let sent = out("w", &info);
         assert_eq!(sent.name, "worlds/w/obstacles/ball");
         assert_eq!(super::setup("obstacle", Some(&sent)).unwrap(), setup);
+    }
+
+    #[test]
+    fn an_update_changes_what_the_mask_names_and_nothing_else() {
+        let now = setup("obstacle", Some(&ball())).unwrap();
+        let mask = |paths: &[&str]| prost_types::FieldMask {
+            paths: paths.iter().map(|p| (*p).to_owned()).collect(),
+        };
+        let change = pb::Obstacle {
+            friction: Some(0.9),
+            mass_kg: 7.0,
+            velocity_mps: Some(pb::Vector3 {
+                x: f64::NAN,
+                ..Default::default()
+            }),
+            ..Default::default()
+        };
+        let only = update(&change, Some(&mask(&["friction"]))).unwrap();
+        let want = ObstacleSetup {
+            friction: 0.9,
+            ..now.clone()
+        };
+        assert_eq!(only.apply(&now).unwrap(), want);
+        // Without a mask what is given counts, and is checked.
+        let Err(Fault::Invalid { field, .. }) = update(&change, None) else {
+            panic!("not a number was taken");
+        };
+        assert_eq!(field, "obstacle.velocity_mps.x");
+        let given = pb::Obstacle {
+            velocity_mps: None,
+            ..change
+        };
+        let both = update(&given, None).unwrap().apply(&now).unwrap();
+        assert_eq!(both.mobility, Mobility::Free(7.0));
+        // All of them: what is not given gets its default.
+        let all = update(&ball(), Some(&mask(&["*"]))).unwrap();
+        let moved = ObstacleSetup {
+            velocity: Vec3 {
+                x: 1.0,
+                y: 0.0,
+                z: 0.0,
+            },
+            ..want
+        };
+        assert_eq!(all.apply(&moved).unwrap(), now);
+    }
+
+    #[test]
+    fn a_shape_is_replaced_by_the_one_that_is_named() {
+        let now = setup("obstacle", Some(&ball())).unwrap();
+        let mask = |path: &str| prost_types::FieldMask {
+            paths: vec![path.to_owned()],
+        };
+        let plane = pb::Obstacle {
+            shape: Some(pb::obstacle::Shape::Plane(pb::PlaneShape {})),
+            ..Default::default()
+        };
+        // The ball is free, and a plane cannot be.
+        let Err(Fault::Invalid { field, problem }) =
+            update(&plane, Some(&mask("plane"))).unwrap().apply(&now)
+        else {
+            panic!("a free plane");
+        };
+        assert_eq!(
+            (field.as_str(), &*problem),
+            ("obstacle.mobility", FREE_PLANE)
+        );
+        let fixed = ObstacleSetup {
+            mobility: Mobility::Fixed,
+            ..now
+        };
+        let now = update(&plane, None).unwrap().apply(&fixed).unwrap();
+        assert_eq!(now.shape, Shape::Plane);
+        let Err(Fault::Invalid { field, .. }) = update(&plane, Some(&mask("box"))) else {
+            panic!("no box was given");
+        };
+        assert_eq!(field, "obstacle.box");
+        // What becomes free needs a mass.
+        let free = pb::Obstacle {
+            mobility: pb::ObstacleMobility::Free.into(),
+            ..Default::default()
+        };
+        let Err(Fault::Invalid { field, .. }) = update(&free, None).unwrap().apply(&fixed) else {
+            panic!("free without a mass");
+        };
+        assert_eq!(field, "obstacle.mass_kg");
     }
 
     #[test]

@@ -81,7 +81,7 @@ pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fau
                     .transpose()?
                     .unwrap_or_default(),
                 second: second_hand(&at, l)?,
-                grip: or_default(&at("grip_n"), l.grip_n, f64::INFINITY, 0.0, 1e6)?,
+                grip: or_default(&at("grip_newtons"), l.grip_newtons, f64::INFINITY, 0.0, 1e6)?,
                 duration: lasting(&at("duration_s"), l.duration_s)?,
             })
         }
@@ -89,24 +89,24 @@ pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fau
             let at = |part: &str| format!("{field}.impulse.{part}");
             let duration = or_default(&at("duration_s"), i.duration_s, 0.1, 1e-3, 10.0)?;
             let impulse = i
-                .impulse_ns
-                .ok_or_else(|| Fault::invalid(at("impulse_ns"), "must be given"))?;
+                .impulse_newton_seconds
+                .ok_or_else(|| Fault::invalid(at("impulse_newton_seconds"), "must be given"))?;
             Ok(Disturbance::Force {
                 segment: segment(&at("segment"), &i.segment)?,
                 point: point(&at("point_m"), i.point_m)?,
-                force: vector(&at("impulse_ns"), impulse, 1000.0)? * (1.0 / duration),
+                force: vector(&at("impulse_newton_seconds"), impulse, 1000.0)? * (1.0 / duration),
                 duration,
             })
         }
         Some(Kind::Force(f)) => {
             let at = |part: &str| format!("{field}.force.{part}");
             let force = f
-                .force_n
-                .ok_or_else(|| Fault::invalid(at("force_n"), "must be given"))?;
+                .force_newtons
+                .ok_or_else(|| Fault::invalid(at("force_newtons"), "must be given"))?;
             Ok(Disturbance::Force {
                 segment: segment(&at("segment"), &f.segment)?,
                 point: point(&at("point_m"), f.point_m)?,
-                force: vector(&at("force_n"), force, 1e5)?,
+                force: vector(&at("force_newtons"), force, 1e5)?,
                 duration: lasting(&at("duration_s"), f.duration_s)?,
             })
         }
@@ -125,7 +125,7 @@ pub fn batch(list: &[pb::Perturbation]) -> Result<Vec<FigureDisturbance>, Fault>
         .enumerate()
         .map(|(i, p)| {
             Ok(FigureDisturbance {
-                figure: p.figure.clone(),
+                figure: p.figure_id.clone(),
                 tick: p.tick,
                 what: disturbance(&format!("perturbations[{i}]"), p)?,
             })
@@ -164,7 +164,7 @@ mod tests {
         let p = pb::Perturbation {
             kind: Some(pb::perturbation::Kind::Impulse(pb::Impulse {
                 segment: "chest".into(),
-                impulse_ns: Some(pb::Vector3 {
+                impulse_newton_seconds: Some(pb::Vector3 {
                     x: 20.0,
                     y: 0.0,
                     z: 0.0,

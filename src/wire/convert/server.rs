@@ -1,6 +1,7 @@
 //! The server itself.
 
 use super::super::pb;
+use super::names::WORLD;
 
 /// Limits for a response.
 pub fn limits(list: &[(&str, i64)]) -> Vec<pb::ServerLimit> {
@@ -34,7 +35,7 @@ pub struct Stats<'a> {
 /// How busy a world is, for a response.
 pub fn stats(s: &Stats<'_>) -> pb::WorldStats {
     pb::WorldStats {
-        world: format!("worlds/{}", s.world),
+        world: WORLD.name([s.world]),
         tick_count: s.ticks[0] as i64,
         overrun_count: s.ticks[1] as i64,
         skipped_count: s.ticks[2] as i64,

@@ -4,6 +4,7 @@ use super::super::frame::FIELD_NAMES;
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{EventFilter, EventKind, Fields, NumberFormat, ViewSpec, WorldEvent};
+use super::names::CLIP;
 use super::{count, shortened};
 use crate::sim::body::topology::DOF_NAMES;
 
@@ -58,7 +59,7 @@ pub fn view(v: Option<&pb::View>) -> Result<ViewSpec, Fault> {
         fields = Fields::DEFAULT;
     }
     Ok(ViewSpec {
-        figures: figures("view.figures", &v.figures)?,
+        figures: figures("view.figure_ids", &v.figure_ids)?,
         fields,
         format: match pb::Encoding::try_from(v.encoding) {
             Ok(pb::Encoding::Unspecified | pb::Encoding::Float) => NumberFormat::Float,
@@ -89,7 +90,7 @@ pub fn event_filter(r: &pb::WatchEventsRequest) -> Result<EventFilter, Fault> {
         }
     }
     Ok(EventFilter {
-        figures: figures("figures", &r.figures)?,
+        figures: figures("figure_ids", &r.figure_ids)?,
         types: r.types.clone(),
     })
 }
@@ -126,6 +127,9 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::Paused => pb::EventType::WorldPaused,
         EventKind::Resumed => pb::EventType::WorldResumed,
         EventKind::Failed(_) => pb::EventType::WorldFailed,
+        EventKind::Deleted(_) => pb::EventType::WorldDeleted,
+        EventKind::ClipBegan(_) => pb::EventType::ClipBegan,
+        EventKind::ClipEnded(_) => pb::EventType::ClipEnded,
     }
 }
 
@@ -141,7 +145,7 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         r#type: event_type(&e.kind).into(),
         tick: e.tick as i64,
         time_s: e.time,
-        figure: e.figure.clone(),
+        figure_id: e.figure.clone(),
         ..Default::default()
     };
     match &e.kind {
@@ -163,6 +167,9 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         EventKind::ObstacleAdded(other) | EventKind::ObstacleRemoved(other) => {
             out.other = other.clone();
         }
+        EventKind::ClipBegan(clip) | EventKind::ClipEnded(clip) => {
+            out.detail = CLIP.name([clip]);
+        }
         EventKind::Restored(tick) => out.detail = tick.to_string(),
         EventKind::DriveBegan(t)
         | EventKind::DriveEnded(t)
@@ -172,6 +179,7 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         | EventKind::ControlPreempted(t)
         | EventKind::ControlOffered(t)
         | EventKind::AccessRefused(t)
+        | EventKind::Deleted(t)
         | EventKind::Failed(t) => {
             out.detail = t.clone();
         }
@@ -192,7 +200,7 @@ mod tests {
             })
         };
         let v = view(Some(&pb::View {
-            figures: vec!["b".into(), "a".into(), "b".into()],
+            figure_ids: vec!["b".into(), "a".into(), "b".into()],
             fields: mask(&["torque", "root_pose"]),
             ..Default::default()
         }))

@@ -3,10 +3,19 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{Overrun, Pace, WorldCondition, WorldInfo, WorldSettings, WorldUpdate};
-use super::{count, display_name, or_default, timestamp, within};
+use super::masks::Fields;
+use super::names::WORLD;
+use super::{count, display_name, etags, or_default, timestamp, within};
+use std::time::Duration;
 
 /// Least and largest tick rate, Hz.
 pub const RATE_HZ: (f64, f64) = (10.0, 1000.0);
+
+/// Least and longest time after which an idle world is deleted.
+const IDLE_TTL: (Duration, Duration) = (
+    Duration::from_secs(1),
+    Duration::from_secs(30 * 24 * 60 * 60),
+);
 
 fn overrun(field: &str, value: i32, limit: u32) -> Result<Overrun, Fault> {
     match pb::OverrunPolicy::try_from(value) {
@@ -32,13 +41,23 @@ pub fn speed(field: &str, value: f64) -> Result<f64, Fault> {
     within(field, value, 0.01, 10.0)
 }
 
+fn catch_up(w: &pb::World) -> Result<u32, Fault> {
+    count(
+        "world.catch_up_tick_count",
+        w.catch_up_tick_count,
+        5,
+        1,
+        100,
+    )
+}
+
 /// Settings of a new world.
 pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
     let w = w.unwrap_or_default();
-    let catch_up_limit = count("world.catch_up_limit", w.catch_up_limit, 5, 1, 100)?;
+    let catch_up_limit = catch_up(&w)?;
     Ok(WorldSettings {
         rate_hz: rate("world.rate_hz", w.rate_hz)?,
-        substeps: substeps("world.substeps", w.substeps)?,
+        substeps: substeps("world.substep_count", w.substep_count)?,
         gravity: within(
             "world.gravity_mps2",
             w.gravity_mps2.unwrap_or(9.81),
@@ -52,38 +71,78 @@ pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
             overrun: overrun("world.overrun_policy", w.overrun_policy, catch_up_limit)?,
             catch_up_limit,
             speed: or_default("world.speed", w.speed, 1.0, 0.01, 10.0)?,
+            idle_ttl: idle_ttl("world.idle_ttl", w.idle_ttl.as_ref())?,
         },
     })
 }
 
+/// How long a world may be idle; `None`: for ever.
+pub fn idle_ttl(
+    field: &str,
+    ttl: Option<&prost_types::Duration>,
+) -> Result<Option<Duration>, Fault> {
+    let Some(ttl) = ttl.filter(|t| t.seconds != 0 || t.nanos != 0) else {
+        return Ok(None);
+    };
+    let ttl = Duration::try_from(*ttl).ok();
+    match ttl.filter(|t| (IDLE_TTL.0..=IDLE_TTL.1).contains(t)) {
+        Some(ttl) => Ok(Some(ttl)),
+        None => Err(Fault::invalid(field, "must be 1 s…30 d, or 0 for never")),
+    }
+}
+
 /// Changes of a world.
 pub fn update(w: &pb::World, mask: Option<&prost_types::FieldMask>) -> Result<WorldUpdate, Fault> {
+    let fields = Fields {
+        settable: &[
+            ("display_name", !w.display_name.is_empty()),
+            ("overrun_policy", w.overrun_policy != 0),
+            ("catch_up_tick_count", w.catch_up_tick_count != 0),
+            ("speed", w.speed != 0.0),
+            ("idle_ttl", w.idle_ttl.is_some()),
+        ],
+        fixed: &[
+            "rate_hz",
+            "substep_count",
+            "gravity_mps2",
+            "friction",
+            "collisions",
+        ],
+        output: &[
+            "name",
+            "state",
+            "tick",
+            "time_s",
+            "figure_count",
+            "epoch",
+            "create_time",
+            "failure",
+            "etag",
+        ],
+    };
     let mut out = WorldUpdate::default();
-    for (i, path) in super::mask_paths(mask)?.iter().enumerate() {
-        match path.as_str() {
+    for field in fields.taken(mask)? {
+        match field {
             "display_name" => {
                 out.display_name = Some(display_name("world.display_name", &w.display_name)?)
             }
-            "speed" => out.speed = Some(speed("world.speed", w.speed)?),
+            "speed" => out.speed = Some(or_default("world.speed", w.speed, 1.0, 0.01, 10.0)?),
             "overrun_policy" => {
                 out.overrun = Some(overrun("world.overrun_policy", w.overrun_policy, 5)?)
             }
-            "catch_up_limit" => {
-                out.catch_up_limit =
-                    Some(count("world.catch_up_limit", w.catch_up_limit, 5, 1, 100)?);
-            }
-            other => {
-                return Err(Fault::invalid(
-                    format!("update_mask.paths[{i}]"),
-                    format!(
-                        "must be display_name, overrun_policy, catch_up_limit or speed, got {:?}",
-                        super::shortened(other)
-                    ),
-                ));
-            }
+            "catch_up_tick_count" => out.catch_up_limit = Some(catch_up(w)?),
+            _ => out.idle_ttl = Some(idle_ttl("world.idle_ttl", w.idle_ttl.as_ref())?),
         }
     }
     Ok(out)
+}
+
+/// Checks the etag of a request, if it has one.
+///
+/// # Errors
+/// The world has changed.
+pub fn check_etag(now: &WorldInfo, sent: &str) -> Result<(), Fault> {
+    etags::check(&WORLD.name([&now.id]), sent, || world_out(now).etag)
 }
 
 /// A world for a response.
@@ -94,11 +153,11 @@ pub fn world_out(w: &WorldInfo) -> pb::World {
         WorldCondition::Paused => (pb::WorldState::Paused, String::new()),
         WorldCondition::Failed(why) => (pb::WorldState::Failed, why.clone()),
     };
-    pb::World {
-        name: format!("worlds/{}", w.id),
+    let mut out = pb::World {
+        name: WORLD.name([&w.id]),
         display_name: pace.display_name.clone(),
         rate_hz: w.settings.rate_hz,
-        substeps: w.settings.substeps as i32,
+        substep_count: w.settings.substeps as i32,
         gravity_mps2: Some(w.settings.gravity),
         friction: Some(w.settings.friction),
         collisions: Some(w.settings.collisions),
@@ -108,7 +167,7 @@ pub fn world_out(w: &WorldInfo) -> pb::World {
             Overrun::Dilate => pb::OverrunPolicy::Dilate,
         }
         .into(),
-        catch_up_limit: pace.catch_up_limit as i32,
+        catch_up_tick_count: pace.catch_up_limit as i32,
         speed: pace.speed,
         state: state.into(),
         tick: w.tick as i64,
@@ -117,5 +176,9 @@ pub fn world_out(w: &WorldInfo) -> pb::World {
         epoch: w.epoch,
         create_time: Some(timestamp(w.created)),
         failure,
-    }
+        idle_ttl: pace.idle_ttl.and_then(|ttl| ttl.try_into().ok()),
+        etag: String::new(),
+    };
+    out.etag = etags::world(&out);
+    out
 }

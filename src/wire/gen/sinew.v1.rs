@@ -64,11 +64,11 @@ pub struct Grant {
     #[prost(string, tag = "2")]
     pub principal: ::prost::alloc::string::String,
     /// At least one of the roles in a world.
-    #[prost(enumeration = "Role", repeated, tag = "3")]
+    #[prost(enumeration = "Role", repeated, packed = "false", tag = "3")]
     pub roles: ::prost::alloc::vec::Vec<i32>,
     /// Figures that ROLE_DRIVER is for: last parts of their names, at most 64. Empty: all.
     #[prost(string, repeated, tag = "4")]
-    pub figures: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
     /// Bounds of ROLE_PERTURBER. Absent: none but those of the calls.
     #[prost(message, optional, tag = "5")]
     pub bounds: ::core::option::Option<PerturbationBounds>,
@@ -81,6 +81,10 @@ pub struct Grant {
     /// When it ends. Absent: with the world.
     #[prost(message, optional, tag = "8")]
     pub expire_time: ::core::option::Option<::prost_types::Timestamp>,
+    /// Changes whenever the grant does. In requests: the change is refused (ABORTED, `ETAG_MISMATCH`) unless it is that of
+    /// the grant. Empty: not checked.
+    #[prost(string, tag = "9")]
+    pub etag: ::prost::alloc::string::String,
 }
 impl ::prost::Name for Grant {
     const NAME: &'static str = "Grant";
@@ -97,8 +101,8 @@ impl ::prost::Name for Grant {
 pub struct PerturbationBounds {
     /// Largest force, N; that of an impulse is impulse / duration. 0: no loads and forces at all. Absent: unbounded.
     #[prost(double, optional, tag = "1")]
-    pub max_force_n: ::core::option::Option<f64>,
-    /// Largest mass of a load, kg. Absent: as heavy as `max_force_n` under 9.81 m/s².
+    pub max_force_newtons: ::core::option::Option<f64>,
+    /// Largest mass of a load, kg. Absent: as heavy as `max_force_newtons` under 9.81 m/s².
     #[prost(double, optional, tag = "2")]
     pub max_mass_kg: ::core::option::Option<f64>,
     /// Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once.
@@ -168,6 +172,13 @@ pub struct CreateGrantRequest {
     /// The grant. Required.
     #[prost(message, optional, tag = "3")]
     pub grant: ::core::option::Option<Grant>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
 }
 impl ::prost::Name for CreateGrantRequest {
     const NAME: &'static str = "CreateGrantRequest";
@@ -236,7 +247,7 @@ pub struct ListGrantsRequest {
     /// World: resource name `worlds/{world}`.
     #[prost(string, tag = "1")]
     pub parent: ::prost::alloc::string::String,
-    /// Most grants to return, 0…1000. 0: 100.
+    /// Most grants to return. 0: 100; more than 1000 are taken as 1000.
     #[prost(int32, tag = "2")]
     pub page_size: i32,
     /// `next_page_token` of the page before. Empty: from the start.
@@ -279,9 +290,13 @@ pub struct UpdateGrantRequest {
     /// The grant, by `name`, with new values.
     #[prost(message, optional, tag = "1")]
     pub grant: ::core::option::Option<Grant>,
-    /// Which of `roles`, `figures`, `bounds`, `max_priority`, `expire_time` to take. Must not be empty.
+    /// Which of `roles`, `figure_ids`, `bounds`, `max_priority`, `expire_time` to take. Absent or empty: those that are
+    /// not empty. `*`: all.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
 }
 impl ::prost::Name for UpdateGrantRequest {
     const NAME: &'static str = "UpdateGrantRequest";
@@ -316,6 +331,13 @@ pub struct DeleteGrantRequest {
     /// Resource name `worlds/{world}/grants/{grant}`.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
+    /// Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked.
+    #[prost(string, tag = "12")]
+    pub etag: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for DeleteGrantRequest {
     const NAME: &'static str = "DeleteGrantRequest";
@@ -1210,7 +1232,7 @@ pub struct RetargetReport {
     pub sides_swapped: bool,
     /// Speed over the floor of the fastest run of the recording, m/s; absent if it runs nowhere.
     #[prost(double, optional, tag = "18")]
-    pub run_speed_m_s: ::core::option::Option<f64>,
+    pub run_speed_mps: ::core::option::Option<f64>,
     /// True if that run, and every other, is walked: see `BvhOptions.walk_runs`.
     #[prost(bool, tag = "19")]
     pub runs_walked: bool,
@@ -1539,7 +1561,7 @@ impl ::prost::Name for Provenance {
 /// Asks for bodies.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListBodiesRequest {
-    /// Most bodies to return, 0…1000. 0: 100.
+    /// Most bodies to return. 0: 100; more than 1000 are taken as 1000.
     #[prost(int32, tag = "1")]
     pub page_size: i32,
     /// `next_page_token` of the page before. Empty: from the start.
@@ -2233,7 +2255,7 @@ pub struct World {
     pub rate_hz: f64,
     /// Substeps of the dynamics in one tick, 1…16. 0 or absent: 2. Fixed at creation.
     #[prost(int32, tag = "4")]
-    pub substeps: i32,
+    pub substep_count: i32,
     /// Downward acceleration of gravity, m/s², 0…30. Absent: 9.81. Fixed at creation.
     #[prost(double, optional, tag = "5")]
     pub gravity_mps2: ::core::option::Option<f64>,
@@ -2245,7 +2267,7 @@ pub struct World {
     pub overrun_policy: i32,
     /// Most ticks that are caught up at once with OVERRUN_POLICY_CATCH_UP, 1…100. 0 or absent: 5.
     #[prost(int32, tag = "8")]
-    pub catch_up_limit: i32,
+    pub catch_up_tick_count: i32,
     /// World seconds per wall second, 0.01…10. 0 or absent: 1.
     #[prost(double, tag = "9")]
     pub speed: f64,
@@ -2274,6 +2296,14 @@ pub struct World {
     /// creation.
     #[prost(bool, optional, tag = "17")]
     pub collisions: ::core::option::Option<bool>,
+    /// The world is deleted after it was idle for so long: no call named it and no stream of it was open. 1 s…30 d. Absent
+    /// or zero: never.
+    #[prost(message, optional, tag = "18")]
+    pub idle_ttl: ::core::option::Option<::prost_types::Duration>,
+    /// Changes whenever what was set of the world does; that its clock goes on does not count. In requests: the change is
+    /// refused (ABORTED, `ETAG_MISMATCH`) unless it is that of the world. Empty: not checked.
+    #[prost(string, tag = "19")]
+    pub etag: ::prost::alloc::string::String,
 }
 impl ::prost::Name for World {
     const NAME: &'static str = "World";
@@ -2297,6 +2327,13 @@ pub struct CreateWorldRequest {
     /// Leaves the clock stopped. Default: false.
     #[prost(bool, tag = "3")]
     pub paused: bool,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
 }
 impl ::prost::Name for CreateWorldRequest {
     const NAME: &'static str = "CreateWorldRequest";
@@ -2362,7 +2399,7 @@ impl ::prost::Name for GetWorldResponse {
 /// Asks for worlds.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListWorldsRequest {
-    /// Most worlds to return, 0…1000. 0: 100.
+    /// Most worlds to return. 0: 100; more than 1000 are taken as 1000.
     #[prost(int32, tag = "1")]
     pub page_size: i32,
     /// `next_page_token` of the page before. Empty: from the start.
@@ -2405,9 +2442,13 @@ pub struct UpdateWorldRequest {
     /// The world, by `name`, with new values.
     #[prost(message, optional, tag = "1")]
     pub world: ::core::option::Option<World>,
-    /// Which of `display_name`, `overrun_policy`, `catch_up_limit`, `speed` to take. Must not be empty.
+    /// Which of `display_name`, `overrun_policy`, `catch_up_tick_count`, `speed`, `idle_ttl` to take. Absent or empty:
+    /// those that are not empty. `*`: all.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
 }
 impl ::prost::Name for UpdateWorldRequest {
     const NAME: &'static str = "UpdateWorldRequest";
@@ -2442,6 +2483,13 @@ pub struct DeleteWorldRequest {
     /// Resource name `worlds/{world}`.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
+    /// Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked.
+    #[prost(string, tag = "12")]
+    pub etag: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for DeleteWorldRequest {
     const NAME: &'static str = "DeleteWorldRequest";
@@ -2543,6 +2591,10 @@ pub struct StepWorldRequest {
     /// Number of ticks, 1…10000. 0: 1.
     #[prost(int32, tag = "2")]
     pub tick_count: i32,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for StepWorldRequest {
     const NAME: &'static str = "StepWorldRequest";
@@ -2614,268 +2666,6 @@ impl ::prost::Name for SetWorldSpeedResponse {
         "/sinew.v1.SetWorldSpeedResponse".into()
     }
 }
-/// A ball around the obstacle's origin.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
-pub struct SphereShape {
-    /// Radius, m, 0.005…100.
-    #[prost(double, tag = "1")]
-    pub radius_m: f64,
-}
-impl ::prost::Name for SphereShape {
-    const NAME: &'static str = "SphereShape";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.SphereShape".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.SphereShape".into()
-    }
-}
-/// A cylinder with round ends along z of the obstacle's frame, around its origin.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
-pub struct CapsuleShape {
-    /// Radius, m, 0.005…100.
-    #[prost(double, tag = "1")]
-    pub radius_m: f64,
-    /// Half the length of the cylinder without its ends, m, 0…100.
-    #[prost(double, tag = "2")]
-    pub half_length_m: f64,
-}
-impl ::prost::Name for CapsuleShape {
-    const NAME: &'static str = "CapsuleShape";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.CapsuleShape".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.CapsuleShape".into()
-    }
-}
-/// A box around the obstacle's origin.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
-pub struct BoxShape {
-    /// Half of its edges along the axes of the obstacle's frame, m, each 0.005…1000.
-    #[prost(message, optional, tag = "1")]
-    pub half_m: ::core::option::Option<Vector3>,
-}
-impl ::prost::Name for BoxShape {
-    const NAME: &'static str = "BoxShape";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.BoxShape".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.BoxShape".into()
-    }
-}
-/// Everything below z = 0 of the obstacle's frame.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct PlaneShape {}
-impl ::prost::Name for PlaneShape {
-    const NAME: &'static str = "PlaneShape";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.PlaneShape".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.PlaneShape".into()
-    }
-}
-/// A thing that figures can touch.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct Obstacle {
-    /// Resource name `worlds/{world}/obstacles/{obstacle}`. Ignored in requests to add one.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-    /// How it moves.
-    #[prost(enumeration = "ObstacleMobility", tag = "6")]
-    pub mobility: i32,
-    /// Mass of a free obstacle, kg, 0.01…10000; spread evenly over its shape. Ignored for others.
-    #[prost(double, tag = "7")]
-    pub mass_kg: f64,
-    /// Coefficient of friction, 0.05…2; of two obstacles the smaller one counts. Absent: 0.6.
-    #[prost(double, optional, tag = "8")]
-    pub friction: ::core::option::Option<f64>,
-    /// Where it is; the origin of its frame is its centre. Absent: at the world's origin.
-    #[prost(message, optional, tag = "9")]
-    pub pose: ::core::option::Option<Pose>,
-    /// Velocity of its centre, m/s, each component within ±100. Ignored for fixed ones. Absent: at rest.
-    #[prost(message, optional, tag = "10")]
-    pub velocity_mps: ::core::option::Option<Vector3>,
-    /// Angular velocity, world axes, rad/s, each component within ±100. Ignored for fixed ones. Absent: none.
-    #[prost(message, optional, tag = "11")]
-    pub angular_velocity_radps: ::core::option::Option<Vector3>,
-    /// Shape. Required. A plane cannot be free.
-    #[prost(oneof = "obstacle::Shape", tags = "2, 3, 4, 5")]
-    pub shape: ::core::option::Option<obstacle::Shape>,
-}
-/// Nested message and enum types in `Obstacle`.
-pub mod obstacle {
-    /// Shape. Required. A plane cannot be free.
-    #[derive(Clone, Copy, PartialEq, ::prost::Oneof)]
-    pub enum Shape {
-        /// A ball.
-        #[prost(message, tag = "2")]
-        Sphere(super::SphereShape),
-        /// A cylinder with round ends.
-        #[prost(message, tag = "3")]
-        Capsule(super::CapsuleShape),
-        /// A box.
-        #[prost(message, tag = "4")]
-        Box(super::BoxShape),
-        /// A half-space.
-        #[prost(message, tag = "5")]
-        Plane(super::PlaneShape),
-    }
-}
-impl ::prost::Name for Obstacle {
-    const NAME: &'static str = "Obstacle";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.Obstacle".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.Obstacle".into()
-    }
-}
-/// Asks to put an obstacle into a world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct AddObstacleRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub parent: ::prost::alloc::string::String,
-    /// Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
-    #[prost(string, tag = "2")]
-    pub obstacle_id: ::prost::alloc::string::String,
-    /// The obstacle. Required.
-    #[prost(message, optional, tag = "3")]
-    pub obstacle: ::core::option::Option<Obstacle>,
-}
-impl ::prost::Name for AddObstacleRequest {
-    const NAME: &'static str = "AddObstacleRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.AddObstacleRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.AddObstacleRequest".into()
-    }
-}
-/// The new obstacle.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct AddObstacleResponse {
-    /// As it was added, with defaults filled in.
-    #[prost(message, optional, tag = "1")]
-    pub obstacle: ::core::option::Option<Obstacle>,
-}
-impl ::prost::Name for AddObstacleResponse {
-    const NAME: &'static str = "AddObstacleResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.AddObstacleResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.AddObstacleResponse".into()
-    }
-}
-/// Replaces an obstacle.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct UpdateObstacleRequest {
-    /// The obstacle, by `name`, with all its new values.
-    #[prost(message, optional, tag = "1")]
-    pub obstacle: ::core::option::Option<Obstacle>,
-}
-impl ::prost::Name for UpdateObstacleRequest {
-    const NAME: &'static str = "UpdateObstacleRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.UpdateObstacleRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.UpdateObstacleRequest".into()
-    }
-}
-/// The changed obstacle.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct UpdateObstacleResponse {
-    /// As it is now.
-    #[prost(message, optional, tag = "1")]
-    pub obstacle: ::core::option::Option<Obstacle>,
-}
-impl ::prost::Name for UpdateObstacleResponse {
-    const NAME: &'static str = "UpdateObstacleResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.UpdateObstacleResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.UpdateObstacleResponse".into()
-    }
-}
-/// Takes an obstacle out.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct RemoveObstacleRequest {
-    /// Resource name `worlds/{world}/obstacles/{obstacle}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-}
-impl ::prost::Name for RemoveObstacleRequest {
-    const NAME: &'static str = "RemoveObstacleRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.RemoveObstacleRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.RemoveObstacleRequest".into()
-    }
-}
-/// The obstacle is gone.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct RemoveObstacleResponse {}
-impl ::prost::Name for RemoveObstacleResponse {
-    const NAME: &'static str = "RemoveObstacleResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.RemoveObstacleResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.RemoveObstacleResponse".into()
-    }
-}
-/// Asks for the obstacles of a world.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct ListObstaclesRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub parent: ::prost::alloc::string::String,
-}
-impl ::prost::Name for ListObstaclesRequest {
-    const NAME: &'static str = "ListObstaclesRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ListObstaclesRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ListObstaclesRequest".into()
-    }
-}
-/// The obstacles of a world: at most 256.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct ListObstaclesResponse {
-    /// In the order they were added.
-    #[prost(message, repeated, tag = "1")]
-    pub obstacles: ::prost::alloc::vec::Vec<Obstacle>,
-}
-impl ::prost::Name for ListObstaclesResponse {
-    const NAME: &'static str = "ListObstaclesResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ListObstaclesResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ListObstaclesResponse".into()
-    }
-}
 /// What the clock does when a tick takes longer than its period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -2884,7 +2674,7 @@ pub enum OverrunPolicy {
     Unspecified = 0,
     /// Keeps wall time by leaving out the deadlines that were missed; they are counted. World time then runs behind.
     Skip = 1,
-    /// Computes up to `catch_up_limit` missed ticks back to back, then leaves out the rest.
+    /// Computes up to `catch_up_tick_count` missed ticks back to back, then leaves out the rest.
     CatchUp = 2,
     /// Lets world time run slower: every tick is computed and the next deadline is one period after its end.
     Dilate = 3,
@@ -2946,43 +2736,6 @@ impl WorldState {
             "WORLD_STATE_RUNNING" => Some(Self::Running),
             "WORLD_STATE_PAUSED" => Some(Self::Paused),
             "WORLD_STATE_FAILED" => Some(Self::Failed),
-            _ => None,
-        }
-    }
-}
-/// How an obstacle moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum ObstacleMobility {
-    /// The default: OBSTACLE_MOBILITY_FIXED.
-    Unspecified = 0,
-    /// Not at all.
-    Fixed = 1,
-    /// With its velocity, whatever it meets.
-    Led = 2,
-    /// As a rigid body of `mass_kg`, under gravity and on the ground.
-    Free = 3,
-}
-impl ObstacleMobility {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "OBSTACLE_MOBILITY_UNSPECIFIED",
-            Self::Fixed => "OBSTACLE_MOBILITY_FIXED",
-            Self::Led => "OBSTACLE_MOBILITY_LED",
-            Self::Free => "OBSTACLE_MOBILITY_FREE",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "OBSTACLE_MOBILITY_UNSPECIFIED" => Some(Self::Unspecified),
-            "OBSTACLE_MOBILITY_FIXED" => Some(Self::Fixed),
-            "OBSTACLE_MOBILITY_LED" => Some(Self::Led),
-            "OBSTACLE_MOBILITY_FREE" => Some(Self::Free),
             _ => None,
         }
     }
@@ -3181,7 +2934,7 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "UpdateWorld"));
             self.inner.unary(req, path, codec).await
         }
-        /// Ends a world: its streams end with NOT_FOUND.
+        /// Ends a world: its streams end with NOT_FOUND, after the event `EVENT_TYPE_WORLD_DELETED`.
         pub async fn delete_world(
             &mut self,
             request: impl tonic::IntoRequest<super::DeleteWorldRequest>,
@@ -3308,107 +3061,6 @@ pub mod world_service_client {
                 .insert(GrpcMethod::new("sinew.v1.WorldService", "SetWorldSpeed"));
             self.inner.unary(req, path, codec).await
         }
-        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
-        /// (RESOURCE_EXHAUSTED).
-        pub async fn add_obstacle(
-            &mut self,
-            request: impl tonic::IntoRequest<super::AddObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::AddObstacleResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/AddObstacle",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "AddObstacle"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
-        pub async fn update_obstacle(
-            &mut self,
-            request: impl tonic::IntoRequest<super::UpdateObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::UpdateObstacleResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/UpdateObstacle",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "UpdateObstacle"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Takes an obstacle out of its world.
-        pub async fn remove_obstacle(
-            &mut self,
-            request: impl tonic::IntoRequest<super::RemoveObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::RemoveObstacleResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/RemoveObstacle",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "RemoveObstacle"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// All obstacles of a world as they are now, in the order they were added.
-        pub async fn list_obstacles(
-            &mut self,
-            request: impl tonic::IntoRequest<super::ListObstaclesRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ListObstaclesResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.WorldService/ListObstacles",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.WorldService", "ListObstacles"));
-            self.inner.unary(req, path, codec).await
-        }
     }
 }
 /// Generated server implementations.
@@ -3458,7 +3110,7 @@ pub mod world_service_server {
             tonic::Response<super::UpdateWorldResponse>,
             tonic::Status,
         >;
-        /// Ends a world: its streams end with NOT_FOUND.
+        /// Ends a world: its streams end with NOT_FOUND, after the event `EVENT_TYPE_WORLD_DELETED`.
         async fn delete_world(
             &self,
             request: tonic::Request<super::DeleteWorldRequest>,
@@ -3498,39 +3150,6 @@ pub mod world_service_server {
             request: tonic::Request<super::SetWorldSpeedRequest>,
         ) -> std::result::Result<
             tonic::Response<super::SetWorldSpeedResponse>,
-            tonic::Status,
-        >;
-        /// Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
-        /// (RESOURCE_EXHAUSTED).
-        async fn add_obstacle(
-            &self,
-            request: tonic::Request<super::AddObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::AddObstacleResponse>,
-            tonic::Status,
-        >;
-        /// Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
-        async fn update_obstacle(
-            &self,
-            request: tonic::Request<super::UpdateObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::UpdateObstacleResponse>,
-            tonic::Status,
-        >;
-        /// Takes an obstacle out of its world.
-        async fn remove_obstacle(
-            &self,
-            request: tonic::Request<super::RemoveObstacleRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::RemoveObstacleResponse>,
-            tonic::Status,
-        >;
-        /// All obstacles of a world as they are now, in the order they were added.
-        async fn list_obstacles(
-            &self,
-            request: tonic::Request<super::ListObstaclesRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ListObstaclesResponse>,
             tonic::Status,
         >;
     }
@@ -4016,186 +3635,6 @@ pub mod world_service_server {
                     };
                     Box::pin(fut)
                 }
-                "/sinew.v1.WorldService/AddObstacle" => {
-                    #[allow(non_camel_case_types)]
-                    struct AddObstacleSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::AddObstacleRequest>
-                    for AddObstacleSvc<T> {
-                        type Response = super::AddObstacleResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::AddObstacleRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::add_obstacle(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = AddObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/UpdateObstacle" => {
-                    #[allow(non_camel_case_types)]
-                    struct UpdateObstacleSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::UpdateObstacleRequest>
-                    for UpdateObstacleSvc<T> {
-                        type Response = super::UpdateObstacleResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::UpdateObstacleRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::update_obstacle(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = UpdateObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/RemoveObstacle" => {
-                    #[allow(non_camel_case_types)]
-                    struct RemoveObstacleSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::RemoveObstacleRequest>
-                    for RemoveObstacleSvc<T> {
-                        type Response = super::RemoveObstacleResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::RemoveObstacleRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::remove_obstacle(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = RemoveObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.WorldService/ListObstacles" => {
-                    #[allow(non_camel_case_types)]
-                    struct ListObstaclesSvc<T: WorldService>(pub Arc<T>);
-                    impl<
-                        T: WorldService,
-                    > tonic::server::UnaryService<super::ListObstaclesRequest>
-                    for ListObstaclesSvc<T> {
-                        type Response = super::ListObstaclesResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::ListObstaclesRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as WorldService>::list_obstacles(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = ListObstaclesSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
                 _ => {
                     Box::pin(async move {
                         let mut response = http::Response::new(
@@ -4281,6 +3720,10 @@ pub struct CheckpointWorldRequest {
     /// Return the bytes, too.
     #[prost(bool, tag = "3")]
     pub return_data: bool,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for CheckpointWorldRequest {
     const NAME: &'static str = "CheckpointWorldRequest";
@@ -4358,10 +3801,10 @@ pub struct ListCheckpointsRequest {
     /// Resource name `worlds/{world}`.
     #[prost(string, tag = "1")]
     pub parent: ::prost::alloc::string::String,
-    /// Most checkpoints of the page, 1…1000. 0: 100.
+    /// Most checkpoints to return. 0: 100; more than 1000 are taken as 1000.
     #[prost(int32, tag = "2")]
     pub page_size: i32,
-    /// `next_page_token` of the page before. Empty: the first page.
+    /// `next_page_token` of the page before. Empty: from the start.
     #[prost(string, tag = "3")]
     pub page_token: ::prost::alloc::string::String,
 }
@@ -4381,7 +3824,7 @@ pub struct ListCheckpointsResponse {
     /// By name.
     #[prost(message, repeated, tag = "1")]
     pub checkpoints: ::prost::alloc::vec::Vec<Checkpoint>,
-    /// For the next page. Empty: this is the last one.
+    /// Token of the next page; empty at the end.
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
 }
@@ -4401,6 +3844,10 @@ pub struct DeleteCheckpointRequest {
     /// Resource name `worlds/{world}/checkpoints/{checkpoint}`.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for DeleteCheckpointRequest {
     const NAME: &'static str = "DeleteCheckpointRequest";
@@ -4431,6 +3878,10 @@ pub struct RestoreWorldRequest {
     /// Resource name `worlds/{world}`.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
     /// The state. Required.
     #[prost(oneof = "restore_world_request::Source", tags = "2, 3")]
     pub source: ::core::option::Option<restore_world_request::Source>,
@@ -4484,6 +3935,10 @@ pub struct ForkWorldRequest {
     /// Its clock stands still until it is resumed.
     #[prost(bool, tag = "5")]
     pub paused: bool,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
     /// The state. Required.
     #[prost(oneof = "fork_world_request::Source", tags = "1, 2, 3")]
     pub source: ::core::option::Option<fork_world_request::Source>,
@@ -5295,6 +4750,10 @@ pub struct AcquireControlRequest {
     /// How long the lease is kept while it is not used, ms, 1…60000. 0 or absent: 10000.
     #[prost(double, tag = "4")]
     pub grace_ms: f64,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for AcquireControlRequest {
     const NAME: &'static str = "AcquireControlRequest";
@@ -5335,6 +4794,10 @@ pub struct ReleaseControlRequest {
     /// Token of the lease.
     #[prost(string, tag = "2")]
     pub control_token: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for ReleaseControlRequest {
     const NAME: &'static str = "ReleaseControlRequest";
@@ -5377,6 +4840,10 @@ pub struct TransferControlRequest {
     /// How long the offer stands, ms, 1…600000. 0 or absent: 30000.
     #[prost(double, tag = "5")]
     pub offer_ms: f64,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for TransferControlRequest {
     const NAME: &'static str = "TransferControlRequest";
@@ -5420,6 +4887,10 @@ pub struct AcceptControlRequest {
     /// How long the lease is kept while it is not used, ms, 1…60000. 0 or absent: 10000.
     #[prost(double, tag = "3")]
     pub grace_ms: f64,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for AcceptControlRequest {
     const NAME: &'static str = "AcceptControlRequest";
@@ -6257,37 +5728,31 @@ pub struct Figure {
     /// Where it stands at creation and after a reset without a place.
     #[prost(message, optional, tag = "8")]
     pub placement: ::core::option::Option<Placement>,
-    /// Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand. Output only.
-    #[prost(string, tag = "9")]
-    pub clip: ::prost::alloc::string::String,
-    /// Driver that moves it live; empty if none. Output only.
-    #[prost(string, tag = "10")]
-    pub driver_id: ::prost::alloc::string::String,
-    /// Index by which frames refer to it: position in the roster. Output only.
-    #[prost(int32, tag = "11")]
-    pub figure_index: i32,
     /// Seconds of muscle fatigue per simulated second, 0…1000. 0: muscles never tire.
-    #[prost(double, tag = "14")]
+    #[prost(double, tag = "10")]
     pub fatigue_time_scale: f64,
     /// Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame
     /// (`assist`). 1 holds the pelvis on its path. 0: none.
-    #[prost(double, tag = "15")]
+    #[prost(double, tag = "11")]
     pub assist: f64,
     /// Choices of the paper's controller. Absent: its defaults.
-    #[prost(message, optional, tag = "16")]
+    #[prost(message, optional, tag = "12")]
     pub paper: ::core::option::Option<PaperOptions>,
     /// Where parts of the body are wanted, at most 8, no two on the same part. An update replaces all: one on a part that
     /// was constrained before goes on from there, the others ease in, and those that are missing fade out. In responses
     /// those that have ended are gone.
-    #[prost(message, repeated, tag = "17")]
+    #[prost(message, repeated, tag = "13")]
     pub constraints: ::prost::alloc::vec::Vec<Constraint>,
     /// Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
-    #[prost(bool, optional, tag = "18")]
+    #[prost(bool, optional, tag = "14")]
     pub protective_steps: ::core::option::Option<bool>,
-    /// Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output
-    /// only.
-    #[prost(string, tag = "19")]
-    pub next_clip: ::prost::alloc::string::String,
+    /// What it does now. Output only.
+    #[prost(message, optional, tag = "9")]
+    pub status: ::core::option::Option<FigureStatus>,
+    /// Changes whenever the configuration does. In requests: the change is refused (ABORTED, `ETAG_MISMATCH`) unless it is
+    /// that of the figure. Empty: not checked.
+    #[prost(string, tag = "15")]
+    pub etag: ::prost::alloc::string::String,
 }
 impl ::prost::Name for Figure {
     const NAME: &'static str = "Figure";
@@ -6297,6 +5762,32 @@ impl ::prost::Name for Figure {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/sinew.v1.Figure".into()
+    }
+}
+/// What a figure does, as opposed to how it is set.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct FigureStatus {
+    /// Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand.
+    #[prost(string, tag = "1")]
+    pub clip: ::prost::alloc::string::String,
+    /// Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits.
+    #[prost(string, tag = "2")]
+    pub next_clip: ::prost::alloc::string::String,
+    /// Driver that moves it live; empty if none.
+    #[prost(string, tag = "3")]
+    pub driver_id: ::prost::alloc::string::String,
+    /// Index by which frames refer to it: position in the roster.
+    #[prost(int32, tag = "4")]
+    pub figure_index: i32,
+}
+impl ::prost::Name for FigureStatus {
+    const NAME: &'static str = "FigureStatus";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.FigureStatus".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.FigureStatus".into()
     }
 }
 /// Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the
@@ -6367,6 +5858,13 @@ pub struct CreateFigureRequest {
     /// Settings. Absent: all defaults.
     #[prost(message, optional, tag = "3")]
     pub figure: ::core::option::Option<Figure>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
 }
 impl ::prost::Name for CreateFigureRequest {
     const NAME: &'static str = "CreateFigureRequest";
@@ -6435,7 +5933,7 @@ pub struct ListFiguresRequest {
     /// World: resource name `worlds/{world}`.
     #[prost(string, tag = "1")]
     pub parent: ::prost::alloc::string::String,
-    /// Most figures to return, 0…1000. 0: 100.
+    /// Most figures to return. 0: 100; more than 1000 are taken as 1000.
     #[prost(int32, tag = "2")]
     pub page_size: i32,
     /// `next_page_token` of the page before. Empty: from the start.
@@ -6479,9 +5977,13 @@ pub struct UpdateFigureRequest {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
     /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-    /// `protective_steps` to take. Must not be empty. Fields that it does not name are ignored, whatever they hold.
+    /// `protective_steps` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
+    /// ignored, whatever they hold.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
     /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
     /// the valid one.
     #[prost(string, tag = "15")]
@@ -6520,6 +6022,13 @@ pub struct DeleteFigureRequest {
     /// Resource name `worlds/{world}/figures/{figure}`.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
+    /// Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked.
+    #[prost(string, tag = "12")]
+    pub etag: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for DeleteFigureRequest {
     const NAME: &'static str = "DeleteFigureRequest";
@@ -6553,6 +6062,10 @@ pub struct ResetFigureRequest {
     /// Where it stands. Absent: where it was created.
     #[prost(message, optional, tag = "2")]
     pub placement: ::core::option::Option<Placement>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
     /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
     /// the valid one.
     #[prost(string, tag = "15")]
@@ -7524,12 +7037,12 @@ impl ::prost::Name for WorldFrame {
         "/sinew.v1.WorldFrame".into()
     }
 }
-/// One obstacle after one tick. `WorldService.ListObstacles` tells its shape.
+/// One obstacle after one tick. `ObstacleService.ListObstacles` tells its shape.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ObstacleFrame {
     /// Last part of the obstacle's name.
     #[prost(string, tag = "1")]
-    pub obstacle: ::prost::alloc::string::String,
+    pub obstacle_id: ::prost::alloc::string::String,
     /// Position x, y, z (m) and rotation x, y, z, w of its frame in the world: 7 numbers.
     #[prost(message, optional, tag = "2")]
     pub pose: ::core::option::Option<Numbers>,
@@ -8041,7 +7554,7 @@ pub struct FrameSource {
     /// Frames per second, 1…1000. Required.
     #[prost(double, tag = "1")]
     pub rate_hz: f64,
-    /// At least two. `figure`, velocities, sequence and source time are ignored.
+    /// At least two. `figure_id`, velocities, sequence and source time are ignored.
     #[prost(message, repeated, tag = "2")]
     pub frames: ::prost::alloc::vec::Vec<FigureMotion>,
 }
@@ -8067,6 +7580,13 @@ pub struct CreateClipRequest {
     /// Body to prepare it for: `bodies/{body}`. Empty: `bodies/adult-man`.
     #[prost(string, tag = "3")]
     pub body: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
     /// The motion. Required.
     #[prost(oneof = "create_clip_request::Source", tags = "4, 5")]
     pub source: ::core::option::Option<create_clip_request::Source>,
@@ -8111,6 +7631,53 @@ impl ::prost::Name for CreateClipResponse {
         "/sinew.v1.CreateClipResponse".into()
     }
 }
+/// Asks to store a clip and to be told how far it is.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct StreamCreateClipRequest {
+    /// The clip. Its `request_id` is ignored: a stream is not repeated. Required.
+    #[prost(message, optional, tag = "1")]
+    pub create_clip: ::core::option::Option<CreateClipRequest>,
+}
+impl ::prost::Name for StreamCreateClipRequest {
+    const NAME: &'static str = "StreamCreateClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StreamCreateClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StreamCreateClipRequest".into()
+    }
+}
+/// How far it is, and in the end the clip.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct StreamCreateClipResponse {
+    /// What is sent.
+    #[prost(oneof = "stream_create_clip_response::Message", tags = "1, 2")]
+    pub message: ::core::option::Option<stream_create_clip_response::Message>,
+}
+/// Nested message and enum types in `StreamCreateClipResponse`.
+pub mod stream_create_clip_response {
+    /// What is sent.
+    #[derive(Clone, PartialEq, ::prost::Oneof)]
+    pub enum Message {
+        /// Share of the work that is done, 0…1.
+        #[prost(double, tag = "1")]
+        Progress(f64),
+        /// The stored clip; the last message.
+        #[prost(message, tag = "2")]
+        CreateClip(super::CreateClipResponse),
+    }
+}
+impl ::prost::Name for StreamCreateClipResponse {
+    const NAME: &'static str = "StreamCreateClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StreamCreateClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StreamCreateClipResponse".into()
+    }
+}
 /// Asks for one clip.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetClipRequest {
@@ -8148,7 +7715,7 @@ impl ::prost::Name for GetClipResponse {
 /// Asks for clips.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListClipsRequest {
-    /// Most clips to return, 0…1000. 0: 100.
+    /// Most clips to return. 0: 100; more than 1000 are taken as 1000.
     #[prost(int32, tag = "1")]
     pub page_size: i32,
     /// `next_page_token` of the page before. Empty: from the start.
@@ -8191,6 +7758,10 @@ pub struct DeleteClipRequest {
     /// Resource name `clips/{clip}`.
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for DeleteClipRequest {
     const NAME: &'static str = "DeleteClipRequest";
@@ -8243,6 +7814,10 @@ pub struct PlayClipRequest {
     /// stands.
     #[prost(message, optional, tag = "7")]
     pub placement: ::core::option::Option<Placement>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
     /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
     /// the valid one.
     #[prost(string, tag = "15")]
@@ -8284,6 +7859,10 @@ pub struct StopClipRequest {
     /// Figure: resource name `worlds/{world}/figures/{figure}`.
     #[prost(string, tag = "1")]
     pub figure: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
     /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
     /// the valid one.
     #[prost(string, tag = "15")]
@@ -8337,12 +7916,12 @@ impl ::prost::Name for BoneRotation {
 pub struct FigureMotion {
     /// Figure: last part of its name. May be empty if the header names exactly one.
     #[prost(string, tag = "1")]
-    pub figure: ::prost::alloc::string::String,
+    pub figure_id: ::prost::alloc::string::String,
     /// Pelvis in the world. Absent: the pelvis stays where it is asked to be now.
     #[prost(message, optional, tag = "2")]
     pub root: ::core::option::Option<Pose>,
     /// The 39 anatomical angles, rad, in DOF order, each within ±2π.
-    #[prost(double, repeated, tag = "3")]
+    #[prost(double, repeated, packed = "false", tag = "3")]
     pub joint_angles_rad: ::prost::alloc::vec::Vec<f64>,
     /// Rotations by bone; bones that are left out are in the zero pose. What a hinge cannot do is dropped.
     #[prost(message, repeated, tag = "4")]
@@ -8351,10 +7930,10 @@ pub struct FigureMotion {
     #[prost(enumeration = "RotationSpace", tag = "5")]
     pub rotation_space: i32,
     /// Velocity, 45 numbers laid out as `FigureFrame.velocity`, each within ±1000. Empty: formed from neighbouring frames.
-    #[prost(double, repeated, tag = "6")]
+    #[prost(double, repeated, packed = "false", tag = "6")]
     pub velocity: ::prost::alloc::vec::Vec<f64>,
     /// Whether left and right foot are planted: empty (the server decides from height and speed) or two values.
-    #[prost(bool, repeated, tag = "7")]
+    #[prost(bool, repeated, packed = "false", tag = "7")]
     pub planted: ::prost::alloc::vec::Vec<bool>,
 }
 impl ::prost::Name for FigureMotion {
@@ -8399,7 +7978,7 @@ pub struct DriveHeader {
     pub world: ::prost::alloc::string::String,
     /// Figures that are driven: last parts of their names. At least one.
     #[prost(string, repeated, tag = "2")]
-    pub figures: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
     /// Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
     /// Empty: the server chooses, and `PushMotion` takes it as `push`.
     #[prost(string, tag = "3")]
@@ -8587,7 +8166,7 @@ impl ::prost::Name for DriveFeedback {
 pub struct FigureFeedback {
     /// Last part of the figure's name.
     #[prost(string, tag = "1")]
-    pub figure: ::prost::alloc::string::String,
+    pub figure_id: ::prost::alloc::string::String,
     /// Sequence of the newest frame that acts now; -1 if none yet.
     #[prost(int64, tag = "2")]
     pub applied_sequence: i64,
@@ -8922,6 +8501,31 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "CreateClip"));
             self.inner.unary(req, path, codec).await
         }
+        /// As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up.
+        pub async fn stream_create_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::StreamCreateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<tonic::codec::Streaming<super::StreamCreateClipResponse>>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/StreamCreateClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "StreamCreateClip"));
+            self.inner.server_streaming(req, path, codec).await
+        }
         /// One clip.
         pub async fn get_clip(
             &mut self,
@@ -8999,8 +8603,8 @@ pub mod motion_service_client {
         }
         /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
         /// it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
-        /// `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
-        /// while someone drives it live.
+        /// `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
+        /// (`FIGURE_CONTROLLED`) while someone drives it live.
         pub async fn play_clip(
             &mut self,
             request: impl tonic::IntoRequest<super::PlayClipRequest>,
@@ -9128,6 +8732,23 @@ pub mod motion_service_server {
             tonic::Response<super::CreateClipResponse>,
             tonic::Status,
         >;
+        /// Server streaming response type for the StreamCreateClip method.
+        type StreamCreateClipStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<
+                    super::StreamCreateClipResponse,
+                    tonic::Status,
+                >,
+            >
+            + std::marker::Send
+            + 'static;
+        /// As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up.
+        async fn stream_create_clip(
+            &self,
+            request: tonic::Request<super::StreamCreateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<Self::StreamCreateClipStream>,
+            tonic::Status,
+        >;
         /// One clip.
         async fn get_clip(
             &self,
@@ -9151,8 +8772,8 @@ pub mod motion_service_server {
         >;
         /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
         /// it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
-        /// `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
-        /// while someone drives it live.
+        /// `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
+        /// (`FIGURE_CONTROLLED`) while someone drives it live.
         async fn play_clip(
             &self,
             request: tonic::Request<super::PlayClipRequest>,
@@ -9312,6 +8933,54 @@ pub mod motion_service_server {
                                 max_encoding_message_size,
                             );
                         let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/StreamCreateClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct StreamCreateClipSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::ServerStreamingService<
+                        super::StreamCreateClipRequest,
+                    > for StreamCreateClipSvc<T> {
+                        type Response = super::StreamCreateClipResponse;
+                        type ResponseStream = T::StreamCreateClipStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::StreamCreateClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::stream_create_clip(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = StreamCreateClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.server_streaming(method, req).await;
                         Ok(res)
                     };
                     Box::pin(fut)
@@ -9674,6 +9343,995 @@ pub mod motion_service_server {
         const NAME: &'static str = SERVICE_NAME;
     }
 }
+/// A ball around the obstacle's origin.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct SphereShape {
+    /// Radius, m, 0.005…100.
+    #[prost(double, tag = "1")]
+    pub radius_m: f64,
+}
+impl ::prost::Name for SphereShape {
+    const NAME: &'static str = "SphereShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SphereShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SphereShape".into()
+    }
+}
+/// A cylinder with round ends along z of the obstacle's frame, around its origin.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct CapsuleShape {
+    /// Radius, m, 0.005…100.
+    #[prost(double, tag = "1")]
+    pub radius_m: f64,
+    /// Half the length of the cylinder without its ends, m, 0…100.
+    #[prost(double, tag = "2")]
+    pub half_length_m: f64,
+}
+impl ::prost::Name for CapsuleShape {
+    const NAME: &'static str = "CapsuleShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CapsuleShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CapsuleShape".into()
+    }
+}
+/// A box around the obstacle's origin.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct BoxShape {
+    /// Half of its edges along the axes of the obstacle's frame, m, each 0.005…1000.
+    #[prost(message, optional, tag = "1")]
+    pub half_m: ::core::option::Option<Vector3>,
+}
+impl ::prost::Name for BoxShape {
+    const NAME: &'static str = "BoxShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BoxShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BoxShape".into()
+    }
+}
+/// Everything below z = 0 of the obstacle's frame.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct PlaneShape {}
+impl ::prost::Name for PlaneShape {
+    const NAME: &'static str = "PlaneShape";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PlaneShape".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PlaneShape".into()
+    }
+}
+/// A thing that figures can touch.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Obstacle {
+    /// Resource name `worlds/{world}/obstacles/{obstacle}`. Ignored in requests to create one.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// How it moves.
+    #[prost(enumeration = "ObstacleMobility", tag = "6")]
+    pub mobility: i32,
+    /// Mass of a free obstacle, kg, 0.01…10000; spread evenly over its shape. Ignored for others.
+    #[prost(double, tag = "7")]
+    pub mass_kg: f64,
+    /// Coefficient of friction, 0.05…2; of two obstacles the smaller one counts. Absent: 0.6.
+    #[prost(double, optional, tag = "8")]
+    pub friction: ::core::option::Option<f64>,
+    /// Where it is; the origin of its frame is its centre. Absent: at the world's origin.
+    #[prost(message, optional, tag = "9")]
+    pub pose: ::core::option::Option<Pose>,
+    /// Velocity of its centre, m/s, each component within ±100. Ignored for fixed ones. Absent: at rest.
+    #[prost(message, optional, tag = "10")]
+    pub velocity_mps: ::core::option::Option<Vector3>,
+    /// Angular velocity, world axes, rad/s, each component within ±100. Ignored for fixed ones. Absent: none.
+    #[prost(message, optional, tag = "11")]
+    pub angular_velocity_rad_s: ::core::option::Option<Vector3>,
+    /// Changes whenever what was set of the obstacle does; that it moves by itself does not count. In requests: the change
+    /// is refused (ABORTED, `ETAG_MISMATCH`) unless it is that of the obstacle. Empty: not checked.
+    #[prost(string, tag = "12")]
+    pub etag: ::prost::alloc::string::String,
+    /// Shape. Required. A plane cannot be free.
+    #[prost(oneof = "obstacle::Shape", tags = "2, 3, 4, 5")]
+    pub shape: ::core::option::Option<obstacle::Shape>,
+}
+/// Nested message and enum types in `Obstacle`.
+pub mod obstacle {
+    /// Shape. Required. A plane cannot be free.
+    #[derive(Clone, Copy, PartialEq, ::prost::Oneof)]
+    pub enum Shape {
+        /// A ball.
+        #[prost(message, tag = "2")]
+        Sphere(super::SphereShape),
+        /// A cylinder with round ends.
+        #[prost(message, tag = "3")]
+        Capsule(super::CapsuleShape),
+        /// A box.
+        #[prost(message, tag = "4")]
+        Box(super::BoxShape),
+        /// A half-space.
+        #[prost(message, tag = "5")]
+        Plane(super::PlaneShape),
+    }
+}
+impl ::prost::Name for Obstacle {
+    const NAME: &'static str = "Obstacle";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Obstacle".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Obstacle".into()
+    }
+}
+/// Asks to put an obstacle into a world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct CreateObstacleRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub parent: ::prost::alloc::string::String,
+    /// Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
+    #[prost(string, tag = "2")]
+    pub obstacle_id: ::prost::alloc::string::String,
+    /// The obstacle. Required.
+    #[prost(message, optional, tag = "3")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
+}
+impl ::prost::Name for CreateObstacleRequest {
+    const NAME: &'static str = "CreateObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateObstacleRequest".into()
+    }
+}
+/// The new obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct CreateObstacleResponse {
+    /// As it was added, with defaults filled in.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+impl ::prost::Name for CreateObstacleResponse {
+    const NAME: &'static str = "CreateObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateObstacleResponse".into()
+    }
+}
+/// Asks for one obstacle.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetObstacleRequest {
+    /// Resource name `worlds/{world}/obstacles/{obstacle}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for GetObstacleRequest {
+    const NAME: &'static str = "GetObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetObstacleRequest".into()
+    }
+}
+/// One obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct GetObstacleResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+impl ::prost::Name for GetObstacleResponse {
+    const NAME: &'static str = "GetObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetObstacleResponse".into()
+    }
+}
+/// Asks for the obstacles of a world.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ListObstaclesRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub parent: ::prost::alloc::string::String,
+    /// Most obstacles to return. 0: 100; more than 1000 are taken as 1000.
+    #[prost(int32, tag = "2")]
+    pub page_size: i32,
+    /// `next_page_token` of the page before. Empty: from the start.
+    #[prost(string, tag = "3")]
+    pub page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListObstaclesRequest {
+    const NAME: &'static str = "ListObstaclesRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListObstaclesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListObstaclesRequest".into()
+    }
+}
+/// A page of obstacles.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ListObstaclesResponse {
+    /// In the order they were added.
+    #[prost(message, repeated, tag = "1")]
+    pub obstacles: ::prost::alloc::vec::Vec<Obstacle>,
+    /// Token of the next page; empty at the end.
+    #[prost(string, tag = "2")]
+    pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListObstaclesResponse {
+    const NAME: &'static str = "ListObstaclesResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListObstaclesResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListObstaclesResponse".into()
+    }
+}
+/// Changes an obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct UpdateObstacleRequest {
+    /// The obstacle, by `name`, with new values. Required.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+    /// Which of `sphere`, `capsule`, `box`, `plane`, `mobility`, `mass_kg`, `friction`, `pose`, `velocity_mps`,
+    /// `angular_velocity_rad_s` to take; the name of a shape replaces whatever shape there was. Absent or empty: those
+    /// that are not empty. `*`: all.
+    #[prost(message, optional, tag = "2")]
+    pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
+}
+impl ::prost::Name for UpdateObstacleRequest {
+    const NAME: &'static str = "UpdateObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateObstacleRequest".into()
+    }
+}
+/// The changed obstacle.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct UpdateObstacleResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub obstacle: ::core::option::Option<Obstacle>,
+}
+impl ::prost::Name for UpdateObstacleResponse {
+    const NAME: &'static str = "UpdateObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.UpdateObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.UpdateObstacleResponse".into()
+    }
+}
+/// Takes an obstacle out.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteObstacleRequest {
+    /// Resource name `worlds/{world}/obstacles/{obstacle}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked.
+    #[prost(string, tag = "12")]
+    pub etag: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+}
+impl ::prost::Name for DeleteObstacleRequest {
+    const NAME: &'static str = "DeleteObstacleRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteObstacleRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteObstacleRequest".into()
+    }
+}
+/// The obstacle is gone.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteObstacleResponse {}
+impl ::prost::Name for DeleteObstacleResponse {
+    const NAME: &'static str = "DeleteObstacleResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteObstacleResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteObstacleResponse".into()
+    }
+}
+/// How an obstacle moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum ObstacleMobility {
+    /// The default: OBSTACLE_MOBILITY_FIXED.
+    Unspecified = 0,
+    /// Not at all.
+    Fixed = 1,
+    /// With its velocity, whatever it meets.
+    Led = 2,
+    /// As a rigid body of `mass_kg`, under gravity and on the ground.
+    Free = 3,
+}
+impl ObstacleMobility {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "OBSTACLE_MOBILITY_UNSPECIFIED",
+            Self::Fixed => "OBSTACLE_MOBILITY_FIXED",
+            Self::Led => "OBSTACLE_MOBILITY_LED",
+            Self::Free => "OBSTACLE_MOBILITY_FREE",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "OBSTACLE_MOBILITY_UNSPECIFIED" => Some(Self::Unspecified),
+            "OBSTACLE_MOBILITY_FIXED" => Some(Self::Fixed),
+            "OBSTACLE_MOBILITY_LED" => Some(Self::Led),
+            "OBSTACLE_MOBILITY_FREE" => Some(Self::Free),
+            _ => None,
+        }
+    }
+}
+/// Generated client implementations.
+pub mod obstacle_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// Things that figures can touch: a seat, a wall, a ball. A world holds at most 256. Changes act at the start of the
+    /// next tick.
+    #[derive(Debug, Clone)]
+    pub struct ObstacleServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl ObstacleServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> ObstacleServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> ObstacleServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            ObstacleServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// Puts an obstacle into a world. RESOURCE_EXHAUSTED when it holds as many as it may.
+        pub async fn create_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::CreateObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CreateObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.ObstacleService/CreateObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.ObstacleService", "CreateObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// One obstacle, as it is now.
+        pub async fn get_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.ObstacleService/GetObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.ObstacleService", "GetObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// The obstacles of a world as they are now, in the order they were added.
+        pub async fn list_obstacles(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ListObstaclesRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListObstaclesResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.ObstacleService/ListObstacles",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.ObstacleService", "ListObstacles"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Changes an obstacle: what the mask names, the rest stays as it is at that tick.
+        pub async fn update_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::UpdateObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::UpdateObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.ObstacleService/UpdateObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.ObstacleService", "UpdateObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Takes an obstacle out of its world.
+        pub async fn delete_obstacle(
+            &mut self,
+            request: impl tonic::IntoRequest<super::DeleteObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteObstacleResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.ObstacleService/DeleteObstacle",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.ObstacleService", "DeleteObstacle"));
+            self.inner.unary(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod obstacle_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with ObstacleServiceServer.
+    #[async_trait]
+    pub trait ObstacleService: std::marker::Send + std::marker::Sync + 'static {
+        /// Puts an obstacle into a world. RESOURCE_EXHAUSTED when it holds as many as it may.
+        async fn create_obstacle(
+            &self,
+            request: tonic::Request<super::CreateObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CreateObstacleResponse>,
+            tonic::Status,
+        >;
+        /// One obstacle, as it is now.
+        async fn get_obstacle(
+            &self,
+            request: tonic::Request<super::GetObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetObstacleResponse>,
+            tonic::Status,
+        >;
+        /// The obstacles of a world as they are now, in the order they were added.
+        async fn list_obstacles(
+            &self,
+            request: tonic::Request<super::ListObstaclesRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListObstaclesResponse>,
+            tonic::Status,
+        >;
+        /// Changes an obstacle: what the mask names, the rest stays as it is at that tick.
+        async fn update_obstacle(
+            &self,
+            request: tonic::Request<super::UpdateObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::UpdateObstacleResponse>,
+            tonic::Status,
+        >;
+        /// Takes an obstacle out of its world.
+        async fn delete_obstacle(
+            &self,
+            request: tonic::Request<super::DeleteObstacleRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteObstacleResponse>,
+            tonic::Status,
+        >;
+    }
+    /// Things that figures can touch: a seat, a wall, a ball. A world holds at most 256. Changes act at the start of the
+    /// next tick.
+    #[derive(Debug)]
+    pub struct ObstacleServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> ObstacleServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for ObstacleServiceServer<T>
+    where
+        T: ObstacleService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.ObstacleService/CreateObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct CreateObstacleSvc<T: ObstacleService>(pub Arc<T>);
+                    impl<
+                        T: ObstacleService,
+                    > tonic::server::UnaryService<super::CreateObstacleRequest>
+                    for CreateObstacleSvc<T> {
+                        type Response = super::CreateObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::CreateObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as ObstacleService>::create_obstacle(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = CreateObstacleSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.ObstacleService/GetObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetObstacleSvc<T: ObstacleService>(pub Arc<T>);
+                    impl<
+                        T: ObstacleService,
+                    > tonic::server::UnaryService<super::GetObstacleRequest>
+                    for GetObstacleSvc<T> {
+                        type Response = super::GetObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as ObstacleService>::get_obstacle(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetObstacleSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.ObstacleService/ListObstacles" => {
+                    #[allow(non_camel_case_types)]
+                    struct ListObstaclesSvc<T: ObstacleService>(pub Arc<T>);
+                    impl<
+                        T: ObstacleService,
+                    > tonic::server::UnaryService<super::ListObstaclesRequest>
+                    for ListObstaclesSvc<T> {
+                        type Response = super::ListObstaclesResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ListObstaclesRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as ObstacleService>::list_obstacles(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ListObstaclesSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.ObstacleService/UpdateObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct UpdateObstacleSvc<T: ObstacleService>(pub Arc<T>);
+                    impl<
+                        T: ObstacleService,
+                    > tonic::server::UnaryService<super::UpdateObstacleRequest>
+                    for UpdateObstacleSvc<T> {
+                        type Response = super::UpdateObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::UpdateObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as ObstacleService>::update_obstacle(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = UpdateObstacleSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.ObstacleService/DeleteObstacle" => {
+                    #[allow(non_camel_case_types)]
+                    struct DeleteObstacleSvc<T: ObstacleService>(pub Arc<T>);
+                    impl<
+                        T: ObstacleService,
+                    > tonic::server::UnaryService<super::DeleteObstacleRequest>
+                    for DeleteObstacleSvc<T> {
+                        type Response = super::DeleteObstacleResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::DeleteObstacleRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as ObstacleService>::delete_obstacle(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = DeleteObstacleSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for ObstacleServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.ObstacleService";
+    impl<T> tonic::server::NamedService for ObstacleServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
 /// A mass that a segment carries.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Load {
@@ -9702,7 +10360,7 @@ pub struct Load {
     pub second_point_m: ::core::option::Option<Vector3>,
     /// Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never.
     #[prost(double, tag = "8")]
-    pub grip_n: f64,
+    pub grip_newtons: f64,
 }
 impl ::prost::Name for Load {
     const NAME: &'static str = "Load";
@@ -9725,7 +10383,7 @@ pub struct Impulse {
     pub point_m: ::core::option::Option<Vector3>,
     /// Impulse, world axes, N·s, each component within ±1000.
     #[prost(message, optional, tag = "3")]
-    pub impulse_ns: ::core::option::Option<Vector3>,
+    pub impulse_newton_seconds: ::core::option::Option<Vector3>,
     /// How long the push takes, s, up to 10. 0 or absent: 0.1.
     #[prost(double, tag = "4")]
     pub duration_s: f64,
@@ -9751,7 +10409,7 @@ pub struct Force {
     pub point_m: ::core::option::Option<Vector3>,
     /// Force, world axes, N, each component within ±100000.
     #[prost(message, optional, tag = "3")]
-    pub force_n: ::core::option::Option<Vector3>,
+    pub force_newtons: ::core::option::Option<Vector3>,
     /// How long it acts, s, 0…86400. 0 or absent: until it is cleared.
     #[prost(double, tag = "4")]
     pub duration_s: f64,
@@ -9771,7 +10429,7 @@ impl ::prost::Name for Force {
 pub struct Perturbation {
     /// Figure: last part of its name.
     #[prost(string, tag = "1")]
-    pub figure: ::prost::alloc::string::String,
+    pub figure_id: ::prost::alloc::string::String,
     /// Tick at whose start it begins. Absent: at the next tick. Must not be in the past.
     #[prost(int64, optional, tag = "2")]
     pub tick: ::core::option::Option<i64>,
@@ -9821,6 +10479,13 @@ pub struct ApplyPerturbationsRequest {
     /// At least one, at most 64.
     #[prost(message, repeated, tag = "4")]
     pub perturbations: ::prost::alloc::vec::Vec<Perturbation>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
 }
 impl ::prost::Name for ApplyPerturbationsRequest {
     const NAME: &'static str = "ApplyPerturbationsRequest";
@@ -9855,6 +10520,10 @@ pub struct ClearPerturbationsRequest {
     /// Figure: resource name `worlds/{world}/figures/{figure}`.
     #[prost(string, tag = "1")]
     pub figure: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
 }
 impl ::prost::Name for ClearPerturbationsRequest {
     const NAME: &'static str = "ClearPerturbationsRequest";
@@ -10273,6 +10942,2519 @@ pub mod perturbation_service_server {
     /// Generated gRPC service name
     pub const SERVICE_NAME: &str = "sinew.v1.PerturbationService";
     impl<T> tonic::server::NamedService for PerturbationServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
+/// What of a world is sent.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct View {
+    /// Figures by the last parts of their names. Empty: all.
+    #[prost(string, repeated, tag = "1")]
+    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
+    /// `root_pose`, `joint_angles`, `torque`, `status`.
+    #[prost(message, optional, tag = "2")]
+    pub fields: ::core::option::Option<::prost_types::FieldMask>,
+    /// How numbers are written.
+    #[prost(enumeration = "Encoding", tag = "3")]
+    pub encoding: i32,
+    /// Sends one frame for every n ticks, 1…1000. 0 or absent: 1. Ignored by `GetWorldFrame`.
+    #[prost(int32, tag = "4")]
+    pub rate_divisor: i32,
+}
+impl ::prost::Name for View {
+    const NAME: &'static str = "View";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.View".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.View".into()
+    }
+}
+/// Names of the figures, by their index in the frames that follow.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Roster {
+    /// World: resource name.
+    #[prost(string, tag = "1")]
+    pub world: ::prost::alloc::string::String,
+    /// Ticks per second of world time.
+    #[prost(double, tag = "2")]
+    pub rate_hz: f64,
+    /// Version of this roster; frames carry the version they refer to.
+    #[prost(int32, tag = "3")]
+    pub version: i32,
+    /// Figures of the view.
+    #[prost(message, repeated, tag = "4")]
+    pub figures: ::prost::alloc::vec::Vec<RosterEntry>,
+}
+impl ::prost::Name for Roster {
+    const NAME: &'static str = "Roster";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Roster".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Roster".into()
+    }
+}
+/// One figure of a roster.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct RosterEntry {
+    /// Index in frames. Indices of removed figures are not used again.
+    #[prost(int32, tag = "1")]
+    pub figure_index: i32,
+    /// Last part of the figure's name.
+    #[prost(string, tag = "2")]
+    pub figure_id: ::prost::alloc::string::String,
+    /// Body: resource name.
+    #[prost(string, tag = "3")]
+    pub body: ::prost::alloc::string::String,
+}
+impl ::prost::Name for RosterEntry {
+    const NAME: &'static str = "RosterEntry";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RosterEntry".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RosterEntry".into()
+    }
+}
+/// Asks for a frame.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetWorldFrameRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub world: ::prost::alloc::string::String,
+    /// Tick wanted. Absent: the latest. OUT_OF_RANGE (`RESUME_EXPIRED`) when it is no longer held or not yet computed.
+    #[prost(int64, optional, tag = "2")]
+    pub tick: ::core::option::Option<i64>,
+    /// What is sent.
+    #[prost(message, optional, tag = "3")]
+    pub view: ::core::option::Option<View>,
+}
+impl ::prost::Name for GetWorldFrameRequest {
+    const NAME: &'static str = "GetWorldFrameRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldFrameRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldFrameRequest".into()
+    }
+}
+/// A frame.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct GetWorldFrameResponse {
+    /// Names of the figures by index.
+    #[prost(message, optional, tag = "1")]
+    pub roster: ::core::option::Option<Roster>,
+    /// The frame.
+    #[prost(message, optional, tag = "2")]
+    pub frame: ::core::option::Option<WorldFrame>,
+}
+impl ::prost::Name for GetWorldFrameResponse {
+    const NAME: &'static str = "GetWorldFrameResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldFrameResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldFrameResponse".into()
+    }
+}
+/// Asks for frames as they come.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct WatchWorldRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub world: ::prost::alloc::string::String,
+    /// What is sent.
+    #[prost(message, optional, tag = "2")]
+    pub view: ::core::option::Option<View>,
+    /// Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
+    /// is no longer held. Absent: from now.
+    #[prost(int64, optional, tag = "3")]
+    pub resume_tick: ::core::option::Option<i64>,
+}
+impl ::prost::Name for WatchWorldRequest {
+    const NAME: &'static str = "WatchWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WatchWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WatchWorldRequest".into()
+    }
+}
+/// One event.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Event {
+    /// What happened.
+    #[prost(enumeration = "EventType", tag = "1")]
+    pub r#type: i32,
+    /// Tick after which it was true.
+    #[prost(int64, tag = "2")]
+    pub tick: i64,
+    /// World time, s.
+    #[prost(double, tag = "3")]
+    pub time_s: f64,
+    /// Last part of the figure's name; empty for events of the world.
+    #[prost(string, tag = "4")]
+    pub figure_id: ::prost::alloc::string::String,
+    /// Segment name, where there is one.
+    #[prost(string, tag = "5")]
+    pub segment: ::prost::alloc::string::String,
+    /// DOF name, where there is one.
+    #[prost(string, tag = "6")]
+    pub dof: ::prost::alloc::string::String,
+    /// Mass of the load, kg, where there is one.
+    #[prost(double, tag = "7")]
+    pub mass_kg: f64,
+    /// Driver or reason, where there is one.
+    #[prost(string, tag = "8")]
+    pub detail: ::prost::alloc::string::String,
+    /// What is touched, added or removed: `figures/{figure}` or `obstacles/{obstacle}`, where there is one.
+    #[prost(string, tag = "9")]
+    pub other: ::prost::alloc::string::String,
+    /// Name of the segment of the other figure, where there is one.
+    #[prost(string, tag = "10")]
+    pub other_segment: ::prost::alloc::string::String,
+}
+impl ::prost::Name for Event {
+    const NAME: &'static str = "Event";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Event".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Event".into()
+    }
+}
+/// Asks for events as they come.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct WatchEventsRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub world: ::prost::alloc::string::String,
+    /// Figures by the last parts of their names. Empty: all, and events of the world.
+    #[prost(string, repeated, tag = "2")]
+    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// Types wanted. Empty: all.
+    #[prost(enumeration = "EventType", repeated, packed = "false", tag = "3")]
+    pub types: ::prost::alloc::vec::Vec<i32>,
+}
+impl ::prost::Name for WatchEventsRequest {
+    const NAME: &'static str = "WatchEventsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WatchEventsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WatchEventsRequest".into()
+    }
+}
+/// One or more events of one tick.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct WatchEventsResponse {
+    /// The events; empty in the first message, which says that the watch has begun.
+    #[prost(message, repeated, tag = "1")]
+    pub events: ::prost::alloc::vec::Vec<Event>,
+    /// Messages that this viewer was too slow for, so far.
+    #[prost(int64, tag = "2")]
+    pub missed_count: i64,
+}
+impl ::prost::Name for WatchEventsResponse {
+    const NAME: &'static str = "WatchEventsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WatchEventsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WatchEventsResponse".into()
+    }
+}
+/// What happened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum EventType {
+    /// Never sent.
+    Unspecified = 0,
+    /// A segment began to support the figure.
+    SupportGained = 1,
+    /// A segment no longer supports the figure.
+    SupportLost = 2,
+    /// A DOF reached the limit of its strength.
+    Saturated = 3,
+    /// A DOF is no longer at its limit.
+    Relieved = 4,
+    /// Balance was lost.
+    BalanceLost = 5,
+    /// Balance was found again.
+    Recovered = 6,
+    /// The figure fell.
+    Fell = 7,
+    /// A load was taken.
+    LoadTaken = 8,
+    /// A load was dropped.
+    LoadDropped = 9,
+    /// A load slipped from a hand: the force exceeded its grip.
+    LoadSlipped = 30,
+    /// The figure's state became unusable; it is frozen at its last good one.
+    Quarantined = 10,
+    /// A figure was added.
+    FigureAdded = 11,
+    /// A figure was removed.
+    FigureRemoved = 12,
+    /// A driver took a figure.
+    DriveBegan = 13,
+    /// A driver gave a figure back or lost it.
+    DriveEnded = 14,
+    /// A clip began to play: the detail is its name, `clips/{clip}`.
+    ClipBegan = 19,
+    /// A clip is over, or was ended: the detail is its name, `clips/{clip}`.
+    ClipEnded = 20,
+    /// The stream of a driver began anew; the detail says why.
+    DriveResynced = 35,
+    /// The world was paused.
+    WorldPaused = 15,
+    /// The world was resumed.
+    WorldResumed = 16,
+    /// The world failed.
+    WorldFailed = 17,
+    /// The world was deleted, and this is its last event; the detail says by whom or why.
+    WorldDeleted = 21,
+    /// The figure stands again after a fall.
+    GotUp = 18,
+    /// The world was put into the state of a checkpoint; `detail` is its tick.
+    WorldRestored = 45,
+    /// A segment began to touch another figure or an obstacle.
+    Touched = 31,
+    /// A segment no longer touches it.
+    Parted = 32,
+    /// An obstacle was added.
+    ObstacleAdded = 33,
+    /// An obstacle was removed.
+    ObstacleRemoved = 34,
+    /// A lease of the figure began, or went to another holder; the detail names the holder.
+    ControlAcquired = 40,
+    /// A lease of the figure ended; the detail names the holder and says why.
+    ControlReleased = 41,
+    /// A lease was taken by someone of higher priority; the detail names both.
+    ControlPreempted = 42,
+    /// The holder of a lease offered it to someone; the detail names both.
+    ControlOffered = 43,
+    /// Someone was refused what only the holder of the lease, or a higher role, may do; the detail names him. At most one
+    /// a second of each world.
+    AccessRefused = 44,
+}
+impl EventType {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "EVENT_TYPE_UNSPECIFIED",
+            Self::SupportGained => "EVENT_TYPE_SUPPORT_GAINED",
+            Self::SupportLost => "EVENT_TYPE_SUPPORT_LOST",
+            Self::Saturated => "EVENT_TYPE_SATURATED",
+            Self::Relieved => "EVENT_TYPE_RELIEVED",
+            Self::BalanceLost => "EVENT_TYPE_BALANCE_LOST",
+            Self::Recovered => "EVENT_TYPE_RECOVERED",
+            Self::Fell => "EVENT_TYPE_FELL",
+            Self::LoadTaken => "EVENT_TYPE_LOAD_TAKEN",
+            Self::LoadDropped => "EVENT_TYPE_LOAD_DROPPED",
+            Self::LoadSlipped => "EVENT_TYPE_LOAD_SLIPPED",
+            Self::Quarantined => "EVENT_TYPE_QUARANTINED",
+            Self::FigureAdded => "EVENT_TYPE_FIGURE_ADDED",
+            Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
+            Self::DriveBegan => "EVENT_TYPE_DRIVE_BEGAN",
+            Self::DriveEnded => "EVENT_TYPE_DRIVE_ENDED",
+            Self::ClipBegan => "EVENT_TYPE_CLIP_BEGAN",
+            Self::ClipEnded => "EVENT_TYPE_CLIP_ENDED",
+            Self::DriveResynced => "EVENT_TYPE_DRIVE_RESYNCED",
+            Self::WorldPaused => "EVENT_TYPE_WORLD_PAUSED",
+            Self::WorldResumed => "EVENT_TYPE_WORLD_RESUMED",
+            Self::WorldFailed => "EVENT_TYPE_WORLD_FAILED",
+            Self::WorldDeleted => "EVENT_TYPE_WORLD_DELETED",
+            Self::GotUp => "EVENT_TYPE_GOT_UP",
+            Self::WorldRestored => "EVENT_TYPE_WORLD_RESTORED",
+            Self::Touched => "EVENT_TYPE_TOUCHED",
+            Self::Parted => "EVENT_TYPE_PARTED",
+            Self::ObstacleAdded => "EVENT_TYPE_OBSTACLE_ADDED",
+            Self::ObstacleRemoved => "EVENT_TYPE_OBSTACLE_REMOVED",
+            Self::ControlAcquired => "EVENT_TYPE_CONTROL_ACQUIRED",
+            Self::ControlReleased => "EVENT_TYPE_CONTROL_RELEASED",
+            Self::ControlPreempted => "EVENT_TYPE_CONTROL_PREEMPTED",
+            Self::ControlOffered => "EVENT_TYPE_CONTROL_OFFERED",
+            Self::AccessRefused => "EVENT_TYPE_ACCESS_REFUSED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "EVENT_TYPE_UNSPECIFIED" => Some(Self::Unspecified),
+            "EVENT_TYPE_SUPPORT_GAINED" => Some(Self::SupportGained),
+            "EVENT_TYPE_SUPPORT_LOST" => Some(Self::SupportLost),
+            "EVENT_TYPE_SATURATED" => Some(Self::Saturated),
+            "EVENT_TYPE_RELIEVED" => Some(Self::Relieved),
+            "EVENT_TYPE_BALANCE_LOST" => Some(Self::BalanceLost),
+            "EVENT_TYPE_RECOVERED" => Some(Self::Recovered),
+            "EVENT_TYPE_FELL" => Some(Self::Fell),
+            "EVENT_TYPE_LOAD_TAKEN" => Some(Self::LoadTaken),
+            "EVENT_TYPE_LOAD_DROPPED" => Some(Self::LoadDropped),
+            "EVENT_TYPE_LOAD_SLIPPED" => Some(Self::LoadSlipped),
+            "EVENT_TYPE_QUARANTINED" => Some(Self::Quarantined),
+            "EVENT_TYPE_FIGURE_ADDED" => Some(Self::FigureAdded),
+            "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),
+            "EVENT_TYPE_DRIVE_BEGAN" => Some(Self::DriveBegan),
+            "EVENT_TYPE_DRIVE_ENDED" => Some(Self::DriveEnded),
+            "EVENT_TYPE_CLIP_BEGAN" => Some(Self::ClipBegan),
+            "EVENT_TYPE_CLIP_ENDED" => Some(Self::ClipEnded),
+            "EVENT_TYPE_DRIVE_RESYNCED" => Some(Self::DriveResynced),
+            "EVENT_TYPE_WORLD_PAUSED" => Some(Self::WorldPaused),
+            "EVENT_TYPE_WORLD_RESUMED" => Some(Self::WorldResumed),
+            "EVENT_TYPE_WORLD_FAILED" => Some(Self::WorldFailed),
+            "EVENT_TYPE_WORLD_DELETED" => Some(Self::WorldDeleted),
+            "EVENT_TYPE_GOT_UP" => Some(Self::GotUp),
+            "EVENT_TYPE_WORLD_RESTORED" => Some(Self::WorldRestored),
+            "EVENT_TYPE_TOUCHED" => Some(Self::Touched),
+            "EVENT_TYPE_PARTED" => Some(Self::Parted),
+            "EVENT_TYPE_OBSTACLE_ADDED" => Some(Self::ObstacleAdded),
+            "EVENT_TYPE_OBSTACLE_REMOVED" => Some(Self::ObstacleRemoved),
+            "EVENT_TYPE_CONTROL_ACQUIRED" => Some(Self::ControlAcquired),
+            "EVENT_TYPE_CONTROL_RELEASED" => Some(Self::ControlReleased),
+            "EVENT_TYPE_CONTROL_PREEMPTED" => Some(Self::ControlPreempted),
+            "EVENT_TYPE_CONTROL_OFFERED" => Some(Self::ControlOffered),
+            "EVENT_TYPE_ACCESS_REFUSED" => Some(Self::AccessRefused),
+            _ => None,
+        }
+    }
+}
+/// Generated client implementations.
+pub mod state_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// What worlds do: frames and events.
+    #[derive(Debug, Clone)]
+    pub struct StateServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl StateServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> StateServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> StateServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            StateServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// One frame: the latest, or one that is still held.
+        pub async fn get_world_frame(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetWorldFrameRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetWorldFrameResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.StateService/GetWorldFrame",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.StateService", "GetWorldFrame"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Frames as they come. The first message is a roster; another follows whenever the figures of the view change. A slow
+        /// viewer gets the latest frame, never a backlog; what it missed is counted.
+        pub async fn watch_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::WatchWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<
+                tonic::codec::Streaming<crate::wire::watched::WatchWorldResponse>,
+            >,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.StateService/WatchWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.StateService", "WatchWorld"));
+            self.inner.server_streaming(req, path, codec).await
+        }
+        /// Events as they come.
+        pub async fn watch_events(
+            &mut self,
+            request: impl tonic::IntoRequest<super::WatchEventsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<tonic::codec::Streaming<super::WatchEventsResponse>>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.StateService/WatchEvents",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.StateService", "WatchEvents"));
+            self.inner.server_streaming(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod state_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with StateServiceServer.
+    #[async_trait]
+    pub trait StateService: std::marker::Send + std::marker::Sync + 'static {
+        /// One frame: the latest, or one that is still held.
+        async fn get_world_frame(
+            &self,
+            request: tonic::Request<super::GetWorldFrameRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetWorldFrameResponse>,
+            tonic::Status,
+        >;
+        /// Server streaming response type for the WatchWorld method.
+        type WatchWorldStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<
+                    crate::wire::watched::WatchWorldResponse,
+                    tonic::Status,
+                >,
+            >
+            + std::marker::Send
+            + 'static;
+        /// Frames as they come. The first message is a roster; another follows whenever the figures of the view change. A slow
+        /// viewer gets the latest frame, never a backlog; what it missed is counted.
+        async fn watch_world(
+            &self,
+            request: tonic::Request<super::WatchWorldRequest>,
+        ) -> std::result::Result<tonic::Response<Self::WatchWorldStream>, tonic::Status>;
+        /// Server streaming response type for the WatchEvents method.
+        type WatchEventsStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<super::WatchEventsResponse, tonic::Status>,
+            >
+            + std::marker::Send
+            + 'static;
+        /// Events as they come.
+        async fn watch_events(
+            &self,
+            request: tonic::Request<super::WatchEventsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<Self::WatchEventsStream>,
+            tonic::Status,
+        >;
+    }
+    /// What worlds do: frames and events.
+    #[derive(Debug)]
+    pub struct StateServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> StateServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for StateServiceServer<T>
+    where
+        T: StateService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.StateService/GetWorldFrame" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetWorldFrameSvc<T: StateService>(pub Arc<T>);
+                    impl<
+                        T: StateService,
+                    > tonic::server::UnaryService<super::GetWorldFrameRequest>
+                    for GetWorldFrameSvc<T> {
+                        type Response = super::GetWorldFrameResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetWorldFrameRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as StateService>::get_world_frame(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetWorldFrameSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.StateService/WatchWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct WatchWorldSvc<T: StateService>(pub Arc<T>);
+                    impl<
+                        T: StateService,
+                    > tonic::server::ServerStreamingService<super::WatchWorldRequest>
+                    for WatchWorldSvc<T> {
+                        type Response = crate::wire::watched::WatchWorldResponse;
+                        type ResponseStream = T::WatchWorldStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::WatchWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as StateService>::watch_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = WatchWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.server_streaming(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.StateService/WatchEvents" => {
+                    #[allow(non_camel_case_types)]
+                    struct WatchEventsSvc<T: StateService>(pub Arc<T>);
+                    impl<
+                        T: StateService,
+                    > tonic::server::ServerStreamingService<super::WatchEventsRequest>
+                    for WatchEventsSvc<T> {
+                        type Response = super::WatchEventsResponse;
+                        type ResponseStream = T::WatchEventsStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::WatchEventsRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as StateService>::watch_events(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = WatchEventsSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.server_streaming(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for StateServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.StateService";
+    impl<T> tonic::server::NamedService for StateServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
+/// A disturbance in time of the clip.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct TimedPerturbation {
+    /// When it begins, s from the start, 0…86400.
+    #[prost(double, tag = "1")]
+    pub start_s: f64,
+    /// What happens; its figure and tick are ignored.
+    #[prost(message, optional, tag = "2")]
+    pub perturbation: ::core::option::Option<Perturbation>,
+}
+impl ::prost::Name for TimedPerturbation {
+    const NAME: &'static str = "TimedPerturbation";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.TimedPerturbation".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.TimedPerturbation".into()
+    }
+}
+/// Asks for a simulation.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct SimulateClipRequest {
+    /// Body, strength, controller and stepper; name and placement are ignored. Absent: all defaults.
+    #[prost(message, optional, tag = "3")]
+    pub figure: ::core::option::Option<Figure>,
+    /// Ticks per second, 10…1000. 0 or absent: 60.
+    #[prost(double, tag = "4")]
+    pub rate_hz: f64,
+    /// Substeps in one tick, 1…16. 0 or absent: 2.
+    #[prost(int32, tag = "5")]
+    pub substep_count: i32,
+    /// How long, s, up to the server's `max_simulation_s` (default 120). 0 or absent: the length of the clip.
+    #[prost(double, tag = "6")]
+    pub duration_s: f64,
+    /// Repeats the clip for as long. Default: false, the figure stands in the last posture.
+    #[prost(bool, tag = "7")]
+    pub r#loop: bool,
+    /// Disturbances, at most 64.
+    #[prost(message, repeated, tag = "8")]
+    pub perturbations: ::prost::alloc::vec::Vec<TimedPerturbation>,
+    /// Fields and encoding of the frames; `rate_divisor` thins them. Figures are ignored. Absent: no frames.
+    #[prost(message, optional, tag = "9")]
+    pub view: ::core::option::Option<View>,
+    /// The desired motion. Required.
+    #[prost(oneof = "simulate_clip_request::Source", tags = "1, 2")]
+    pub source: ::core::option::Option<simulate_clip_request::Source>,
+}
+/// Nested message and enum types in `SimulateClipRequest`.
+pub mod simulate_clip_request {
+    /// The desired motion. Required.
+    #[derive(Clone, PartialEq, ::prost::Oneof)]
+    pub enum Source {
+        /// A stored or built-in clip: `clips/{clip}`.
+        #[prost(string, tag = "1")]
+        Clip(::prost::alloc::string::String),
+        /// A BVH file.
+        #[prost(message, tag = "2")]
+        Bvh(super::BvhSource),
+    }
+}
+impl ::prost::Name for SimulateClipRequest {
+    const NAME: &'static str = "SimulateClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SimulateClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SimulateClipRequest".into()
+    }
+}
+/// Result of a simulation.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct SimulateClipResponse {
+    /// Figures of merit.
+    #[prost(message, optional, tag = "1")]
+    pub summary: ::core::option::Option<SimulationSummary>,
+    /// Frames, if a view was asked for.
+    #[prost(message, repeated, tag = "2")]
+    pub frames: ::prost::alloc::vec::Vec<WorldFrame>,
+    /// Events in order.
+    #[prost(message, repeated, tag = "3")]
+    pub events: ::prost::alloc::vec::Vec<Event>,
+    /// How the BVH file was understood; absent for clips.
+    #[prost(message, optional, tag = "4")]
+    pub report: ::core::option::Option<RetargetReport>,
+}
+impl ::prost::Name for SimulateClipResponse {
+    const NAME: &'static str = "SimulateClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SimulateClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SimulateClipResponse".into()
+    }
+}
+/// Asks for a simulation, bit by bit.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct StreamSimulateClipRequest {
+    /// The simulation. Required.
+    #[prost(message, optional, tag = "1")]
+    pub simulate_clip: ::core::option::Option<SimulateClipRequest>,
+}
+impl ::prost::Name for StreamSimulateClipRequest {
+    const NAME: &'static str = "StreamSimulateClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StreamSimulateClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StreamSimulateClipRequest".into()
+    }
+}
+/// One message of a simulation.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct StreamSimulateClipResponse {
+    /// What is sent.
+    #[prost(oneof = "stream_simulate_clip_response::Message", tags = "1, 2")]
+    pub message: ::core::option::Option<stream_simulate_clip_response::Message>,
+}
+/// Nested message and enum types in `StreamSimulateClipResponse`.
+pub mod stream_simulate_clip_response {
+    /// What is sent.
+    #[derive(Clone, PartialEq, ::prost::Oneof)]
+    pub enum Message {
+        /// How far it is, and what was computed since the message before.
+        #[prost(message, tag = "1")]
+        Progress(super::SimulationProgress),
+        /// The end: as the answer of `SimulateClip`, without frames. The last message.
+        #[prost(message, tag = "2")]
+        SimulateClip(super::SimulateClipResponse),
+    }
+}
+impl ::prost::Name for StreamSimulateClipResponse {
+    const NAME: &'static str = "StreamSimulateClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StreamSimulateClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StreamSimulateClipResponse".into()
+    }
+}
+/// How far a simulation is.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct SimulationProgress {
+    /// Share of the work that is done, 0…1.
+    #[prost(double, tag = "1")]
+    pub progress: f64,
+    /// Frames since the message before, if a view was asked for.
+    #[prost(message, repeated, tag = "2")]
+    pub frames: ::prost::alloc::vec::Vec<WorldFrame>,
+}
+impl ::prost::Name for SimulationProgress {
+    const NAME: &'static str = "SimulationProgress";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SimulationProgress".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SimulationProgress".into()
+    }
+}
+/// Figures of merit of a simulation.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct SimulationSummary {
+    /// Number of ticks.
+    #[prost(int32, tag = "1")]
+    pub tick_count: i32,
+    /// Ticks per second.
+    #[prost(double, tag = "2")]
+    pub rate_hz: f64,
+    /// When the figure fell, s; absent if it did not.
+    #[prost(double, optional, tag = "3")]
+    pub fell_at_s: ::core::option::Option<f64>,
+    /// Tracking error of the joint angles, target minus actual at the start of a tick: root mean square over DOFs and
+    /// ticks, rad. The target is the prepared motion, moved along with the feet after each step.
+    #[prost(double, tag = "4")]
+    pub tracking_joint_rms_rad: f64,
+    /// Largest tracking error of a joint angle, rad.
+    #[prost(double, tag = "5")]
+    pub tracking_joint_max_rad: f64,
+    /// Largest torque relative to the torque available.
+    #[prost(double, tag = "6")]
+    pub max_utilisation: f64,
+    /// Largest violation of the strength, relative to the limit; 0 when none.
+    #[prost(double, tag = "7")]
+    pub over_limit_max: f64,
+    /// Time each DOF was at its limit, s, in DOF order.
+    #[prost(double, repeated, tag = "8")]
+    pub saturated_s: ::prost::alloc::vec::Vec<f64>,
+    /// Least distance of the zero-moment point inside the support polygon, m; absent if the figure never stood.
+    #[prost(double, optional, tag = "9")]
+    pub margin_min_m: ::core::option::Option<f64>,
+    /// Largest penetration of the ground, m.
+    #[prost(double, tag = "10")]
+    pub penetration_max_m: f64,
+    /// State hash at the end.
+    #[prost(sfixed64, tag = "11")]
+    pub state_hash: i64,
+    /// Median time to compute a tick, µs.
+    #[prost(double, tag = "12")]
+    pub tick_p50_us: f64,
+    /// 99th percentile of the time to compute a tick, µs.
+    #[prost(double, tag = "13")]
+    pub tick_p99_us: f64,
+}
+impl ::prost::Name for SimulationSummary {
+    const NAME: &'static str = "SimulationSummary";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SimulationSummary".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SimulationSummary".into()
+    }
+}
+/// Generated client implementations.
+pub mod simulation_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// Simulates without a world.
+    #[derive(Debug, Clone)]
+    pub struct SimulationServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl SimulationServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> SimulationServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> SimulationServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            SimulationServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// One clip tracked by one figure, faster than real time: motion, torques and events come back in one message.
+        pub async fn simulate_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::SimulateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::SimulateClipResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.SimulationService/SimulateClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.SimulationService", "SimulateClip"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// As `SimulateClip`, with frames as they are computed: the streaming twin. The size of a response does not bound
+        /// them, and a slow reader slows the simulation down. Ending the stream gives the simulation up.
+        pub async fn stream_simulate_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::StreamSimulateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<tonic::codec::Streaming<super::StreamSimulateClipResponse>>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.SimulationService/StreamSimulateClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(
+                    GrpcMethod::new("sinew.v1.SimulationService", "StreamSimulateClip"),
+                );
+            self.inner.server_streaming(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod simulation_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with SimulationServiceServer.
+    #[async_trait]
+    pub trait SimulationService: std::marker::Send + std::marker::Sync + 'static {
+        /// One clip tracked by one figure, faster than real time: motion, torques and events come back in one message.
+        async fn simulate_clip(
+            &self,
+            request: tonic::Request<super::SimulateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::SimulateClipResponse>,
+            tonic::Status,
+        >;
+        /// Server streaming response type for the StreamSimulateClip method.
+        type StreamSimulateClipStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<
+                    super::StreamSimulateClipResponse,
+                    tonic::Status,
+                >,
+            >
+            + std::marker::Send
+            + 'static;
+        /// As `SimulateClip`, with frames as they are computed: the streaming twin. The size of a response does not bound
+        /// them, and a slow reader slows the simulation down. Ending the stream gives the simulation up.
+        async fn stream_simulate_clip(
+            &self,
+            request: tonic::Request<super::StreamSimulateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<Self::StreamSimulateClipStream>,
+            tonic::Status,
+        >;
+    }
+    /// Simulates without a world.
+    #[derive(Debug)]
+    pub struct SimulationServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> SimulationServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for SimulationServiceServer<T>
+    where
+        T: SimulationService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.SimulationService/SimulateClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct SimulateClipSvc<T: SimulationService>(pub Arc<T>);
+                    impl<
+                        T: SimulationService,
+                    > tonic::server::UnaryService<super::SimulateClipRequest>
+                    for SimulateClipSvc<T> {
+                        type Response = super::SimulateClipResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::SimulateClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as SimulationService>::simulate_clip(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = SimulateClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.SimulationService/StreamSimulateClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct StreamSimulateClipSvc<T: SimulationService>(pub Arc<T>);
+                    impl<
+                        T: SimulationService,
+                    > tonic::server::ServerStreamingService<
+                        super::StreamSimulateClipRequest,
+                    > for StreamSimulateClipSvc<T> {
+                        type Response = super::StreamSimulateClipResponse;
+                        type ResponseStream = T::StreamSimulateClipStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::StreamSimulateClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as SimulationService>::stream_simulate_clip(
+                                        &inner,
+                                        request,
+                                    )
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = StreamSimulateClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.server_streaming(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for SimulationServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.SimulationService";
+    impl<T> tonic::server::NamedService for SimulationServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
+/// Long work.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Operation {
+    /// Resource name `operations/{operation}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// How far it is. Output only.
+    #[prost(enumeration = "OperationState", tag = "2")]
+    pub state: i32,
+    /// Share of the work that is done, 0…1. Output only.
+    #[prost(double, tag = "3")]
+    pub progress: f64,
+    /// When it was started. Output only.
+    #[prost(message, optional, tag = "4")]
+    pub create_time: ::core::option::Option<::prost_types::Timestamp>,
+    /// When it was done; absent before. Output only.
+    #[prost(message, optional, tag = "5")]
+    pub end_time: ::core::option::Option<::prost_types::Timestamp>,
+    /// When it is forgotten; absent before it is done. It may be forgotten sooner when there are many. Output only.
+    #[prost(message, optional, tag = "6")]
+    pub expire_time: ::core::option::Option<::prost_types::Timestamp>,
+    /// What came of it; absent before it is done.
+    #[prost(oneof = "operation::Result", tags = "7, 8, 9")]
+    pub result: ::core::option::Option<operation::Result>,
+}
+/// Nested message and enum types in `Operation`.
+pub mod operation {
+    /// What came of it; absent before it is done.
+    #[derive(Clone, PartialEq, ::prost::Oneof)]
+    pub enum Result {
+        /// Why it failed: code, message and details as the call would have had them.
+        #[prost(message, tag = "7")]
+        Error(tonic_types::pb::Status),
+        /// The clip that was stored.
+        #[prost(message, tag = "8")]
+        CreateClip(super::CreateClipResponse),
+        /// The simulation.
+        #[prost(message, tag = "9")]
+        SimulateClip(super::SimulateClipResponse),
+    }
+}
+impl ::prost::Name for Operation {
+    const NAME: &'static str = "Operation";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Operation".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Operation".into()
+    }
+}
+/// Asks to start an operation.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct StartOperationRequest {
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// What is to be done. Required.
+    #[prost(oneof = "start_operation_request::Work", tags = "1, 2")]
+    pub work: ::core::option::Option<start_operation_request::Work>,
+}
+/// Nested message and enum types in `StartOperationRequest`.
+pub mod start_operation_request {
+    /// What is to be done. Required.
+    #[derive(Clone, PartialEq, ::prost::Oneof)]
+    pub enum Work {
+        /// Stores a clip. Its own `request_id` is ignored, and `validate_only` refused.
+        #[prost(message, tag = "1")]
+        CreateClip(super::CreateClipRequest),
+        /// Simulates a clip.
+        #[prost(message, tag = "2")]
+        SimulateClip(super::SimulateClipRequest),
+    }
+}
+impl ::prost::Name for StartOperationRequest {
+    const NAME: &'static str = "StartOperationRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StartOperationRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StartOperationRequest".into()
+    }
+}
+/// The operation.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct StartOperationResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub operation: ::core::option::Option<Operation>,
+}
+impl ::prost::Name for StartOperationResponse {
+    const NAME: &'static str = "StartOperationResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StartOperationResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StartOperationResponse".into()
+    }
+}
+/// Asks for an operation.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetOperationRequest {
+    /// Resource name `operations/{operation}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for GetOperationRequest {
+    const NAME: &'static str = "GetOperationRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetOperationRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetOperationRequest".into()
+    }
+}
+/// The operation.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct GetOperationResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub operation: ::core::option::Option<Operation>,
+}
+impl ::prost::Name for GetOperationResponse {
+    const NAME: &'static str = "GetOperationResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetOperationResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetOperationResponse".into()
+    }
+}
+/// Asks for the operations of the caller.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ListOperationsRequest {
+    /// Most operations to return. 0: 100; more than 1000 are taken as 1000.
+    #[prost(int32, tag = "1")]
+    pub page_size: i32,
+    /// `next_page_token` of the page before. Empty: from the start.
+    #[prost(string, tag = "2")]
+    pub page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListOperationsRequest {
+    const NAME: &'static str = "ListOperationsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListOperationsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListOperationsRequest".into()
+    }
+}
+/// A page of operations.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ListOperationsResponse {
+    /// In the order they were started, without their results.
+    #[prost(message, repeated, tag = "1")]
+    pub operations: ::prost::alloc::vec::Vec<Operation>,
+    /// Token of the next page; empty at the end.
+    #[prost(string, tag = "2")]
+    pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListOperationsResponse {
+    const NAME: &'static str = "ListOperationsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListOperationsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListOperationsResponse".into()
+    }
+}
+/// Waits for an operation.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct WaitOperationRequest {
+    /// Resource name `operations/{operation}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// How long to wait, 0…60 s; more is taken as 60 s. Absent: 60 s.
+    #[prost(message, optional, tag = "2")]
+    pub timeout: ::core::option::Option<::prost_types::Duration>,
+}
+impl ::prost::Name for WaitOperationRequest {
+    const NAME: &'static str = "WaitOperationRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WaitOperationRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WaitOperationRequest".into()
+    }
+}
+/// The operation.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct WaitOperationResponse {
+    /// As it is now: done, or not yet.
+    #[prost(message, optional, tag = "1")]
+    pub operation: ::core::option::Option<Operation>,
+}
+impl ::prost::Name for WaitOperationResponse {
+    const NAME: &'static str = "WaitOperationResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WaitOperationResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WaitOperationResponse".into()
+    }
+}
+/// Gives an operation up.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct CancelOperationRequest {
+    /// Resource name `operations/{operation}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for CancelOperationRequest {
+    const NAME: &'static str = "CancelOperationRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CancelOperationRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CancelOperationRequest".into()
+    }
+}
+/// It was asked to stop, or was done.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct CancelOperationResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub operation: ::core::option::Option<Operation>,
+}
+impl ::prost::Name for CancelOperationResponse {
+    const NAME: &'static str = "CancelOperationResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CancelOperationResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CancelOperationResponse".into()
+    }
+}
+/// Forgets an operation.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteOperationRequest {
+    /// Resource name `operations/{operation}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for DeleteOperationRequest {
+    const NAME: &'static str = "DeleteOperationRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteOperationRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteOperationRequest".into()
+    }
+}
+/// The operation is forgotten.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteOperationResponse {}
+impl ::prost::Name for DeleteOperationResponse {
+    const NAME: &'static str = "DeleteOperationResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteOperationResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteOperationResponse".into()
+    }
+}
+/// How far an operation is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum OperationState {
+    /// Never sent.
+    Unspecified = 0,
+    /// It waits for its turn.
+    Queued = 1,
+    /// It is worked on.
+    Running = 2,
+    /// It is done: the result is there.
+    Succeeded = 3,
+    /// It failed: `error` says why.
+    Failed = 4,
+    /// It was given up by `CancelOperation`.
+    Cancelled = 5,
+}
+impl OperationState {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "OPERATION_STATE_UNSPECIFIED",
+            Self::Queued => "OPERATION_STATE_QUEUED",
+            Self::Running => "OPERATION_STATE_RUNNING",
+            Self::Succeeded => "OPERATION_STATE_SUCCEEDED",
+            Self::Failed => "OPERATION_STATE_FAILED",
+            Self::Cancelled => "OPERATION_STATE_CANCELLED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "OPERATION_STATE_UNSPECIFIED" => Some(Self::Unspecified),
+            "OPERATION_STATE_QUEUED" => Some(Self::Queued),
+            "OPERATION_STATE_RUNNING" => Some(Self::Running),
+            "OPERATION_STATE_SUCCEEDED" => Some(Self::Succeeded),
+            "OPERATION_STATE_FAILED" => Some(Self::Failed),
+            "OPERATION_STATE_CANCELLED" => Some(Self::Cancelled),
+            _ => None,
+        }
+    }
+}
+/// Generated client implementations.
+pub mod operation_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// Long work that goes on whether or not somebody waits for it: storing a clip, simulating one. `CreateClip` and
+    /// `SimulateClip` do the same and answer when it is done; `StreamCreateClip` and `StreamSimulateClip` tell how far it is
+    /// and give it up with the stream. An operation belongs to who started it: nobody else sees it. It is kept in memory,
+    /// until it expires.
+    #[derive(Debug, Clone)]
+    pub struct OperationServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl OperationServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> OperationServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> OperationServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            OperationServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// Starts an operation and answers at once. RESOURCE_EXHAUSTED when there are as many as there may be, or when too
+        /// much work waits.
+        pub async fn start_operation(
+            &mut self,
+            request: impl tonic::IntoRequest<super::StartOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StartOperationResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.OperationService/StartOperation",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.OperationService", "StartOperation"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// One operation, as it is now.
+        pub async fn get_operation(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetOperationResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.OperationService/GetOperation",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.OperationService", "GetOperation"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// The operations of the caller, in the order they were started, without their results.
+        pub async fn list_operations(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ListOperationsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListOperationsResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.OperationService/ListOperations",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.OperationService", "ListOperations"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Waits until an operation is done, or for some time, and answers with what it is then.
+        pub async fn wait_operation(
+            &mut self,
+            request: impl tonic::IntoRequest<super::WaitOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::WaitOperationResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.OperationService/WaitOperation",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.OperationService", "WaitOperation"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Gives an operation up. One that is done stays as it is.
+        pub async fn cancel_operation(
+            &mut self,
+            request: impl tonic::IntoRequest<super::CancelOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CancelOperationResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.OperationService/CancelOperation",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.OperationService", "CancelOperation"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Forgets an operation that is done, with its result. FAILED_PRECONDITION (`OPERATION_RUNNING`) for any other.
+        pub async fn delete_operation(
+            &mut self,
+            request: impl tonic::IntoRequest<super::DeleteOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteOperationResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.OperationService/DeleteOperation",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.OperationService", "DeleteOperation"));
+            self.inner.unary(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod operation_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with OperationServiceServer.
+    #[async_trait]
+    pub trait OperationService: std::marker::Send + std::marker::Sync + 'static {
+        /// Starts an operation and answers at once. RESOURCE_EXHAUSTED when there are as many as there may be, or when too
+        /// much work waits.
+        async fn start_operation(
+            &self,
+            request: tonic::Request<super::StartOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StartOperationResponse>,
+            tonic::Status,
+        >;
+        /// One operation, as it is now.
+        async fn get_operation(
+            &self,
+            request: tonic::Request<super::GetOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetOperationResponse>,
+            tonic::Status,
+        >;
+        /// The operations of the caller, in the order they were started, without their results.
+        async fn list_operations(
+            &self,
+            request: tonic::Request<super::ListOperationsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListOperationsResponse>,
+            tonic::Status,
+        >;
+        /// Waits until an operation is done, or for some time, and answers with what it is then.
+        async fn wait_operation(
+            &self,
+            request: tonic::Request<super::WaitOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::WaitOperationResponse>,
+            tonic::Status,
+        >;
+        /// Gives an operation up. One that is done stays as it is.
+        async fn cancel_operation(
+            &self,
+            request: tonic::Request<super::CancelOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CancelOperationResponse>,
+            tonic::Status,
+        >;
+        /// Forgets an operation that is done, with its result. FAILED_PRECONDITION (`OPERATION_RUNNING`) for any other.
+        async fn delete_operation(
+            &self,
+            request: tonic::Request<super::DeleteOperationRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteOperationResponse>,
+            tonic::Status,
+        >;
+    }
+    /// Long work that goes on whether or not somebody waits for it: storing a clip, simulating one. `CreateClip` and
+    /// `SimulateClip` do the same and answer when it is done; `StreamCreateClip` and `StreamSimulateClip` tell how far it is
+    /// and give it up with the stream. An operation belongs to who started it: nobody else sees it. It is kept in memory,
+    /// until it expires.
+    #[derive(Debug)]
+    pub struct OperationServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> OperationServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for OperationServiceServer<T>
+    where
+        T: OperationService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.OperationService/StartOperation" => {
+                    #[allow(non_camel_case_types)]
+                    struct StartOperationSvc<T: OperationService>(pub Arc<T>);
+                    impl<
+                        T: OperationService,
+                    > tonic::server::UnaryService<super::StartOperationRequest>
+                    for StartOperationSvc<T> {
+                        type Response = super::StartOperationResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::StartOperationRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as OperationService>::start_operation(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = StartOperationSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.OperationService/GetOperation" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetOperationSvc<T: OperationService>(pub Arc<T>);
+                    impl<
+                        T: OperationService,
+                    > tonic::server::UnaryService<super::GetOperationRequest>
+                    for GetOperationSvc<T> {
+                        type Response = super::GetOperationResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetOperationRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as OperationService>::get_operation(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetOperationSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.OperationService/ListOperations" => {
+                    #[allow(non_camel_case_types)]
+                    struct ListOperationsSvc<T: OperationService>(pub Arc<T>);
+                    impl<
+                        T: OperationService,
+                    > tonic::server::UnaryService<super::ListOperationsRequest>
+                    for ListOperationsSvc<T> {
+                        type Response = super::ListOperationsResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ListOperationsRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as OperationService>::list_operations(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ListOperationsSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.OperationService/WaitOperation" => {
+                    #[allow(non_camel_case_types)]
+                    struct WaitOperationSvc<T: OperationService>(pub Arc<T>);
+                    impl<
+                        T: OperationService,
+                    > tonic::server::UnaryService<super::WaitOperationRequest>
+                    for WaitOperationSvc<T> {
+                        type Response = super::WaitOperationResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::WaitOperationRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as OperationService>::wait_operation(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = WaitOperationSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.OperationService/CancelOperation" => {
+                    #[allow(non_camel_case_types)]
+                    struct CancelOperationSvc<T: OperationService>(pub Arc<T>);
+                    impl<
+                        T: OperationService,
+                    > tonic::server::UnaryService<super::CancelOperationRequest>
+                    for CancelOperationSvc<T> {
+                        type Response = super::CancelOperationResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::CancelOperationRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as OperationService>::cancel_operation(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = CancelOperationSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.OperationService/DeleteOperation" => {
+                    #[allow(non_camel_case_types)]
+                    struct DeleteOperationSvc<T: OperationService>(pub Arc<T>);
+                    impl<
+                        T: OperationService,
+                    > tonic::server::UnaryService<super::DeleteOperationRequest>
+                    for DeleteOperationSvc<T> {
+                        type Response = super::DeleteOperationResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::DeleteOperationRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as OperationService>::delete_operation(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = DeleteOperationSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for OperationServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.OperationService";
+    impl<T> tonic::server::NamedService for OperationServiceServer<T> {
         const NAME: &'static str = SERVICE_NAME;
     }
 }
@@ -10840,1314 +14022,6 @@ pub mod server_service_server {
     /// Generated gRPC service name
     pub const SERVICE_NAME: &str = "sinew.v1.ServerService";
     impl<T> tonic::server::NamedService for ServerServiceServer<T> {
-        const NAME: &'static str = SERVICE_NAME;
-    }
-}
-/// What of a world is sent.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct View {
-    /// Figures by the last parts of their names. Empty: all.
-    #[prost(string, repeated, tag = "1")]
-    pub figures: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-    /// Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
-    /// `root_pose`, `joint_angles`, `torque`, `status`.
-    #[prost(message, optional, tag = "2")]
-    pub fields: ::core::option::Option<::prost_types::FieldMask>,
-    /// How numbers are written.
-    #[prost(enumeration = "Encoding", tag = "3")]
-    pub encoding: i32,
-    /// Sends one frame for every n ticks, 1…1000. 0 or absent: 1. Ignored by `GetWorldFrame`.
-    #[prost(int32, tag = "4")]
-    pub rate_divisor: i32,
-}
-impl ::prost::Name for View {
-    const NAME: &'static str = "View";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.View".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.View".into()
-    }
-}
-/// Names of the figures, by their index in the frames that follow.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct Roster {
-    /// World: resource name.
-    #[prost(string, tag = "1")]
-    pub world: ::prost::alloc::string::String,
-    /// Ticks per second of world time.
-    #[prost(double, tag = "2")]
-    pub rate_hz: f64,
-    /// Version of this roster; frames carry the version they refer to.
-    #[prost(int32, tag = "3")]
-    pub version: i32,
-    /// Figures of the view.
-    #[prost(message, repeated, tag = "4")]
-    pub figures: ::prost::alloc::vec::Vec<RosterEntry>,
-}
-impl ::prost::Name for Roster {
-    const NAME: &'static str = "Roster";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.Roster".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.Roster".into()
-    }
-}
-/// One figure of a roster.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct RosterEntry {
-    /// Index in frames. Indices of removed figures are not used again.
-    #[prost(int32, tag = "1")]
-    pub figure_index: i32,
-    /// Last part of the figure's name.
-    #[prost(string, tag = "2")]
-    pub figure: ::prost::alloc::string::String,
-    /// Body: resource name.
-    #[prost(string, tag = "3")]
-    pub body: ::prost::alloc::string::String,
-}
-impl ::prost::Name for RosterEntry {
-    const NAME: &'static str = "RosterEntry";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.RosterEntry".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.RosterEntry".into()
-    }
-}
-/// Asks for a frame.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct GetWorldFrameRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub world: ::prost::alloc::string::String,
-    /// Tick wanted. Absent: the latest. OUT_OF_RANGE (`RESUME_EXPIRED`) when it is no longer held or not yet computed.
-    #[prost(int64, optional, tag = "2")]
-    pub tick: ::core::option::Option<i64>,
-    /// What is sent.
-    #[prost(message, optional, tag = "3")]
-    pub view: ::core::option::Option<View>,
-}
-impl ::prost::Name for GetWorldFrameRequest {
-    const NAME: &'static str = "GetWorldFrameRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.GetWorldFrameRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.GetWorldFrameRequest".into()
-    }
-}
-/// A frame.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct GetWorldFrameResponse {
-    /// Names of the figures by index.
-    #[prost(message, optional, tag = "1")]
-    pub roster: ::core::option::Option<Roster>,
-    /// The frame.
-    #[prost(message, optional, tag = "2")]
-    pub frame: ::core::option::Option<WorldFrame>,
-}
-impl ::prost::Name for GetWorldFrameResponse {
-    const NAME: &'static str = "GetWorldFrameResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.GetWorldFrameResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.GetWorldFrameResponse".into()
-    }
-}
-/// Asks for frames as they come.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct WatchWorldRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub world: ::prost::alloc::string::String,
-    /// What is sent.
-    #[prost(message, optional, tag = "2")]
-    pub view: ::core::option::Option<View>,
-    /// Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
-    /// is no longer held. Absent: from now.
-    #[prost(int64, optional, tag = "3")]
-    pub resume_tick: ::core::option::Option<i64>,
-}
-impl ::prost::Name for WatchWorldRequest {
-    const NAME: &'static str = "WatchWorldRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.WatchWorldRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.WatchWorldRequest".into()
-    }
-}
-/// One event.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct Event {
-    /// What happened.
-    #[prost(enumeration = "EventType", tag = "1")]
-    pub r#type: i32,
-    /// Tick after which it was true.
-    #[prost(int64, tag = "2")]
-    pub tick: i64,
-    /// World time, s.
-    #[prost(double, tag = "3")]
-    pub time_s: f64,
-    /// Last part of the figure's name; empty for events of the world.
-    #[prost(string, tag = "4")]
-    pub figure: ::prost::alloc::string::String,
-    /// Segment name, where there is one.
-    #[prost(string, tag = "5")]
-    pub segment: ::prost::alloc::string::String,
-    /// DOF name, where there is one.
-    #[prost(string, tag = "6")]
-    pub dof: ::prost::alloc::string::String,
-    /// Mass of the load, kg, where there is one.
-    #[prost(double, tag = "7")]
-    pub mass_kg: f64,
-    /// Driver or reason, where there is one.
-    #[prost(string, tag = "8")]
-    pub detail: ::prost::alloc::string::String,
-    /// What is touched, added or removed: `figures/{figure}` or `obstacles/{obstacle}`, where there is one.
-    #[prost(string, tag = "9")]
-    pub other: ::prost::alloc::string::String,
-    /// Name of the segment of the other figure, where there is one.
-    #[prost(string, tag = "10")]
-    pub other_segment: ::prost::alloc::string::String,
-}
-impl ::prost::Name for Event {
-    const NAME: &'static str = "Event";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.Event".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.Event".into()
-    }
-}
-/// Asks for events as they come.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct WatchEventsRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub world: ::prost::alloc::string::String,
-    /// Figures by the last parts of their names. Empty: all, and events of the world.
-    #[prost(string, repeated, tag = "2")]
-    pub figures: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-    /// Types wanted. Empty: all.
-    #[prost(enumeration = "EventType", repeated, tag = "3")]
-    pub types: ::prost::alloc::vec::Vec<i32>,
-}
-impl ::prost::Name for WatchEventsRequest {
-    const NAME: &'static str = "WatchEventsRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.WatchEventsRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.WatchEventsRequest".into()
-    }
-}
-/// One or more events of one tick.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct WatchEventsResponse {
-    /// The events; empty in the first message, which says that the watch has begun.
-    #[prost(message, repeated, tag = "1")]
-    pub events: ::prost::alloc::vec::Vec<Event>,
-    /// Messages that this viewer was too slow for, so far.
-    #[prost(int64, tag = "2")]
-    pub missed_count: i64,
-}
-impl ::prost::Name for WatchEventsResponse {
-    const NAME: &'static str = "WatchEventsResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.WatchEventsResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.WatchEventsResponse".into()
-    }
-}
-/// What happened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum EventType {
-    /// Never sent.
-    Unspecified = 0,
-    /// A segment began to support the figure.
-    SupportGained = 1,
-    /// A segment no longer supports the figure.
-    SupportLost = 2,
-    /// A DOF reached the limit of its strength.
-    Saturated = 3,
-    /// A DOF is no longer at its limit.
-    Relieved = 4,
-    /// Balance was lost.
-    BalanceLost = 5,
-    /// Balance was found again.
-    Recovered = 6,
-    /// The figure fell.
-    Fell = 7,
-    /// A load was taken.
-    LoadTaken = 8,
-    /// A load was dropped.
-    LoadDropped = 9,
-    /// A load slipped from a hand: the force exceeded its grip.
-    LoadSlipped = 30,
-    /// The figure's state became unusable; it is frozen at its last good one.
-    Quarantined = 10,
-    /// A figure was added.
-    FigureAdded = 11,
-    /// A figure was removed.
-    FigureRemoved = 12,
-    /// A driver took a figure.
-    DriveBegan = 13,
-    /// A driver gave a figure back or lost it.
-    DriveEnded = 14,
-    /// The stream of a driver began anew; the detail says why.
-    DriveResynced = 35,
-    /// The world was paused.
-    WorldPaused = 15,
-    /// The world was resumed.
-    WorldResumed = 16,
-    /// The world failed.
-    WorldFailed = 17,
-    /// The figure stands again after a fall.
-    GotUp = 18,
-    /// The world was put into the state of a checkpoint; `detail` is its tick.
-    WorldRestored = 45,
-    /// A segment began to touch another figure or an obstacle.
-    Touched = 31,
-    /// A segment no longer touches it.
-    Parted = 32,
-    /// An obstacle was added.
-    ObstacleAdded = 33,
-    /// An obstacle was removed.
-    ObstacleRemoved = 34,
-    /// A lease of the figure began, or went to another holder; the detail names the holder.
-    ControlAcquired = 40,
-    /// A lease of the figure ended; the detail names the holder and says why.
-    ControlReleased = 41,
-    /// A lease was taken by someone of higher priority; the detail names both.
-    ControlPreempted = 42,
-    /// The holder of a lease offered it to someone; the detail names both.
-    ControlOffered = 43,
-    /// Someone was refused what only the holder of the lease, or a higher role, may do; the detail names him. At most one
-    /// a second of each world.
-    AccessRefused = 44,
-}
-impl EventType {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "EVENT_TYPE_UNSPECIFIED",
-            Self::SupportGained => "EVENT_TYPE_SUPPORT_GAINED",
-            Self::SupportLost => "EVENT_TYPE_SUPPORT_LOST",
-            Self::Saturated => "EVENT_TYPE_SATURATED",
-            Self::Relieved => "EVENT_TYPE_RELIEVED",
-            Self::BalanceLost => "EVENT_TYPE_BALANCE_LOST",
-            Self::Recovered => "EVENT_TYPE_RECOVERED",
-            Self::Fell => "EVENT_TYPE_FELL",
-            Self::LoadTaken => "EVENT_TYPE_LOAD_TAKEN",
-            Self::LoadDropped => "EVENT_TYPE_LOAD_DROPPED",
-            Self::LoadSlipped => "EVENT_TYPE_LOAD_SLIPPED",
-            Self::Quarantined => "EVENT_TYPE_QUARANTINED",
-            Self::FigureAdded => "EVENT_TYPE_FIGURE_ADDED",
-            Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
-            Self::DriveBegan => "EVENT_TYPE_DRIVE_BEGAN",
-            Self::DriveEnded => "EVENT_TYPE_DRIVE_ENDED",
-            Self::DriveResynced => "EVENT_TYPE_DRIVE_RESYNCED",
-            Self::WorldPaused => "EVENT_TYPE_WORLD_PAUSED",
-            Self::WorldResumed => "EVENT_TYPE_WORLD_RESUMED",
-            Self::WorldFailed => "EVENT_TYPE_WORLD_FAILED",
-            Self::GotUp => "EVENT_TYPE_GOT_UP",
-            Self::WorldRestored => "EVENT_TYPE_WORLD_RESTORED",
-            Self::Touched => "EVENT_TYPE_TOUCHED",
-            Self::Parted => "EVENT_TYPE_PARTED",
-            Self::ObstacleAdded => "EVENT_TYPE_OBSTACLE_ADDED",
-            Self::ObstacleRemoved => "EVENT_TYPE_OBSTACLE_REMOVED",
-            Self::ControlAcquired => "EVENT_TYPE_CONTROL_ACQUIRED",
-            Self::ControlReleased => "EVENT_TYPE_CONTROL_RELEASED",
-            Self::ControlPreempted => "EVENT_TYPE_CONTROL_PREEMPTED",
-            Self::ControlOffered => "EVENT_TYPE_CONTROL_OFFERED",
-            Self::AccessRefused => "EVENT_TYPE_ACCESS_REFUSED",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "EVENT_TYPE_UNSPECIFIED" => Some(Self::Unspecified),
-            "EVENT_TYPE_SUPPORT_GAINED" => Some(Self::SupportGained),
-            "EVENT_TYPE_SUPPORT_LOST" => Some(Self::SupportLost),
-            "EVENT_TYPE_SATURATED" => Some(Self::Saturated),
-            "EVENT_TYPE_RELIEVED" => Some(Self::Relieved),
-            "EVENT_TYPE_BALANCE_LOST" => Some(Self::BalanceLost),
-            "EVENT_TYPE_RECOVERED" => Some(Self::Recovered),
-            "EVENT_TYPE_FELL" => Some(Self::Fell),
-            "EVENT_TYPE_LOAD_TAKEN" => Some(Self::LoadTaken),
-            "EVENT_TYPE_LOAD_DROPPED" => Some(Self::LoadDropped),
-            "EVENT_TYPE_LOAD_SLIPPED" => Some(Self::LoadSlipped),
-            "EVENT_TYPE_QUARANTINED" => Some(Self::Quarantined),
-            "EVENT_TYPE_FIGURE_ADDED" => Some(Self::FigureAdded),
-            "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),
-            "EVENT_TYPE_DRIVE_BEGAN" => Some(Self::DriveBegan),
-            "EVENT_TYPE_DRIVE_ENDED" => Some(Self::DriveEnded),
-            "EVENT_TYPE_DRIVE_RESYNCED" => Some(Self::DriveResynced),
-            "EVENT_TYPE_WORLD_PAUSED" => Some(Self::WorldPaused),
-            "EVENT_TYPE_WORLD_RESUMED" => Some(Self::WorldResumed),
-            "EVENT_TYPE_WORLD_FAILED" => Some(Self::WorldFailed),
-            "EVENT_TYPE_GOT_UP" => Some(Self::GotUp),
-            "EVENT_TYPE_WORLD_RESTORED" => Some(Self::WorldRestored),
-            "EVENT_TYPE_TOUCHED" => Some(Self::Touched),
-            "EVENT_TYPE_PARTED" => Some(Self::Parted),
-            "EVENT_TYPE_OBSTACLE_ADDED" => Some(Self::ObstacleAdded),
-            "EVENT_TYPE_OBSTACLE_REMOVED" => Some(Self::ObstacleRemoved),
-            "EVENT_TYPE_CONTROL_ACQUIRED" => Some(Self::ControlAcquired),
-            "EVENT_TYPE_CONTROL_RELEASED" => Some(Self::ControlReleased),
-            "EVENT_TYPE_CONTROL_PREEMPTED" => Some(Self::ControlPreempted),
-            "EVENT_TYPE_CONTROL_OFFERED" => Some(Self::ControlOffered),
-            "EVENT_TYPE_ACCESS_REFUSED" => Some(Self::AccessRefused),
-            _ => None,
-        }
-    }
-}
-/// Generated client implementations.
-pub mod state_service_client {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    use tonic::codegen::http::Uri;
-    /// What worlds do: frames and events.
-    #[derive(Debug, Clone)]
-    pub struct StateServiceClient<T> {
-        inner: tonic::client::Grpc<T>,
-    }
-    impl StateServiceClient<tonic::transport::Channel> {
-        /// Attempt to create a new client by connecting to a given endpoint.
-        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
-        where
-            D: TryInto<tonic::transport::Endpoint>,
-            D::Error: Into<StdError>,
-        {
-            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
-            Ok(Self::new(conn))
-        }
-    }
-    impl<T> StateServiceClient<T>
-    where
-        T: tonic::client::GrpcService<tonic::body::Body>,
-        T::Error: Into<StdError>,
-        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
-        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
-    {
-        pub fn new(inner: T) -> Self {
-            let inner = tonic::client::Grpc::new(inner);
-            Self { inner }
-        }
-        pub fn with_origin(inner: T, origin: Uri) -> Self {
-            let inner = tonic::client::Grpc::with_origin(inner, origin);
-            Self { inner }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> StateServiceClient<InterceptedService<T, F>>
-        where
-            F: tonic::service::Interceptor,
-            T::ResponseBody: Default,
-            T: tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-                Response = http::Response<
-                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
-                >,
-            >,
-            <T as tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
-        {
-            StateServiceClient::new(InterceptedService::new(inner, interceptor))
-        }
-        /// Compress requests with the given encoding.
-        ///
-        /// This requires the server to support it otherwise it might respond with an
-        /// error.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.send_compressed(encoding);
-            self
-        }
-        /// Enable decompressing responses.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.accept_compressed(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_decoding_message_size(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_encoding_message_size(limit);
-            self
-        }
-        /// One frame: the latest, or one that is still held.
-        pub async fn get_world_frame(
-            &mut self,
-            request: impl tonic::IntoRequest<super::GetWorldFrameRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::GetWorldFrameResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.StateService/GetWorldFrame",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.StateService", "GetWorldFrame"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Frames as they come. The first message is a roster; another follows whenever the figures of the view change. A slow
-        /// viewer gets the latest frame, never a backlog; what it missed is counted.
-        pub async fn watch_world(
-            &mut self,
-            request: impl tonic::IntoRequest<super::WatchWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<
-                tonic::codec::Streaming<crate::wire::watched::WatchWorldResponse>,
-            >,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.StateService/WatchWorld",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.StateService", "WatchWorld"));
-            self.inner.server_streaming(req, path, codec).await
-        }
-        /// Events as they come.
-        pub async fn watch_events(
-            &mut self,
-            request: impl tonic::IntoRequest<super::WatchEventsRequest>,
-        ) -> std::result::Result<
-            tonic::Response<tonic::codec::Streaming<super::WatchEventsResponse>>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.StateService/WatchEvents",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.StateService", "WatchEvents"));
-            self.inner.server_streaming(req, path, codec).await
-        }
-    }
-}
-/// Generated server implementations.
-pub mod state_service_server {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    /// Generated trait containing gRPC methods that should be implemented for use with StateServiceServer.
-    #[async_trait]
-    pub trait StateService: std::marker::Send + std::marker::Sync + 'static {
-        /// One frame: the latest, or one that is still held.
-        async fn get_world_frame(
-            &self,
-            request: tonic::Request<super::GetWorldFrameRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::GetWorldFrameResponse>,
-            tonic::Status,
-        >;
-        /// Server streaming response type for the WatchWorld method.
-        type WatchWorldStream: tonic::codegen::tokio_stream::Stream<
-                Item = std::result::Result<
-                    crate::wire::watched::WatchWorldResponse,
-                    tonic::Status,
-                >,
-            >
-            + std::marker::Send
-            + 'static;
-        /// Frames as they come. The first message is a roster; another follows whenever the figures of the view change. A slow
-        /// viewer gets the latest frame, never a backlog; what it missed is counted.
-        async fn watch_world(
-            &self,
-            request: tonic::Request<super::WatchWorldRequest>,
-        ) -> std::result::Result<tonic::Response<Self::WatchWorldStream>, tonic::Status>;
-        /// Server streaming response type for the WatchEvents method.
-        type WatchEventsStream: tonic::codegen::tokio_stream::Stream<
-                Item = std::result::Result<super::WatchEventsResponse, tonic::Status>,
-            >
-            + std::marker::Send
-            + 'static;
-        /// Events as they come.
-        async fn watch_events(
-            &self,
-            request: tonic::Request<super::WatchEventsRequest>,
-        ) -> std::result::Result<
-            tonic::Response<Self::WatchEventsStream>,
-            tonic::Status,
-        >;
-    }
-    /// What worlds do: frames and events.
-    #[derive(Debug)]
-    pub struct StateServiceServer<T> {
-        inner: Arc<T>,
-        accept_compression_encodings: EnabledCompressionEncodings,
-        send_compression_encodings: EnabledCompressionEncodings,
-        max_decoding_message_size: Option<usize>,
-        max_encoding_message_size: Option<usize>,
-    }
-    impl<T> StateServiceServer<T> {
-        pub fn new(inner: T) -> Self {
-            Self::from_arc(Arc::new(inner))
-        }
-        pub fn from_arc(inner: Arc<T>) -> Self {
-            Self {
-                inner,
-                accept_compression_encodings: Default::default(),
-                send_compression_encodings: Default::default(),
-                max_decoding_message_size: None,
-                max_encoding_message_size: None,
-            }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> InterceptedService<Self, F>
-        where
-            F: tonic::service::Interceptor,
-        {
-            InterceptedService::new(Self::new(inner), interceptor)
-        }
-        /// Enable decompressing requests with the given encoding.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.accept_compression_encodings.enable(encoding);
-            self
-        }
-        /// Compress responses with the given encoding, if the client supports it.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.send_compression_encodings.enable(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.max_decoding_message_size = Some(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.max_encoding_message_size = Some(limit);
-            self
-        }
-    }
-    impl<T, B> tonic::codegen::Service<http::Request<B>> for StateServiceServer<T>
-    where
-        T: StateService,
-        B: Body + std::marker::Send + 'static,
-        B::Error: Into<StdError> + std::marker::Send + 'static,
-    {
-        type Response = http::Response<tonic::body::Body>;
-        type Error = std::convert::Infallible;
-        type Future = BoxFuture<Self::Response, Self::Error>;
-        fn poll_ready(
-            &mut self,
-            _cx: &mut Context<'_>,
-        ) -> Poll<std::result::Result<(), Self::Error>> {
-            Poll::Ready(Ok(()))
-        }
-        fn call(&mut self, req: http::Request<B>) -> Self::Future {
-            match req.uri().path() {
-                "/sinew.v1.StateService/GetWorldFrame" => {
-                    #[allow(non_camel_case_types)]
-                    struct GetWorldFrameSvc<T: StateService>(pub Arc<T>);
-                    impl<
-                        T: StateService,
-                    > tonic::server::UnaryService<super::GetWorldFrameRequest>
-                    for GetWorldFrameSvc<T> {
-                        type Response = super::GetWorldFrameResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::GetWorldFrameRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as StateService>::get_world_frame(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = GetWorldFrameSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.StateService/WatchWorld" => {
-                    #[allow(non_camel_case_types)]
-                    struct WatchWorldSvc<T: StateService>(pub Arc<T>);
-                    impl<
-                        T: StateService,
-                    > tonic::server::ServerStreamingService<super::WatchWorldRequest>
-                    for WatchWorldSvc<T> {
-                        type Response = crate::wire::watched::WatchWorldResponse;
-                        type ResponseStream = T::WatchWorldStream;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::ResponseStream>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::WatchWorldRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as StateService>::watch_world(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = WatchWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.server_streaming(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.StateService/WatchEvents" => {
-                    #[allow(non_camel_case_types)]
-                    struct WatchEventsSvc<T: StateService>(pub Arc<T>);
-                    impl<
-                        T: StateService,
-                    > tonic::server::ServerStreamingService<super::WatchEventsRequest>
-                    for WatchEventsSvc<T> {
-                        type Response = super::WatchEventsResponse;
-                        type ResponseStream = T::WatchEventsStream;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::ResponseStream>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::WatchEventsRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as StateService>::watch_events(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = WatchEventsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.server_streaming(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                _ => {
-                    Box::pin(async move {
-                        let mut response = http::Response::new(
-                            tonic::body::Body::default(),
-                        );
-                        let headers = response.headers_mut();
-                        headers
-                            .insert(
-                                tonic::Status::GRPC_STATUS,
-                                (tonic::Code::Unimplemented as i32).into(),
-                            );
-                        headers
-                            .insert(
-                                http::header::CONTENT_TYPE,
-                                tonic::metadata::GRPC_CONTENT_TYPE,
-                            );
-                        Ok(response)
-                    })
-                }
-            }
-        }
-    }
-    impl<T> Clone for StateServiceServer<T> {
-        fn clone(&self) -> Self {
-            let inner = self.inner.clone();
-            Self {
-                inner,
-                accept_compression_encodings: self.accept_compression_encodings,
-                send_compression_encodings: self.send_compression_encodings,
-                max_decoding_message_size: self.max_decoding_message_size,
-                max_encoding_message_size: self.max_encoding_message_size,
-            }
-        }
-    }
-    /// Generated gRPC service name
-    pub const SERVICE_NAME: &str = "sinew.v1.StateService";
-    impl<T> tonic::server::NamedService for StateServiceServer<T> {
-        const NAME: &'static str = SERVICE_NAME;
-    }
-}
-/// A disturbance in time of the clip.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct TimedPerturbation {
-    /// When it begins, s from the start, 0…86400.
-    #[prost(double, tag = "1")]
-    pub start_s: f64,
-    /// What happens; its figure and tick are ignored.
-    #[prost(message, optional, tag = "2")]
-    pub perturbation: ::core::option::Option<Perturbation>,
-}
-impl ::prost::Name for TimedPerturbation {
-    const NAME: &'static str = "TimedPerturbation";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.TimedPerturbation".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.TimedPerturbation".into()
-    }
-}
-/// Asks for a simulation.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct SimulateClipRequest {
-    /// Body, strength, controller and stepper; name and placement are ignored. Absent: all defaults.
-    #[prost(message, optional, tag = "3")]
-    pub figure: ::core::option::Option<Figure>,
-    /// Ticks per second, 10…1000. 0 or absent: 60.
-    #[prost(double, tag = "4")]
-    pub rate_hz: f64,
-    /// Substeps in one tick, 1…16. 0 or absent: 2.
-    #[prost(int32, tag = "5")]
-    pub substeps: i32,
-    /// How long, s, up to the server's `max_simulation_s` (default 120). 0 or absent: the length of the clip.
-    #[prost(double, tag = "6")]
-    pub duration_s: f64,
-    /// Repeats the clip for as long. Default: false, the figure stands in the last posture.
-    #[prost(bool, tag = "7")]
-    pub r#loop: bool,
-    /// Disturbances, at most 64.
-    #[prost(message, repeated, tag = "8")]
-    pub perturbations: ::prost::alloc::vec::Vec<TimedPerturbation>,
-    /// Fields and encoding of the frames; `rate_divisor` thins them. Figures are ignored. Absent: no frames.
-    #[prost(message, optional, tag = "9")]
-    pub view: ::core::option::Option<View>,
-    /// The desired motion. Required.
-    #[prost(oneof = "simulate_clip_request::Source", tags = "1, 2")]
-    pub source: ::core::option::Option<simulate_clip_request::Source>,
-}
-/// Nested message and enum types in `SimulateClipRequest`.
-pub mod simulate_clip_request {
-    /// The desired motion. Required.
-    #[derive(Clone, PartialEq, ::prost::Oneof)]
-    pub enum Source {
-        /// A stored or built-in clip: `clips/{clip}`.
-        #[prost(string, tag = "1")]
-        Clip(::prost::alloc::string::String),
-        /// A BVH file.
-        #[prost(message, tag = "2")]
-        Bvh(super::BvhSource),
-    }
-}
-impl ::prost::Name for SimulateClipRequest {
-    const NAME: &'static str = "SimulateClipRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.SimulateClipRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.SimulateClipRequest".into()
-    }
-}
-/// Result of a simulation.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct SimulateClipResponse {
-    /// Figures of merit.
-    #[prost(message, optional, tag = "1")]
-    pub summary: ::core::option::Option<SimulationSummary>,
-    /// Frames, if a view was asked for.
-    #[prost(message, repeated, tag = "2")]
-    pub frames: ::prost::alloc::vec::Vec<WorldFrame>,
-    /// Events in order.
-    #[prost(message, repeated, tag = "3")]
-    pub events: ::prost::alloc::vec::Vec<Event>,
-    /// How the BVH file was understood; absent for clips.
-    #[prost(message, optional, tag = "4")]
-    pub report: ::core::option::Option<RetargetReport>,
-}
-impl ::prost::Name for SimulateClipResponse {
-    const NAME: &'static str = "SimulateClipResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.SimulateClipResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.SimulateClipResponse".into()
-    }
-}
-/// Figures of merit of a simulation.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct SimulationSummary {
-    /// Number of ticks.
-    #[prost(int32, tag = "1")]
-    pub tick_count: i32,
-    /// Ticks per second.
-    #[prost(double, tag = "2")]
-    pub rate_hz: f64,
-    /// When the figure fell, s; absent if it did not.
-    #[prost(double, optional, tag = "3")]
-    pub fell_at_s: ::core::option::Option<f64>,
-    /// Tracking error of the joint angles, target minus actual at the start of a tick: root mean square over DOFs and
-    /// ticks, degrees. The target is the prepared motion, moved along with the feet after each step.
-    #[prost(double, tag = "4")]
-    pub tracking_joint_rms_deg: f64,
-    /// Largest tracking error of a joint angle, degrees.
-    #[prost(double, tag = "5")]
-    pub tracking_joint_max_deg: f64,
-    /// Largest torque relative to the torque available.
-    #[prost(double, tag = "6")]
-    pub max_utilisation: f64,
-    /// Largest violation of the strength, relative to the limit; 0 when none.
-    #[prost(double, tag = "7")]
-    pub over_limit_max: f64,
-    /// Time each DOF was at its limit, s, in DOF order.
-    #[prost(double, repeated, tag = "8")]
-    pub saturated_s: ::prost::alloc::vec::Vec<f64>,
-    /// Least distance of the zero-moment point inside the support polygon, m; absent if the figure never stood.
-    #[prost(double, optional, tag = "9")]
-    pub margin_min_m: ::core::option::Option<f64>,
-    /// Largest penetration of the ground, m.
-    #[prost(double, tag = "10")]
-    pub penetration_max_m: f64,
-    /// State hash at the end.
-    #[prost(sfixed64, tag = "11")]
-    pub state_hash: i64,
-    /// Median time to compute a tick, µs.
-    #[prost(double, tag = "12")]
-    pub tick_p50_us: f64,
-    /// 99th percentile of the time to compute a tick, µs.
-    #[prost(double, tag = "13")]
-    pub tick_p99_us: f64,
-}
-impl ::prost::Name for SimulationSummary {
-    const NAME: &'static str = "SimulationSummary";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.SimulationSummary".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.SimulationSummary".into()
-    }
-}
-/// Generated client implementations.
-pub mod simulation_service_client {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    use tonic::codegen::http::Uri;
-    /// Simulates without a world.
-    #[derive(Debug, Clone)]
-    pub struct SimulationServiceClient<T> {
-        inner: tonic::client::Grpc<T>,
-    }
-    impl SimulationServiceClient<tonic::transport::Channel> {
-        /// Attempt to create a new client by connecting to a given endpoint.
-        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
-        where
-            D: TryInto<tonic::transport::Endpoint>,
-            D::Error: Into<StdError>,
-        {
-            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
-            Ok(Self::new(conn))
-        }
-    }
-    impl<T> SimulationServiceClient<T>
-    where
-        T: tonic::client::GrpcService<tonic::body::Body>,
-        T::Error: Into<StdError>,
-        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
-        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
-    {
-        pub fn new(inner: T) -> Self {
-            let inner = tonic::client::Grpc::new(inner);
-            Self { inner }
-        }
-        pub fn with_origin(inner: T, origin: Uri) -> Self {
-            let inner = tonic::client::Grpc::with_origin(inner, origin);
-            Self { inner }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> SimulationServiceClient<InterceptedService<T, F>>
-        where
-            F: tonic::service::Interceptor,
-            T::ResponseBody: Default,
-            T: tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-                Response = http::Response<
-                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
-                >,
-            >,
-            <T as tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
-        {
-            SimulationServiceClient::new(InterceptedService::new(inner, interceptor))
-        }
-        /// Compress requests with the given encoding.
-        ///
-        /// This requires the server to support it otherwise it might respond with an
-        /// error.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.send_compressed(encoding);
-            self
-        }
-        /// Enable decompressing responses.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.accept_compressed(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_decoding_message_size(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_encoding_message_size(limit);
-            self
-        }
-        /// One clip tracked by one figure, faster than real time: motion, torques and events come back in one message.
-        pub async fn simulate_clip(
-            &mut self,
-            request: impl tonic::IntoRequest<super::SimulateClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::SimulateClipResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.SimulationService/SimulateClip",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.SimulationService", "SimulateClip"));
-            self.inner.unary(req, path, codec).await
-        }
-    }
-}
-/// Generated server implementations.
-pub mod simulation_service_server {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    /// Generated trait containing gRPC methods that should be implemented for use with SimulationServiceServer.
-    #[async_trait]
-    pub trait SimulationService: std::marker::Send + std::marker::Sync + 'static {
-        /// One clip tracked by one figure, faster than real time: motion, torques and events come back in one message.
-        async fn simulate_clip(
-            &self,
-            request: tonic::Request<super::SimulateClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::SimulateClipResponse>,
-            tonic::Status,
-        >;
-    }
-    /// Simulates without a world.
-    #[derive(Debug)]
-    pub struct SimulationServiceServer<T> {
-        inner: Arc<T>,
-        accept_compression_encodings: EnabledCompressionEncodings,
-        send_compression_encodings: EnabledCompressionEncodings,
-        max_decoding_message_size: Option<usize>,
-        max_encoding_message_size: Option<usize>,
-    }
-    impl<T> SimulationServiceServer<T> {
-        pub fn new(inner: T) -> Self {
-            Self::from_arc(Arc::new(inner))
-        }
-        pub fn from_arc(inner: Arc<T>) -> Self {
-            Self {
-                inner,
-                accept_compression_encodings: Default::default(),
-                send_compression_encodings: Default::default(),
-                max_decoding_message_size: None,
-                max_encoding_message_size: None,
-            }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> InterceptedService<Self, F>
-        where
-            F: tonic::service::Interceptor,
-        {
-            InterceptedService::new(Self::new(inner), interceptor)
-        }
-        /// Enable decompressing requests with the given encoding.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.accept_compression_encodings.enable(encoding);
-            self
-        }
-        /// Compress responses with the given encoding, if the client supports it.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.send_compression_encodings.enable(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.max_decoding_message_size = Some(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.max_encoding_message_size = Some(limit);
-            self
-        }
-    }
-    impl<T, B> tonic::codegen::Service<http::Request<B>> for SimulationServiceServer<T>
-    where
-        T: SimulationService,
-        B: Body + std::marker::Send + 'static,
-        B::Error: Into<StdError> + std::marker::Send + 'static,
-    {
-        type Response = http::Response<tonic::body::Body>;
-        type Error = std::convert::Infallible;
-        type Future = BoxFuture<Self::Response, Self::Error>;
-        fn poll_ready(
-            &mut self,
-            _cx: &mut Context<'_>,
-        ) -> Poll<std::result::Result<(), Self::Error>> {
-            Poll::Ready(Ok(()))
-        }
-        fn call(&mut self, req: http::Request<B>) -> Self::Future {
-            match req.uri().path() {
-                "/sinew.v1.SimulationService/SimulateClip" => {
-                    #[allow(non_camel_case_types)]
-                    struct SimulateClipSvc<T: SimulationService>(pub Arc<T>);
-                    impl<
-                        T: SimulationService,
-                    > tonic::server::UnaryService<super::SimulateClipRequest>
-                    for SimulateClipSvc<T> {
-                        type Response = super::SimulateClipResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::SimulateClipRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as SimulationService>::simulate_clip(&inner, request)
-                                    .await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = SimulateClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                _ => {
-                    Box::pin(async move {
-                        let mut response = http::Response::new(
-                            tonic::body::Body::default(),
-                        );
-                        let headers = response.headers_mut();
-                        headers
-                            .insert(
-                                tonic::Status::GRPC_STATUS,
-                                (tonic::Code::Unimplemented as i32).into(),
-                            );
-                        headers
-                            .insert(
-                                http::header::CONTENT_TYPE,
-                                tonic::metadata::GRPC_CONTENT_TYPE,
-                            );
-                        Ok(response)
-                    })
-                }
-            }
-        }
-    }
-    impl<T> Clone for SimulationServiceServer<T> {
-        fn clone(&self) -> Self {
-            let inner = self.inner.clone();
-            Self {
-                inner,
-                accept_compression_encodings: self.accept_compression_encodings,
-                send_compression_encodings: self.send_compression_encodings,
-                max_decoding_message_size: self.max_decoding_message_size,
-                max_encoding_message_size: self.max_encoding_message_size,
-            }
-        }
-    }
-    /// Generated gRPC service name
-    pub const SERVICE_NAME: &str = "sinew.v1.SimulationService";
-    impl<T> tonic::server::NamedService for SimulationServiceServer<T> {
         const NAME: &'static str = SERVICE_NAME;
     }
 }

@@ -20,7 +20,7 @@ fn field(number: u8, inner: &[u8]) -> Vec<u8> {
 
 fn push() -> pb::PushMotionRequest {
     let figure = pb::FigureMotion {
-        figure: "anna".into(),
+        figure_id: "anna".into(),
         root: Some(pb::Pose {
             position_m: Some(pb::Vector3 {
                 x: 1.0,
@@ -47,7 +47,7 @@ fn push() -> pb::PushMotionRequest {
     pb::PushMotionRequest {
         header: Some(pb::DriveHeader {
             world: "worlds/w".into(),
-            figures: vec!["anna".into()],
+            figure_ids: vec!["anna".into()],
             playout_delay_ms: Some(0.0),
             ..Default::default()
         }),
@@ -91,7 +91,7 @@ fn empty_elements_are_refused_where_they_become_too_many() {
     let names = field(3, &[1 << 3 | 2, 0].repeat(500_000));
     let refused = check::<pb::GetWorldFrameRequest>(&names).unwrap_err();
     assert!(
-        refused.to_string().starts_with("view.figures["),
+        refused.to_string().starts_with("view.figure_ids["),
         "{refused}"
     );
 }

@@ -11,6 +11,7 @@ from types import TracebackType
 from typing import TypeAlias
 
 import numpy as np
+from google.protobuf.field_mask_pb2 import FieldMask
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
 
@@ -35,6 +36,9 @@ from sinew.v1 import (
     frame_pb2,
     motion_pb2,
     motion_pb2_grpc,
+    obstacle_pb2,
+    obstacle_pb2_grpc,
+    operation_pb2_grpc,
     perturbation_pb2,
     perturbation_pb2_grpc,
     server_pb2,
@@ -130,6 +134,8 @@ class Client:
         self.perturbations_stub = perturbation_pb2_grpc.PerturbationServiceStub(self._channel)
         self.states_stub = state_pb2_grpc.StateServiceStub(self._channel)
         self.simulations_stub = simulation_pb2_grpc.SimulationServiceStub(self._channel)
+        self.obstacles_stub = obstacle_pb2_grpc.ObstacleServiceStub(self._channel)
+        self.operations_stub = operation_pb2_grpc.OperationServiceStub(self._channel)
         self.server_stub = server_pb2_grpc.ServerServiceStub(self._channel)
         self.access_stub = access_pb2_grpc.AccessServiceStub(self._channel)
         self.control_stub = control_pb2_grpc.ControlServiceStub(self._channel)
@@ -330,7 +336,7 @@ class Client:
         settings = world_pb2.World(
             display_name=display_name,
             rate_hz=rate_hz,
-            substeps=substeps,
+            substep_count=substeps,
             gravity_mps2=gravity,
             friction=friction,
             speed=speed,
@@ -418,7 +424,7 @@ class Client:
         request = simulation_pb2.SimulateClipRequest(
             figure=figure,
             rate_hz=rate_hz,
-            substeps=substeps,
+            substep_count=substeps,
             duration_s=duration_s,
             loop=loop,
             perturbations=requests.timed(disturbances),
@@ -717,23 +723,25 @@ class World:
             velocity=velocity,
             angular_velocity=angular_velocity,
         )
-        request = world_pb2.AddObstacleRequest(parent=self.resource, obstacle_id=name, obstacle=wanted)
-        return Obstacle(self, (await self.client._ask(self.client.worlds_stub.AddObstacle, request)).obstacle)
+        request = obstacle_pb2.CreateObstacleRequest(parent=self.resource, obstacle_id=name, obstacle=wanted)
+        return Obstacle(self, (await self.client._ask(self.client.obstacles_stub.CreateObstacle, request)).obstacle)
 
     async def obstacles(self) -> list[Obstacle]:
         """All obstacles as they are now, in the order they were added."""
-        request = world_pb2.ListObstaclesRequest(parent=self.resource)
-        r = await self.client._ask(self.client.worlds_stub.ListObstacles, request)
-        return [Obstacle(self, o) for o in r.obstacles]
+        out: list[Obstacle] = []
+        token = ""
+        while True:
+            request = obstacle_pb2.ListObstaclesRequest(parent=self.resource, page_size=1000, page_token=token)
+            r = await self.client._ask(self.client.obstacles_stub.ListObstacles, request)
+            out.extend(Obstacle(self, o) for o in r.obstacles)
+            token = r.next_page_token
+            if not token:
+                return out
 
     async def obstacle(self, name: str) -> Obstacle:
         """An obstacle that is there, as it is now."""
-        there = await self.obstacles()
-        for o in there:
-            if o.name == last(name):
-                return o
-        full = f"{self.resource}/obstacles/{last(name)}"
-        raise not_found("obstacle", full, [o.name for o in there])
+        request = obstacle_pb2.GetObstacleRequest(name=f"{self.resource}/obstacles/{last(name)}")
+        return Obstacle(self, (await self.client._ask(self.client.obstacles_stub.GetObstacle, request)).obstacle)
 
     # Frames.
 
@@ -779,7 +787,7 @@ class World:
         world is paused.
         """
         request = state_pb2.WatchEventsRequest(
-            world=self.resource, figures=list(figures), types=requests.event_types(types)
+            world=self.resource, figure_ids=list(figures), types=requests.event_types(types)
         )
         return Events(Stream(self.client.states_stub.WatchEvents, request))
 
@@ -830,7 +838,7 @@ class World:
                             bar.add((message.frame.tick - frames[-1].tick) / self.rate_hz)
                         frames.append(message.frame)
         await self.client._learn(roster)
-        names = {e.figure_index: (e.figure, self.client._bodies[e.body]) for e in roster.figures}
+        names = {e.figure_index: (e.figure_id, self.client._bodies[e.body]) for e in roster.figures}
         return collect(frames, names, self.rate_hz)
 
     def drive(
@@ -852,7 +860,7 @@ class World:
         """
         header = motion_pb2.DriveHeader(
             world=self.resource,
-            figures=[last(f) for f in figures],
+            figure_ids=[last(f) for f in figures],
             driver_id=driver_id,
             nominal_rate_hz=rate_hz,
             playout_delay_ms=playout_delay_ms,
@@ -868,7 +876,7 @@ class Obstacle:
     or `update`.
     """
 
-    def __init__(self, world: World, message: world_pb2.Obstacle) -> None:
+    def __init__(self, world: World, message: obstacle_pb2.Obstacle) -> None:
         self.world = world
         self.message = message
         """As the server described it."""
@@ -922,7 +930,7 @@ class Obstacle:
     @property
     def angular_velocity(self) -> NDArray[np.float64]:
         """World axes, rad/s, (3,)."""
-        w = self.message.angular_velocity_radps
+        w = self.message.angular_velocity_rad_s
         return np.array([w.x, w.y, w.z])
 
     async def get(self) -> Self:
@@ -947,26 +955,32 @@ class Obstacle:
         To lead one along a path, give its `velocity` (m/s) before each step: it then pushes what it meets. A new
         `position` (m) is a jump.
         """
-        now = await self.get()
-        wanted = requests.obstacle(
-            now.shape if shape is None else shape,
-            position=now.position.tolist() if position is None else position,
-            rotation=now.rotation.tolist() if rotation is None else rotation,
-            mobility_name=now.mobility if mobility is None else mobility,
-            mass_kg=now.mass_kg if mass_kg is None else mass_kg,
-            friction=now.friction if friction is None else friction,
-            velocity=now.velocity.tolist() if velocity is None else velocity,
-            angular_velocity=now.angular_velocity.tolist() if angular_velocity is None else angular_velocity,
+        wanted, paths = requests.obstacle_changes(
+            shape=shape,
+            position=position,
+            rotation=rotation,
+            mobility_name=mobility,
+            mass_kg=mass_kg,
+            friction=friction,
+            velocity=velocity,
+            angular_velocity=angular_velocity,
         )
+        if "pose" in paths and (position is None or rotation is None):
+            # Place and rotation are one field: the other half stays as it is now.
+            now = (await self.get()).message.pose
+            if position is None:
+                wanted.pose.position_m.CopyFrom(now.position_m)
+            if rotation is None:
+                wanted.pose.rotation.CopyFrom(now.rotation)
         wanted.name = self.message.name
-        request = world_pb2.UpdateObstacleRequest(obstacle=wanted)
+        request = obstacle_pb2.UpdateObstacleRequest(obstacle=wanted, update_mask=FieldMask(paths=paths))
         client = self.world.client
-        self.message = (await client._ask(client.worlds_stub.UpdateObstacle, request)).obstacle
+        self.message = (await client._ask(client.obstacles_stub.UpdateObstacle, request)).obstacle
 
     async def remove(self) -> None:
         """Takes it out of its world."""
-        request = world_pb2.RemoveObstacleRequest(name=self.message.name)
-        await self.world.client._ask(self.world.client.worlds_stub.RemoveObstacle, request)
+        request = obstacle_pb2.DeleteObstacleRequest(name=self.message.name)
+        await self.world.client._ask(self.world.client.obstacles_stub.DeleteObstacle, request)
 
 
 class Figure:
@@ -1073,10 +1087,10 @@ class Figure:
         first frame plays, s.
 
         A figure that walks goes over to it from step to step where the two motions are alike; else it finishes its step
-        and stands first. The time is what is expected then, and until then `next_clip` of `get()` names the clip.
-        `reset` puts the figure into the first posture at once; otherwise it moves there by itself. It begins where the
-        figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is prepared for its `speed`
-        (0.5 to 2), which takes a moment the first time.
+        and stands first. The time is what is expected then, and until then `status.next_clip` of `get()` names the
+        clip. `reset` puts the figure into the first posture at once; otherwise it moves there by itself. It begins
+        where the figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is prepared for
+        its `speed` (0.5 to 2), which takes a moment the first time.
         """
         named = clip.name if isinstance(clip, Clip) else clip
         request = motion_pb2.PlayClipRequest(
@@ -1109,7 +1123,7 @@ class Figure:
         request = motion_pb2.PushMotionRequest(
             header=motion_pb2.DriveHeader(
                 world=self.world.resource,
-                figures=[self.name],
+                figure_ids=[self.name],
                 driver_id=f"ask-{self.name}"[:64],
                 nominal_rate_hz=self.world.rate_hz,
                 playout_delay_ms=0.0,
@@ -1206,13 +1220,13 @@ class Figure:
         *,
         start_s: float = 0.0,
         duration_s: float = 0.0,
-        grip_n: float = 0.0,
+        grip_newtons: float = 0.0,
     ) -> int:
         """Gives it a load of `mass_kg` (kg) in the palm of one hand, or of two, half each; until `clear` unless
         `duration_s` (s) says otherwise.
 
-        `start_s` (s) counts from now. Beyond `grip_n` (N) at one hand it slips; 0: never. A `Load` takes more: where in
-        the segment, and how fast it moves. Returns the tick at whose start the request was taken.
+        `start_s` (s) counts from now. Beyond `grip_newtons` (N) at one hand it slips; 0: never. A `Load` takes more:
+        where in the segment, and how fast it moves. Returns the tick at whose start the request was taken.
         """
         return await self.apply(
             Load(
@@ -1221,29 +1235,33 @@ class Figure:
                 second_segment=second_segment,
                 start_s=start_s,
                 duration_s=duration_s,
-                grip_n=grip_n,
+                grip_newtons=grip_newtons,
             )
         )
 
     async def push(
-        self, impulse_ns: Vector, segment: str = "chest", *, start_s: float = 0.0, duration_s: float = 0.1
+        self, impulse_newton_seconds: Vector, segment: str = "chest", *, start_s: float = 0.0, duration_s: float = 0.1
     ) -> int:
         """Pushes it: an impulse in N·s, world axes, at the segment's centre of mass, over `duration_s` (s), `start_s`
         (s) from now on.
 
         Returns the tick at whose start the request was taken.
         """
-        return await self.apply(Push(impulse_ns=impulse_ns, segment=segment, start_s=start_s, duration_s=duration_s))
+        return await self.apply(
+            Push(impulse_newton_seconds=impulse_newton_seconds, segment=segment, start_s=start_s, duration_s=duration_s)
+        )
 
     async def pull(
-        self, force_n: Vector, segment: str = "pelvis", *, start_s: float = 0.0, duration_s: float = 0.0
+        self, force_newtons: Vector, segment: str = "pelvis", *, start_s: float = 0.0, duration_s: float = 0.0
     ) -> int:
         """A constant force in N, world axes, at the segment's centre of mass; until `clear` unless `duration_s` (s)
         says otherwise.
 
         `start_s` (s) counts from now. Returns the tick at whose start the request was taken.
         """
-        return await self.apply(Force(force_n=force_n, segment=segment, start_s=start_s, duration_s=duration_s))
+        return await self.apply(
+            Force(force_newtons=force_newtons, segment=segment, start_s=start_s, duration_s=duration_s)
+        )
 
     async def clear(self) -> None:
         """Takes all loads and forces off it."""
@@ -1411,7 +1429,7 @@ class Drive:
         origin); now if `None`.
         """
         wanted = pose if isinstance(pose, Pose) else Pose(angles=pose)
-        await self.send_all({self._header.figures[0]: wanted}, time_s=time_s)
+        await self.send_all({self._header.figure_ids[0]: wanted}, time_s=time_s)
 
     async def send_all(self, poses: Mapping[str, Pose], *, time_s: float | None = None) -> None:
         """One instant of several figures, by name. `time_s` is when it was captured (s, any origin); now if `None`."""
@@ -1441,7 +1459,7 @@ class Drive:
         duplex.check()
         newest = duplex.newest
         driver = newest.feedback.driver_id if newest is not None else ""
-        for name in self._header.figures:
+        for name in self._header.figure_ids:
             # They are given back at the start of the next tick, after whatever else comes before it.
             request = figure_pb2.GetFigureRequest(name=f"{self._header.world}/figures/{name}")
             for _ in range(_RELEASE_TRIES):
@@ -1449,6 +1467,6 @@ class Drive:
                     held = await self._client._ask(self._client.figures_stub.GetFigure, request)
                 except NotFoundError:
                     break
-                if held.figure.driver_id != driver:
+                if held.figure.status.driver_id != driver:
                     break
                 await pause(0.005)

@@ -10,7 +10,16 @@ from pathlib import Path
 import grpc
 from google.protobuf.field_mask_pb2 import FieldMask
 
-from sinew.v1 import figure_pb2, frame_pb2, perturbation_pb2, simulation_pb2, state_pb2, types_pb2, world_pb2
+from sinew.v1 import (
+    figure_pb2,
+    frame_pb2,
+    obstacle_pb2,
+    perturbation_pb2,
+    simulation_pb2,
+    state_pb2,
+    types_pb2,
+    world_pb2,
+)
 from sinew.values import (
     Constraint,
     Controller,
@@ -85,16 +94,16 @@ def overrun(name: str) -> world_pb2.OverrunPolicy.ValueType:
     return world_pb2.OverrunPolicy.Value(choice(known, "OVERRUN_POLICY_", name, "overrun"))
 
 
-def mobility(name: Mobility) -> world_pb2.ObstacleMobility.ValueType:
+def mobility(name: Mobility) -> obstacle_pb2.ObstacleMobility.ValueType:
     """A mobility of an obstacle by name."""
-    known = world_pb2.ObstacleMobility.keys()
-    return world_pb2.ObstacleMobility.Value(choice(known, "OBSTACLE_MOBILITY_", name, "mobility"))
+    known = obstacle_pb2.ObstacleMobility.keys()
+    return obstacle_pb2.ObstacleMobility.Value(choice(known, "OBSTACLE_MOBILITY_", name, "mobility"))
 
 
 MOBILITIES: Mapping[int, Mobility] = {
-    world_pb2.OBSTACLE_MOBILITY_FIXED: "fixed",
-    world_pb2.OBSTACLE_MOBILITY_LED: "led",
-    world_pb2.OBSTACLE_MOBILITY_FREE: "free",
+    obstacle_pb2.OBSTACLE_MOBILITY_FIXED: "fixed",
+    obstacle_pb2.OBSTACLE_MOBILITY_LED: "led",
+    obstacle_pb2.OBSTACLE_MOBILITY_FREE: "free",
 }
 
 
@@ -123,7 +132,7 @@ def view(
         if name != "*" and name not in VIEW_FIELDS:
             raise ValueError(f"frame field {name!r} is none of {', '.join(VIEW_FIELDS)}, *")
     return state_pb2.View(
-        figures=list(figures),
+        figure_ids=list(figures),
         fields=FieldMask(paths=list(fields)),
         encoding=encoding(numbers),
         rate_divisor=rate_divisor,
@@ -187,7 +196,7 @@ def placement(position: tuple[float, float] | None, yaw: float | None) -> types_
 def perturbation(what: Disturbance, name: str, tick: int | None) -> perturbation_pb2.Perturbation:
     """A disturbance of a figure at a tick."""
     out = what.message()
-    out.figure = name
+    out.figure_id = name
     if tick is not None:
         out.tick = tick
     return out
@@ -208,20 +217,61 @@ def obstacle(
     friction: float | None,
     velocity: Vector,
     angular_velocity: Vector,
-) -> world_pb2.Obstacle:
+) -> obstacle_pb2.Obstacle:
     """An obstacle, without its name."""
-    out = world_pb2.Obstacle(
+    out = obstacle_pb2.Obstacle(
         mobility=mobility(mobility_name),
         mass_kg=mass_kg,
         friction=friction,
         velocity_mps=vector(velocity),
-        angular_velocity_radps=vector(angular_velocity),
+        angular_velocity_rad_s=vector(angular_velocity),
     )
     shape.put(out)
     out.pose.position_m.CopyFrom(vector(position))
     if rotation is not None:
         out.pose.rotation.CopyFrom(quaternion(rotation))
     return out
+
+
+def obstacle_changes(
+    *,
+    shape: Shape | None,
+    position: Vector | None,
+    rotation: Sequence[float] | None,
+    mobility_name: Mobility | None,
+    mass_kg: float | None,
+    friction: float | None,
+    velocity: Vector | None,
+    angular_velocity: Vector | None,
+) -> tuple[obstacle_pb2.Obstacle, list[str]]:
+    """What is to change of an obstacle, and the fields that name it; what is `None` is left out."""
+    out = obstacle_pb2.Obstacle()
+    paths = []
+    if shape is not None:
+        shape.put(out)
+        paths.append(str(out.WhichOneof("shape")))
+    if mobility_name is not None:
+        out.mobility = mobility(mobility_name)
+        paths.append("mobility")
+    if mass_kg is not None:
+        out.mass_kg = mass_kg
+        paths.append("mass_kg")
+    if friction is not None:
+        out.friction = friction
+        paths.append("friction")
+    if position is not None:
+        out.pose.position_m.CopyFrom(vector(position))
+    if rotation is not None:
+        out.pose.rotation.CopyFrom(quaternion(rotation))
+    if out.HasField("pose"):
+        paths.append("pose")
+    if velocity is not None:
+        out.velocity_mps.CopyFrom(vector(velocity))
+        paths.append("velocity_mps")
+    if angular_velocity is not None:
+        out.angular_velocity_rad_s.CopyFrom(vector(angular_velocity))
+        paths.append("angular_velocity_rad_s")
+    return out, paths
 
 
 def quaternion(q: Sequence[float]) -> types_pb2.Quaternion:

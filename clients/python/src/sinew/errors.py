@@ -181,7 +181,7 @@ def from_rpc(error: grpc.RpcError) -> SinewError:
         elif detail.Unpack(resource) and isinstance(out, (NotFoundError, AlreadyExistsError)):
             out.resource = resource.resource_name
             if isinstance(out, NotFoundError):
-                out.kind = resource.resource_type.rsplit("/", 1)[-1]
+                out.kind = resource.resource_type.rsplit("/", 1)[-1].lower()
         elif detail.Unpack(quota) and isinstance(out, LimitError) and quota.violations:
             out.limit = quota.violations[0].subject
         elif detail.Unpack(retry) and isinstance(out, LimitError):

@@ -79,7 +79,7 @@ class ObstacleState:
     def of(cls, message: frame_pb2.ObstacleFrame) -> ObstacleState:
         """From a message."""
         pose, velocity = numbers(message.pose), numbers(message.velocity)
-        return cls(message.obstacle, pose[:3], pose[3:], velocity[3:], velocity[:3], numbers(message.force))
+        return cls(message.obstacle_id, pose[:3], pose[3:], velocity[3:], velocity[:3], numbers(message.force))
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class Event:
             name = state_pb2.EventType.Name(e.type).removeprefix("EVENT_TYPE_").lower()
         except ValueError:  # of a newer server
             name = f"event_{e.type}"
-        return cls(name, e.tick, e.time_s, e.figure, e.segment, e.dof, e.mass_kg, e.detail)
+        return cls(name, e.tick, e.time_s, e.figure_id, e.segment, e.dof, e.mass_kg, e.detail)
 
 
 class FigureState:
@@ -248,6 +248,6 @@ def frame(message: frame_pb2.WorldFrame, roster: state_pb2.Roster, bodies: Mappi
     for f in message.figures:
         entry = known.get(f.figure_index)
         if entry is not None:
-            figures[entry.figure] = FigureState(f, entry.figure, bodies[entry.body])
-    obstacles = {o.obstacle: ObstacleState.of(o) for o in message.obstacles}
+            figures[entry.figure_id] = FigureState(f, entry.figure_id, bodies[entry.body])
+    obstacles = {o.obstacle_id: ObstacleState.of(o) for o in message.obstacles}
     return Frame(message.tick, message.time_s, message.state_hash, message.server_time_ns, figures, obstacles)

@@ -41,7 +41,7 @@ class Pose:
 
     def message(self, figure: str = "") -> motion_pb2.FigureMotion:
         """As it is sent."""
-        out = motion_pb2.FigureMotion(figure=figure)
+        out = motion_pb2.FigureMotion(figure_id=figure)
         if self.root is not None:
             out.root.CopyFrom(_pose(np.asarray(self.root, dtype=np.float64)))
         if self.angles is not None:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias, Union
 
-from sinew.v1 import body_pb2, figure_pb2, perturbation_pb2, types_pb2, world_pb2
+from sinew.v1 import body_pb2, figure_pb2, obstacle_pb2, perturbation_pb2, types_pb2
 
 __all__ = [
     "Box",
@@ -201,7 +201,7 @@ class Load:
 
     `point_m`: where, in the segment's frame (m); `None`: the middle of the palm of a hand, else the segment's centre of
     mass. With `second_segment` two hands share it, half each. Taking it is perfectly inelastic: a load that moves
-    (`velocity_mps`, world axes, m/s) jerks. Beyond `grip_n` newtons at one hand it slips; 0: never.
+    (`velocity_mps`, world axes, m/s) jerks. Beyond `grip_newtons` newtons at one hand it slips; 0: never.
     """
 
     mass_kg: float
@@ -210,7 +210,7 @@ class Load:
     point_m: Vector | None = None
     second_point_m: Vector | None = None
     velocity_mps: Vector | None = None
-    grip_n: float = 0.0
+    grip_newtons: float = 0.0
     duration_s: float = 0.0
     start_s: float = 0.0
 
@@ -221,7 +221,7 @@ class Load:
             mass_kg=self.mass_kg,
             duration_s=self.duration_s,
             second_segment=self.second_segment,
-            grip_n=self.grip_n,
+            grip_newtons=self.grip_newtons,
             point_m=vector(self.point_m) if self.point_m is not None else None,
             second_point_m=vector(self.second_point_m) if self.second_point_m is not None else None,
             velocity_mps=vector(self.velocity_mps) if self.velocity_mps is not None else None,
@@ -237,7 +237,7 @@ class Push:
     `point_m`: where, in the segment's frame (m); `None`: its centre of mass.
     """
 
-    impulse_ns: Vector
+    impulse_newton_seconds: Vector
     segment: str = "chest"
     point_m: Vector | None = None
     duration_s: float = 0.1
@@ -247,7 +247,7 @@ class Push:
         """As it is sent, without figure and tick."""
         impulse = perturbation_pb2.Impulse(
             segment=self.segment,
-            impulse_ns=vector(self.impulse_ns),
+            impulse_newton_seconds=vector(self.impulse_newton_seconds),
             duration_s=self.duration_s,
             point_m=vector(self.point_m) if self.point_m is not None else None,
         )
@@ -261,7 +261,7 @@ class Force:
     `point_m`: where, in the segment's frame (m); `None`: its centre of mass.
     """
 
-    force_n: Vector
+    force_newtons: Vector
     segment: str = "pelvis"
     point_m: Vector | None = None
     duration_s: float = 0.0
@@ -271,7 +271,7 @@ class Force:
         """As it is sent, without figure and tick."""
         force = perturbation_pb2.Force(
             segment=self.segment,
-            force_n=vector(self.force_n),
+            force_newtons=vector(self.force_newtons),
             duration_s=self.duration_s,
             point_m=vector(self.point_m) if self.point_m is not None else None,
         )
@@ -288,9 +288,9 @@ class Sphere:
 
     radius_m: float
 
-    def put(self, into: world_pb2.Obstacle) -> None:
+    def put(self, into: obstacle_pb2.Obstacle) -> None:
         """Into a message."""
-        into.sphere.CopyFrom(world_pb2.SphereShape(radius_m=self.radius_m))
+        into.sphere.CopyFrom(obstacle_pb2.SphereShape(radius_m=self.radius_m))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -303,9 +303,9 @@ class Capsule:
     radius_m: float
     half_length_m: float
 
-    def put(self, into: world_pb2.Obstacle) -> None:
+    def put(self, into: obstacle_pb2.Obstacle) -> None:
         """Into a message."""
-        into.capsule.CopyFrom(world_pb2.CapsuleShape(radius_m=self.radius_m, half_length_m=self.half_length_m))
+        into.capsule.CopyFrom(obstacle_pb2.CapsuleShape(radius_m=self.radius_m, half_length_m=self.half_length_m))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -316,25 +316,25 @@ class Box:
 
     half_m: Vector
 
-    def put(self, into: world_pb2.Obstacle) -> None:
+    def put(self, into: obstacle_pb2.Obstacle) -> None:
         """Into a message."""
-        into.box.CopyFrom(world_pb2.BoxShape(half_m=vector(self.half_m)))
+        into.box.CopyFrom(obstacle_pb2.BoxShape(half_m=vector(self.half_m)))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Plane:
     """Everything below z = 0 of the obstacle's frame: a slope or a wall without end. It cannot move freely."""
 
-    def put(self, into: world_pb2.Obstacle) -> None:
+    def put(self, into: obstacle_pb2.Obstacle) -> None:
         """Into a message."""
-        into.plane.CopyFrom(world_pb2.PlaneShape())
+        into.plane.CopyFrom(obstacle_pb2.PlaneShape())
 
 
 Shape: TypeAlias = Union[Sphere, Capsule, Box, Plane]
 """What an obstacle looks like; lengths in m, in the obstacle's own frame."""
 
 
-def shape_of(message: world_pb2.Obstacle) -> Shape:
+def shape_of(message: obstacle_pb2.Obstacle) -> Shape:
     """The shape in a message."""
     kind = message.WhichOneof("shape")
     if kind == "sphere":

@@ -178,6 +178,7 @@ impl Shard {
             index: m.index,
             settings: m.settings,
             clip: m.clip,
+            told: None,
         };
         self.members = shard.members.into_iter().map(member).collect();
         self.obstacles = shard.obstacles;
@@ -190,6 +191,7 @@ impl Shard {
         self.roster_changed();
         self.touch();
         self.world_event(EventKind::Restored(tick));
+        self.note_clips();
         Ok(self.info())
     }
 }

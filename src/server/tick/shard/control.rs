@@ -15,12 +15,27 @@ impl Shard {
     /// There is no such figure.
     pub fn control(&self, figure: &str) -> Result<ControlInfo, Fault> {
         self.member(figure)?;
+        Ok(self.control_of(figure, Instant::now()))
+    }
+
+    /// Who controls each figure, in their order.
+    pub fn controls(&self) -> Vec<ControlInfo> {
+        let now = Instant::now();
+        let members = self.members.iter();
+        members.map(|m| self.control_of(&m.id, now)).collect()
+    }
+
+    /// Whether a lease or a drive ends by itself, at a time that every use of it puts off.
+    pub(super) fn control_passes(&self) -> bool {
+        self.leases.end_by_themselves() || self.drives.iter().any(|d| d.expires.is_some())
+    }
+
+    fn control_of(&self, figure: &str, now: Instant) -> ControlInfo {
         let mut info = ControlInfo {
             figure: figure.to_owned(),
             epoch: self.leases.epoch(figure),
             ..ControlInfo::default()
         };
-        let now = Instant::now();
         let left = |at: Option<Instant>| at.map(|at| at.saturating_duration_since(now));
         if let Some(lease) = self.leases.of(figure) {
             info.holder = Some(lease.holder.clone());
@@ -33,7 +48,7 @@ impl Shard {
             info.expires_in = left(drive.expires);
             info.implicit = true;
         }
-        Ok(info)
+        info
     }
 
     /// Takes or renews a lease. Returns it with its token.

@@ -73,13 +73,8 @@ impl Shard {
             .collect();
     }
 
-    /// Adds a figure.
-    pub fn create_figure(
-        &mut self,
-        id: Option<String>,
-        settings: FigureSettings,
-        body: Arc<Body>,
-    ) -> Result<FigureInfo, Fault> {
+    /// The name of a new figure, one that is free if none is given; there must be room for it.
+    fn new_figure_id(&self, id: Option<String>) -> Result<String, Fault> {
         self.working()?;
         if self.members.len() as u64 >= self.limits.figures {
             return Err(Fault::Exhausted {
@@ -89,7 +84,7 @@ impl Shard {
                 retry: None,
             });
         }
-        let id = match id {
+        Ok(match id {
             Some(id) if self.member(&id).is_ok() => {
                 return Err(Fault::Exists {
                     kind: "figure",
@@ -101,7 +96,39 @@ impl Shard {
                 .map(|n| format!("figure-{n}"))
                 .find(|id| self.member(id).is_err())
                 .expect("there is a free number"),
-        };
+        })
+    }
+
+    /// The figure that [`Self::create_figure`] would add. What its settings mean to the physics is checked before
+    /// ([`engine::check_figure`]).
+    pub fn would_create_figure(
+        &self,
+        id: Option<String>,
+        settings: FigureSettings,
+    ) -> Result<FigureInfo, Fault> {
+        let id = self.new_figure_id(id)?;
+        self.budget.add_figure(&self.account)?;
+        self.budget.remove_figure(&self.account);
+        Ok(FigureInfo {
+            world: self.id.to_string(),
+            id,
+            constraints: settings.constraints.clone(),
+            settings,
+            clip: None,
+            next_clip: None,
+            driver: None,
+            index: self.next_index,
+        })
+    }
+
+    /// Adds a figure.
+    pub fn create_figure(
+        &mut self,
+        id: Option<String>,
+        settings: FigureSettings,
+        body: Arc<Body>,
+    ) -> Result<FigureInfo, Fault> {
+        let id = self.new_figure_id(id)?;
         self.budget.add_figure(&self.account)?;
         let key = match engine::add_figure(&mut self.world, &id, &settings, body) {
             Ok(key) => key,
@@ -116,11 +143,30 @@ impl Shard {
             index: self.next_index,
             settings,
             clip: None,
+            told: None,
         });
         self.next_index += 1;
         self.roster_changed();
         self.event(&id, EventKind::FigureAdded);
         self.figure(&id)
+    }
+
+    /// The figure as [`Self::update_figure`] would leave it with these settings, which were checked before
+    /// ([`engine::check_figure`]).
+    pub fn would_update_figure(
+        &self,
+        figure: &str,
+        settings: FigureSettings,
+        who: Option<&ControlKey>,
+    ) -> Result<FigureInfo, Fault> {
+        self.working()?;
+        let now = self.figure(figure)?;
+        who.map_or(Ok(()), |who| self.may_adjust(figure, who))?;
+        Ok(FigureInfo {
+            constraints: settings.constraints.clone(),
+            settings,
+            ..now
+        })
     }
 
     /// Changes strength, controller or name.

@@ -3,6 +3,7 @@
 use super::Shard;
 use crate::server::engine::{self, ObstacleKey};
 use crate::sim::collide::{ObstacleSetup, Other};
+use crate::sim::math::Vec3;
 use crate::wire::status::Fault;
 use crate::wire::types::{EventKind, ObstacleInfo};
 
@@ -18,6 +19,7 @@ impl Shard {
         let o = self.world.obstacle(*key).expect("it is in the world");
         ObstacleInfo {
             id: id.clone(),
+            number: key.0,
             setup: o.setup().clone(),
             force: o.force(),
         }
@@ -29,14 +31,14 @@ impl Shard {
         all.map(|o| self.obstacle_info(o)).collect()
     }
 
-    /// Adds an obstacle.
-    pub fn add_obstacle(
-        &mut self,
-        id: Option<String>,
-        setup: ObstacleSetup,
-    ) -> Result<ObstacleInfo, Fault> {
-        self.working()?;
-        let id = match id {
+    /// One obstacle.
+    pub fn obstacle_now(&self, id: &str) -> Result<ObstacleInfo, Fault> {
+        Ok(self.obstacle_info(&self.obstacles[self.obstacle(id)?]))
+    }
+
+    /// The name of a new obstacle; one that is free if none is given.
+    fn new_obstacle_id(&self, id: Option<String>) -> Result<String, Fault> {
+        Ok(match id {
             Some(id) if self.obstacle(&id).is_ok() => {
                 return Err(Fault::Exists {
                     kind: "obstacle",
@@ -48,13 +50,51 @@ impl Shard {
                 .map(|n| format!("obstacle-{n}"))
                 .find(|id| self.obstacle(id).is_err())
                 .expect("there is a free number"),
-        };
+        })
+    }
+
+    /// The obstacle that [`Self::add_obstacle`] would add.
+    pub fn would_add_obstacle(
+        &self,
+        id: Option<String>,
+        setup: ObstacleSetup,
+    ) -> Result<ObstacleInfo, Fault> {
+        self.working()?;
+        let id = self.new_obstacle_id(id)?;
+        engine::check_obstacle(&self.world, &setup, true)?;
+        Ok(ObstacleInfo {
+            id,
+            number: 0,
+            setup,
+            force: Vec3::zero(),
+        })
+    }
+
+    /// Adds an obstacle.
+    pub fn add_obstacle(
+        &mut self,
+        id: Option<String>,
+        setup: ObstacleSetup,
+    ) -> Result<ObstacleInfo, Fault> {
+        self.working()?;
+        let id = self.new_obstacle_id(id)?;
         let key = engine::add_obstacle(&mut self.world, setup)?;
         self.next_obstacle += 1;
         self.obstacles.push((id.clone(), key));
         self.changed = true;
         self.world_event(EventKind::ObstacleAdded(format!("obstacles/{id}")));
         Ok(self.obstacle_info(&(id, key)))
+    }
+
+    /// The obstacle as [`Self::update_obstacle`] would leave it.
+    pub fn would_update_obstacle(
+        &self,
+        now: ObstacleInfo,
+        setup: ObstacleSetup,
+    ) -> Result<ObstacleInfo, Fault> {
+        self.working()?;
+        engine::check_obstacle(&self.world, &setup, false)?;
+        Ok(ObstacleInfo { setup, ..now })
     }
 
     /// Replaces an obstacle.

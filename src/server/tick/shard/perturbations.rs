@@ -1,14 +1,15 @@
 //! Loads and pushes.
 
 use super::Shard;
-use crate::server::engine::{self};
+use crate::server::engine;
+use crate::sim::figure::Perturbation;
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::wire::status::Fault;
 use crate::wire::types::FigureDisturbance;
 
 impl Shard {
-    /// Applies a batch, all or nothing. Returns the tick at whose start it acts.
-    pub fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<u64, Fault> {
+    /// Checks a batch: what it comes to, by member.
+    fn planned(&self, batch: &[FigureDisturbance]) -> Result<Vec<(usize, Perturbation)>, Fault> {
         self.working()?;
         let tick = self.world.tick();
         let now = self.world.time();
@@ -48,10 +49,21 @@ impl Shard {
             }
             plan.push((i, engine::perturbation(f.body(), &d.what, from)));
         }
-        for (i, p) in plan {
+        Ok(plan)
+    }
+
+    /// Checks a batch as [`Self::perturb`] does and returns what it would.
+    pub fn would_perturb(&self, batch: &[FigureDisturbance]) -> Result<u64, Fault> {
+        self.planned(batch)?;
+        Ok(self.world.tick())
+    }
+
+    /// Applies a batch, all or nothing. Returns the tick at whose start it acts.
+    pub fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<u64, Fault> {
+        for (i, p) in self.planned(batch)? {
             engine::perturb(&mut self.world, self.members[i].key, p)?;
         }
-        Ok(tick)
+        Ok(self.world.tick())
     }
 
     /// Takes all loads and forces off a figure. Returns the tick at whose start it acts.

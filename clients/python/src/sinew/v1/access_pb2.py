@@ -22,18 +22,78 @@ _runtime_version.ValidateProtobufRuntimeVersion(
 _sym_db = _symbol_database.Default()
 
 
+from google.api import field_behavior_pb2 as google_dot_api_dot_field__behavior__pb2
+from google.api import resource_pb2 as google_dot_api_dot_resource__pb2
 from google.protobuf import field_mask_pb2 as google_dot_protobuf_dot_field__mask__pb2
 from google.protobuf import timestamp_pb2 as google_dot_protobuf_dot_timestamp__pb2
 from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15sinew/v1/access.proto\x12\x08sinew.v1\x1a google/protobuf/field_mask.proto\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\"\xfe\x01\n\x05Grant\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x11\n\tprincipal\x18\x02 \x01(\t\x12\x1d\n\x05roles\x18\x03 \x03(\x0e\x32\x0e.sinew.v1.Role\x12\x0f\n\x07\x66igures\x18\x04 \x03(\t\x12,\n\x06\x62ounds\x18\x05 \x01(\x0b\x32\x1c.sinew.v1.PerturbationBounds\x12\x14\n\x0cmax_priority\x18\x06 \x01(\x05\x12/\n\x0b\x63reate_time\x18\x07 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\x12/\n\x0b\x65xpire_time\x18\x08 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\"\x92\x01\n\x12PerturbationBounds\x12\x18\n\x0bmax_force_n\x18\x01 \x01(\x01H\x00\x88\x01\x01\x12\x18\n\x0bmax_mass_kg\x18\x02 \x01(\x01H\x01\x88\x01\x01\x12\x18\n\x0bmax_rate_hz\x18\x03 \x01(\x01H\x02\x88\x01\x01\x42\x0e\n\x0c_max_force_nB\x0e\n\x0c_max_mass_kgB\x0e\n\x0c_max_rate_hz\"!\n\x10GetCallerRequest\x12\r\n\x05world\x18\x01 \x01(\t\"v\n\x11GetCallerResponse\x12\x11\n\tprincipal\x18\x01 \x01(\t\x12\x1d\n\x05roles\x18\x02 \x03(\x0e\x32\x0e.sinew.v1.Role\x12/\n\x0b\x65xpire_time\x18\x03 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\"V\n\x12\x43reateGrantRequest\x12\x0e\n\x06parent\x18\x01 \x01(\t\x12\x10\n\x08grant_id\x18\x02 \x01(\t\x12\x1e\n\x05grant\x18\x03 \x01(\x0b\x32\x0f.sinew.v1.Grant\"5\n\x13\x43reateGrantResponse\x12\x1e\n\x05grant\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.Grant\"\x1f\n\x0fGetGrantRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\"2\n\x10GetGrantResponse\x12\x1e\n\x05grant\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.Grant\"J\n\x11ListGrantsRequest\x12\x0e\n\x06parent\x18\x01 \x01(\t\x12\x11\n\tpage_size\x18\x02 \x01(\x05\x12\x12\n\npage_token\x18\x03 \x01(\t\"N\n\x12ListGrantsResponse\x12\x1f\n\x06grants\x18\x01 \x03(\x0b\x32\x0f.sinew.v1.Grant\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"e\n\x12UpdateGrantRequest\x12\x1e\n\x05grant\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.Grant\x12/\n\x0bupdate_mask\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.FieldMask\"5\n\x13UpdateGrantResponse\x12\x1e\n\x05grant\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.Grant\"\"\n\x12\x44\x65leteGrantRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\"\x15\n\x13\x44\x65leteGrantResponse2\xe9\x03\n\rAccessService\x12J\n\tGetCaller\x12\x1a.sinew.v1.GetCallerRequest\x1a\x1b.sinew.v1.GetCallerResponse\"\x04\xe8\xe0\x18\x06\x12P\n\x0b\x43reateGrant\x12\x1c.sinew.v1.CreateGrantRequest\x1a\x1d.sinew.v1.CreateGrantResponse\"\x04\xe8\xe0\x18\x05\x12G\n\x08GetGrant\x12\x19.sinew.v1.GetGrantRequest\x1a\x1a.sinew.v1.GetGrantResponse\"\x04\xe8\xe0\x18\x05\x12M\n\nListGrants\x12\x1b.sinew.v1.ListGrantsRequest\x1a\x1c.sinew.v1.ListGrantsResponse\"\x04\xe8\xe0\x18\x05\x12P\n\x0bUpdateGrant\x12\x1c.sinew.v1.UpdateGrantRequest\x1a\x1d.sinew.v1.UpdateGrantResponse\"\x04\xe8\xe0\x18\x05\x12P\n\x0b\x44\x65leteGrant\x12\x1c.sinew.v1.DeleteGrantRequest\x1a\x1d.sinew.v1.DeleteGrantResponse\"\x04\xe8\xe0\x18\x05\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15sinew/v1/access.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a google/protobuf/field_mask.proto\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\"\x86\x03\n\x05Grant\x12\x12\n\x04name\x18\x01 \x01(\tB\x04\xe2\x41\x01\x08\x12\x18\n\tprincipal\x18\x02 \x01(\tB\x05\xe2\x41\x02\x02\x05\x12#\n\x05roles\x18\x03 \x03(\x0e\x32\x0e.sinew.v1.RoleB\x04\xe2\x41\x01\x02\x12\x18\n\nfigure_ids\x18\x04 \x03(\tB\x04\xe2\x41\x01\x01\x12\x32\n\x06\x62ounds\x18\x05 \x01(\x0b\x32\x1c.sinew.v1.PerturbationBoundsB\x04\xe2\x41\x01\x01\x12\x1a\n\x0cmax_priority\x18\x06 \x01(\x05\x42\x04\xe2\x41\x01\x01\x12\x35\n\x0b\x63reate_time\x18\x07 \x01(\x0b\x32\x1a.google.protobuf.TimestampB\x04\xe2\x41\x01\x03\x12\x35\n\x0b\x65xpire_time\x18\x08 \x01(\x0b\x32\x1a.google.protobuf.TimestampB\x04\xe2\x41\x01\x01\x12\x12\n\x04\x65tag\x18\t \x01(\tB\x04\xe2\x41\x01\x01:>\xea\x41;\n\x0bsinew/Grant\x12\x1dworlds/{world}/grants/{grant}*\x06grants2\x05grant\"\xb0\x01\n\x12PerturbationBounds\x12$\n\x11max_force_newtons\x18\x01 \x01(\x01\x42\x04\xe2\x41\x01\x01H\x00\x88\x01\x01\x12\x1e\n\x0bmax_mass_kg\x18\x02 \x01(\x01\x42\x04\xe2\x41\x01\x01H\x01\x88\x01\x01\x12\x1e\n\x0bmax_rate_hz\x18\x03 \x01(\x01\x42\x04\xe2\x41\x01\x01H\x02\x88\x01\x01\x42\x14\n\x12_max_force_newtonsB\x0e\n\x0c_max_mass_kgB\x0e\n\x0c_max_rate_hz\"7\n\x10GetCallerRequest\x12#\n\x05world\x18\x01 \x01(\tB\x14\xe2\x41\x01\x01\xfa\x41\r\n\x0bsinew/World\"v\n\x11GetCallerResponse\x12\x11\n\tprincipal\x18\x01 \x01(\t\x12\x1d\n\x05roles\x18\x02 \x03(\x0e\x32\x0e.sinew.v1.Role\x12/\n\x0b\x65xpire_time\x18\x03 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\"\xaf\x01\n\x12\x43reateGrantRequest\x12$\n\x06parent\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\x12\x0bsinew/Grant\x12\x16\n\x08grant_id\x18\x02 \x01(\tB\x04\xe2\x41\x01\x01\x12$\n\x05grant\x18\x03 \x01(\x0b\x32\x0f.sinew.v1.GrantB\x04\xe2\x41\x01\x02\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\x12\x1b\n\rvalidate_only\x18\x0e \x01(\x08\x42\x04\xe2\x41\x01\x01\"5\n\x13\x43reateGrantResponse\x12\x1e\n\x05grant\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.Grant\"5\n\x0fGetGrantRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/Grant\"2\n\x10GetGrantResponse\x12\x1e\n\x05grant\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.Grant\"l\n\x11ListGrantsRequest\x12$\n\x06parent\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\x12\x0bsinew/Grant\x12\x17\n\tpage_size\x18\x02 \x01(\x05\x42\x04\xe2\x41\x01\x01\x12\x18\n\npage_token\x18\x03 \x01(\tB\x04\xe2\x41\x01\x01\"N\n\x12ListGrantsResponse\x12\x1f\n\x06grants\x18\x01 \x03(\x0b\x32\x0f.sinew.v1.Grant\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"\x8e\x01\n\x12UpdateGrantRequest\x12$\n\x05grant\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.GrantB\x04\xe2\x41\x01\x02\x12\x35\n\x0bupdate_mask\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.FieldMaskB\x04\xe2\x41\x01\x01\x12\x1b\n\rvalidate_only\x18\x0e \x01(\x08\x42\x04\xe2\x41\x01\x01\"5\n\x13UpdateGrantResponse\x12\x1e\n\x05grant\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.Grant\"f\n\x12\x44\x65leteGrantRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/Grant\x12\x12\n\x04\x65tag\x18\x0c \x01(\tB\x04\xe2\x41\x01\x01\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"\x15\n\x13\x44\x65leteGrantResponse2\xe9\x03\n\rAccessService\x12J\n\tGetCaller\x12\x1a.sinew.v1.GetCallerRequest\x1a\x1b.sinew.v1.GetCallerResponse\"\x04\xe8\xe0\x18\x06\x12P\n\x0b\x43reateGrant\x12\x1c.sinew.v1.CreateGrantRequest\x1a\x1d.sinew.v1.CreateGrantResponse\"\x04\xe8\xe0\x18\x05\x12G\n\x08GetGrant\x12\x19.sinew.v1.GetGrantRequest\x1a\x1a.sinew.v1.GetGrantResponse\"\x04\xe8\xe0\x18\x05\x12M\n\nListGrants\x12\x1b.sinew.v1.ListGrantsRequest\x1a\x1c.sinew.v1.ListGrantsResponse\"\x04\xe8\xe0\x18\x05\x12P\n\x0bUpdateGrant\x12\x1c.sinew.v1.UpdateGrantRequest\x1a\x1d.sinew.v1.UpdateGrantResponse\"\x04\xe8\xe0\x18\x05\x12P\n\x0b\x44\x65leteGrant\x12\x1c.sinew.v1.DeleteGrantRequest\x1a\x1d.sinew.v1.DeleteGrantResponse\"\x04\xe8\xe0\x18\x05\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.access_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
+  _globals['_GRANT'].fields_by_name['name']._loaded_options = None
+  _globals['_GRANT'].fields_by_name['name']._serialized_options = b'\342A\001\010'
+  _globals['_GRANT'].fields_by_name['principal']._loaded_options = None
+  _globals['_GRANT'].fields_by_name['principal']._serialized_options = b'\342A\002\002\005'
+  _globals['_GRANT'].fields_by_name['roles']._loaded_options = None
+  _globals['_GRANT'].fields_by_name['roles']._serialized_options = b'\342A\001\002'
+  _globals['_GRANT'].fields_by_name['figure_ids']._loaded_options = None
+  _globals['_GRANT'].fields_by_name['figure_ids']._serialized_options = b'\342A\001\001'
+  _globals['_GRANT'].fields_by_name['bounds']._loaded_options = None
+  _globals['_GRANT'].fields_by_name['bounds']._serialized_options = b'\342A\001\001'
+  _globals['_GRANT'].fields_by_name['max_priority']._loaded_options = None
+  _globals['_GRANT'].fields_by_name['max_priority']._serialized_options = b'\342A\001\001'
+  _globals['_GRANT'].fields_by_name['create_time']._loaded_options = None
+  _globals['_GRANT'].fields_by_name['create_time']._serialized_options = b'\342A\001\003'
+  _globals['_GRANT'].fields_by_name['expire_time']._loaded_options = None
+  _globals['_GRANT'].fields_by_name['expire_time']._serialized_options = b'\342A\001\001'
+  _globals['_GRANT'].fields_by_name['etag']._loaded_options = None
+  _globals['_GRANT'].fields_by_name['etag']._serialized_options = b'\342A\001\001'
+  _globals['_GRANT']._loaded_options = None
+  _globals['_GRANT']._serialized_options = b'\352A;\n\013sinew/Grant\022\035worlds/{world}/grants/{grant}*\006grants2\005grant'
+  _globals['_PERTURBATIONBOUNDS'].fields_by_name['max_force_newtons']._loaded_options = None
+  _globals['_PERTURBATIONBOUNDS'].fields_by_name['max_force_newtons']._serialized_options = b'\342A\001\001'
+  _globals['_PERTURBATIONBOUNDS'].fields_by_name['max_mass_kg']._loaded_options = None
+  _globals['_PERTURBATIONBOUNDS'].fields_by_name['max_mass_kg']._serialized_options = b'\342A\001\001'
+  _globals['_PERTURBATIONBOUNDS'].fields_by_name['max_rate_hz']._loaded_options = None
+  _globals['_PERTURBATIONBOUNDS'].fields_by_name['max_rate_hz']._serialized_options = b'\342A\001\001'
+  _globals['_GETCALLERREQUEST'].fields_by_name['world']._loaded_options = None
+  _globals['_GETCALLERREQUEST'].fields_by_name['world']._serialized_options = b'\342A\001\001\372A\r\n\013sinew/World'
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['parent']._loaded_options = None
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['parent']._serialized_options = b'\342A\001\002\372A\r\022\013sinew/Grant'
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['grant_id']._loaded_options = None
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['grant_id']._serialized_options = b'\342A\001\001'
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['grant']._loaded_options = None
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['grant']._serialized_options = b'\342A\001\002'
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['validate_only']._loaded_options = None
+  _globals['_CREATEGRANTREQUEST'].fields_by_name['validate_only']._serialized_options = b'\342A\001\001'
+  _globals['_GETGRANTREQUEST'].fields_by_name['name']._loaded_options = None
+  _globals['_GETGRANTREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/Grant'
+  _globals['_LISTGRANTSREQUEST'].fields_by_name['parent']._loaded_options = None
+  _globals['_LISTGRANTSREQUEST'].fields_by_name['parent']._serialized_options = b'\342A\001\002\372A\r\022\013sinew/Grant'
+  _globals['_LISTGRANTSREQUEST'].fields_by_name['page_size']._loaded_options = None
+  _globals['_LISTGRANTSREQUEST'].fields_by_name['page_size']._serialized_options = b'\342A\001\001'
+  _globals['_LISTGRANTSREQUEST'].fields_by_name['page_token']._loaded_options = None
+  _globals['_LISTGRANTSREQUEST'].fields_by_name['page_token']._serialized_options = b'\342A\001\001'
+  _globals['_UPDATEGRANTREQUEST'].fields_by_name['grant']._loaded_options = None
+  _globals['_UPDATEGRANTREQUEST'].fields_by_name['grant']._serialized_options = b'\342A\001\002'
+  _globals['_UPDATEGRANTREQUEST'].fields_by_name['update_mask']._loaded_options = None
+  _globals['_UPDATEGRANTREQUEST'].fields_by_name['update_mask']._serialized_options = b'\342A\001\001'
+  _globals['_UPDATEGRANTREQUEST'].fields_by_name['validate_only']._loaded_options = None
+  _globals['_UPDATEGRANTREQUEST'].fields_by_name['validate_only']._serialized_options = b'\342A\001\001'
+  _globals['_DELETEGRANTREQUEST'].fields_by_name['name']._loaded_options = None
+  _globals['_DELETEGRANTREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/Grant'
+  _globals['_DELETEGRANTREQUEST'].fields_by_name['etag']._loaded_options = None
+  _globals['_DELETEGRANTREQUEST'].fields_by_name['etag']._serialized_options = b'\342A\001\001'
+  _globals['_DELETEGRANTREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_DELETEGRANTREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
   _globals['_ACCESSSERVICE'].methods_by_name['GetCaller']._loaded_options = None
   _globals['_ACCESSSERVICE'].methods_by_name['GetCaller']._serialized_options = b'\350\340\030\006'
   _globals['_ACCESSSERVICE'].methods_by_name['CreateGrant']._loaded_options = None
@@ -46,34 +106,34 @@ if not _descriptor._USE_C_DESCRIPTORS:
   _globals['_ACCESSSERVICE'].methods_by_name['UpdateGrant']._serialized_options = b'\350\340\030\005'
   _globals['_ACCESSSERVICE'].methods_by_name['DeleteGrant']._loaded_options = None
   _globals['_ACCESSSERVICE'].methods_by_name['DeleteGrant']._serialized_options = b'\350\340\030\005'
-  _globals['_GRANT']._serialized_start=127
-  _globals['_GRANT']._serialized_end=381
-  _globals['_PERTURBATIONBOUNDS']._serialized_start=384
-  _globals['_PERTURBATIONBOUNDS']._serialized_end=530
-  _globals['_GETCALLERREQUEST']._serialized_start=532
-  _globals['_GETCALLERREQUEST']._serialized_end=565
-  _globals['_GETCALLERRESPONSE']._serialized_start=567
-  _globals['_GETCALLERRESPONSE']._serialized_end=685
-  _globals['_CREATEGRANTREQUEST']._serialized_start=687
-  _globals['_CREATEGRANTREQUEST']._serialized_end=773
-  _globals['_CREATEGRANTRESPONSE']._serialized_start=775
-  _globals['_CREATEGRANTRESPONSE']._serialized_end=828
-  _globals['_GETGRANTREQUEST']._serialized_start=830
-  _globals['_GETGRANTREQUEST']._serialized_end=861
-  _globals['_GETGRANTRESPONSE']._serialized_start=863
-  _globals['_GETGRANTRESPONSE']._serialized_end=913
-  _globals['_LISTGRANTSREQUEST']._serialized_start=915
-  _globals['_LISTGRANTSREQUEST']._serialized_end=989
-  _globals['_LISTGRANTSRESPONSE']._serialized_start=991
-  _globals['_LISTGRANTSRESPONSE']._serialized_end=1069
-  _globals['_UPDATEGRANTREQUEST']._serialized_start=1071
-  _globals['_UPDATEGRANTREQUEST']._serialized_end=1172
-  _globals['_UPDATEGRANTRESPONSE']._serialized_start=1174
-  _globals['_UPDATEGRANTRESPONSE']._serialized_end=1227
-  _globals['_DELETEGRANTREQUEST']._serialized_start=1229
-  _globals['_DELETEGRANTREQUEST']._serialized_end=1263
-  _globals['_DELETEGRANTRESPONSE']._serialized_start=1265
-  _globals['_DELETEGRANTRESPONSE']._serialized_end=1286
-  _globals['_ACCESSSERVICE']._serialized_start=1289
-  _globals['_ACCESSSERVICE']._serialized_end=1778
+  _globals['_GRANT']._serialized_start=187
+  _globals['_GRANT']._serialized_end=577
+  _globals['_PERTURBATIONBOUNDS']._serialized_start=580
+  _globals['_PERTURBATIONBOUNDS']._serialized_end=756
+  _globals['_GETCALLERREQUEST']._serialized_start=758
+  _globals['_GETCALLERREQUEST']._serialized_end=813
+  _globals['_GETCALLERRESPONSE']._serialized_start=815
+  _globals['_GETCALLERRESPONSE']._serialized_end=933
+  _globals['_CREATEGRANTREQUEST']._serialized_start=936
+  _globals['_CREATEGRANTREQUEST']._serialized_end=1111
+  _globals['_CREATEGRANTRESPONSE']._serialized_start=1113
+  _globals['_CREATEGRANTRESPONSE']._serialized_end=1166
+  _globals['_GETGRANTREQUEST']._serialized_start=1168
+  _globals['_GETGRANTREQUEST']._serialized_end=1221
+  _globals['_GETGRANTRESPONSE']._serialized_start=1223
+  _globals['_GETGRANTRESPONSE']._serialized_end=1273
+  _globals['_LISTGRANTSREQUEST']._serialized_start=1275
+  _globals['_LISTGRANTSREQUEST']._serialized_end=1383
+  _globals['_LISTGRANTSRESPONSE']._serialized_start=1385
+  _globals['_LISTGRANTSRESPONSE']._serialized_end=1463
+  _globals['_UPDATEGRANTREQUEST']._serialized_start=1466
+  _globals['_UPDATEGRANTREQUEST']._serialized_end=1608
+  _globals['_UPDATEGRANTRESPONSE']._serialized_start=1610
+  _globals['_UPDATEGRANTRESPONSE']._serialized_end=1663
+  _globals['_DELETEGRANTREQUEST']._serialized_start=1665
+  _globals['_DELETEGRANTREQUEST']._serialized_end=1767
+  _globals['_DELETEGRANTRESPONSE']._serialized_start=1769
+  _globals['_DELETEGRANTRESPONSE']._serialized_end=1790
+  _globals['_ACCESSSERVICE']._serialized_start=1793
+  _globals['_ACCESSSERVICE']._serialized_end=2282
 # @@protoc_insertion_point(module_scope)

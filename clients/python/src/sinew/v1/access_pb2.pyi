@@ -30,11 +30,12 @@ class Grant(_message.Message):
     NAME_FIELD_NUMBER: _builtins.int
     PRINCIPAL_FIELD_NUMBER: _builtins.int
     ROLES_FIELD_NUMBER: _builtins.int
-    FIGURES_FIELD_NUMBER: _builtins.int
+    FIGURE_IDS_FIELD_NUMBER: _builtins.int
     BOUNDS_FIELD_NUMBER: _builtins.int
     MAX_PRIORITY_FIELD_NUMBER: _builtins.int
     CREATE_TIME_FIELD_NUMBER: _builtins.int
     EXPIRE_TIME_FIELD_NUMBER: _builtins.int
+    ETAG_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}/grants/{grant}`. Ignored in requests to create one."""
     principal: _builtins.str
@@ -43,12 +44,16 @@ class Grant(_message.Message):
     """
     max_priority: _builtins.int
     """Highest priority of the leases that a driver may take, 0…99. Directors take leases of any priority."""
+    etag: _builtins.str
+    """Changes whenever the grant does. In requests: the change is refused (ABORTED, `ETAG_MISMATCH`) unless it is that of
+    the grant. Empty: not checked.
+    """
     @_builtins.property
     def roles(self) -> _containers.RepeatedScalarFieldContainer[_options_pb2.Role.ValueType]:
         """At least one of the roles in a world."""
 
     @_builtins.property
-    def figures(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
+    def figure_ids(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
         """Figures that ROLE_DRIVER is for: last parts of their names, at most 64. Empty: all."""
 
     @_builtins.property
@@ -69,15 +74,16 @@ class Grant(_message.Message):
         name: _builtins.str = ...,
         principal: _builtins.str = ...,
         roles: _abc.Iterable[_options_pb2.Role.ValueType] | None = ...,
-        figures: _abc.Iterable[_builtins.str] | None = ...,
+        figure_ids: _abc.Iterable[_builtins.str] | None = ...,
         bounds: Global___PerturbationBounds | None = ...,
         max_priority: _builtins.int = ...,
         create_time: _timestamp_pb2.Timestamp | None = ...,
         expire_time: _timestamp_pb2.Timestamp | None = ...,
+        etag: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["bounds", b"bounds", "create_time", b"create_time", "expire_time", b"expire_time"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["bounds", b"bounds", "create_time", b"create_time", "expire_time", b"expire_time", "figures", b"figures", "max_priority", b"max_priority", "name", b"name", "principal", b"principal", "roles", b"roles"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["bounds", b"bounds", "create_time", b"create_time", "etag", b"etag", "expire_time", b"expire_time", "figure_ids", b"figure_ids", "max_priority", b"max_priority", "name", b"name", "principal", b"principal", "roles", b"roles"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -89,13 +95,13 @@ class PerturbationBounds(_message.Message):
 
     DESCRIPTOR: _descriptor.Descriptor
 
-    MAX_FORCE_N_FIELD_NUMBER: _builtins.int
+    MAX_FORCE_NEWTONS_FIELD_NUMBER: _builtins.int
     MAX_MASS_KG_FIELD_NUMBER: _builtins.int
     MAX_RATE_HZ_FIELD_NUMBER: _builtins.int
-    max_force_n: _builtins.float
+    max_force_newtons: _builtins.float
     """Largest force, N; that of an impulse is impulse / duration. 0: no loads and forces at all. Absent: unbounded."""
     max_mass_kg: _builtins.float
-    """Largest mass of a load, kg. Absent: as heavy as `max_force_n` under 9.81 m/s²."""
+    """Largest mass of a load, kg. Absent: as heavy as `max_force_newtons` under 9.81 m/s²."""
     max_rate_hz: _builtins.float
     """Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once.
     Absent: unbounded.
@@ -103,22 +109,22 @@ class PerturbationBounds(_message.Message):
     def __init__(
         self,
         *,
-        max_force_n: _builtins.float | None = ...,
+        max_force_newtons: _builtins.float | None = ...,
         max_mass_kg: _builtins.float | None = ...,
         max_rate_hz: _builtins.float | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_max_force_n", b"_max_force_n", "_max_mass_kg", b"_max_mass_kg", "_max_rate_hz", b"_max_rate_hz", "max_force_n", b"max_force_n", "max_mass_kg", b"max_mass_kg", "max_rate_hz", b"max_rate_hz"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_max_force_newtons", b"_max_force_newtons", "_max_mass_kg", b"_max_mass_kg", "_max_rate_hz", b"_max_rate_hz", "max_force_newtons", b"max_force_newtons", "max_mass_kg", b"max_mass_kg", "max_rate_hz", b"max_rate_hz"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_max_force_n", b"_max_force_n", "_max_mass_kg", b"_max_mass_kg", "_max_rate_hz", b"_max_rate_hz", "max_force_n", b"max_force_n", "max_mass_kg", b"max_mass_kg", "max_rate_hz", b"max_rate_hz"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_max_force_newtons", b"_max_force_newtons", "_max_mass_kg", b"_max_mass_kg", "_max_rate_hz", b"_max_rate_hz", "max_force_newtons", b"max_force_newtons", "max_mass_kg", b"max_mass_kg", "max_rate_hz", b"max_rate_hz"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    _WhichOneofReturnType__max_force_n: _TypeAlias = _typing.Literal["max_force_n"]  # noqa: Y015
-    _WhichOneofArgType__max_force_n: _TypeAlias = _typing.Literal["_max_force_n", b"_max_force_n"]  # noqa: Y015
+    _WhichOneofReturnType__max_force_newtons: _TypeAlias = _typing.Literal["max_force_newtons"]  # noqa: Y015
+    _WhichOneofArgType__max_force_newtons: _TypeAlias = _typing.Literal["_max_force_newtons", b"_max_force_newtons"]  # noqa: Y015
     _WhichOneofReturnType__max_mass_kg: _TypeAlias = _typing.Literal["max_mass_kg"]  # noqa: Y015
     _WhichOneofArgType__max_mass_kg: _TypeAlias = _typing.Literal["_max_mass_kg", b"_max_mass_kg"]  # noqa: Y015
     _WhichOneofReturnType__max_rate_hz: _TypeAlias = _typing.Literal["max_rate_hz"]  # noqa: Y015
     _WhichOneofArgType__max_rate_hz: _TypeAlias = _typing.Literal["_max_rate_hz", b"_max_rate_hz"]  # noqa: Y015
     @_typing.overload
-    def WhichOneof(self, oneof_group: _WhichOneofArgType__max_force_n) -> _WhichOneofReturnType__max_force_n | None: ...
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__max_force_newtons) -> _WhichOneofReturnType__max_force_newtons | None: ...
     @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType__max_mass_kg) -> _WhichOneofReturnType__max_mass_kg | None: ...
     @_typing.overload
@@ -191,10 +197,18 @@ class CreateGrantRequest(_message.Message):
     PARENT_FIELD_NUMBER: _builtins.int
     GRANT_ID_FIELD_NUMBER: _builtins.int
     GRANT_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
+    VALIDATE_ONLY_FIELD_NUMBER: _builtins.int
     parent: _builtins.str
     """World: resource name `worlds/{world}`."""
     grant_id: _builtins.str
     """Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
+    validate_only: _builtins.bool
+    """Checks the request and answers as if it had been carried out, but changes nothing. Default: false."""
     @_builtins.property
     def grant(self) -> Global___Grant:
         """The grant. Required."""
@@ -205,10 +219,12 @@ class CreateGrantRequest(_message.Message):
         parent: _builtins.str = ...,
         grant_id: _builtins.str = ...,
         grant: Global___Grant | None = ...,
+        request_id: _builtins.str = ...,
+        validate_only: _builtins.bool = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["grant", b"grant"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["grant", b"grant", "grant_id", b"grant_id", "parent", b"parent"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["grant", b"grant", "grant_id", b"grant_id", "parent", b"parent", "request_id", b"request_id", "validate_only", b"validate_only"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -296,7 +312,7 @@ class ListGrantsRequest(_message.Message):
     parent: _builtins.str
     """World: resource name `worlds/{world}`."""
     page_size: _builtins.int
-    """Most grants to return, 0…1000. 0: 100."""
+    """Most grants to return. 0: 100; more than 1000 are taken as 1000."""
     page_token: _builtins.str
     """`next_page_token` of the page before. Empty: from the start."""
     def __init__(
@@ -350,23 +366,29 @@ class UpdateGrantRequest(_message.Message):
 
     GRANT_FIELD_NUMBER: _builtins.int
     UPDATE_MASK_FIELD_NUMBER: _builtins.int
+    VALIDATE_ONLY_FIELD_NUMBER: _builtins.int
+    validate_only: _builtins.bool
+    """Checks the request and answers as if it had been carried out, but changes nothing. Default: false."""
     @_builtins.property
     def grant(self) -> Global___Grant:
         """The grant, by `name`, with new values."""
 
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
-        """Which of `roles`, `figures`, `bounds`, `max_priority`, `expire_time` to take. Must not be empty."""
+        """Which of `roles`, `figure_ids`, `bounds`, `max_priority`, `expire_time` to take. Absent or empty: those that are
+        not empty. `*`: all.
+        """
 
     def __init__(
         self,
         *,
         grant: Global___Grant | None = ...,
         update_mask: _field_mask_pb2.FieldMask | None = ...,
+        validate_only: _builtins.bool = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["grant", b"grant", "update_mask", b"update_mask"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["grant", b"grant", "update_mask", b"update_mask"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["grant", b"grant", "update_mask", b"update_mask", "validate_only", b"validate_only"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -403,16 +425,26 @@ class DeleteGrantRequest(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     NAME_FIELD_NUMBER: _builtins.int
+    ETAG_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}/grants/{grant}`."""
+    etag: _builtins.str
+    """Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
         name: _builtins.str = ...,
+        etag: _builtins.str = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["etag", b"etag", "name", b"name", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -22,53 +22,93 @@ _runtime_version.ValidateProtobufRuntimeVersion(
 _sym_db = _symbol_database.Default()
 
 
+from google.api import field_behavior_pb2 as google_dot_api_dot_field__behavior__pb2
+from google.api import resource_pb2 as google_dot_api_dot_resource__pb2
 from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 from sinew.v1 import types_pb2 as sinew_dot_v1_dot_types__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x13sinew/v1/body.proto\x12\x08sinew.v1\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/types.proto\"_\n\x0b\x42odyProfile\x12\x1a\n\x03sex\x18\x01 \x01(\x0e\x32\r.sinew.v1.Sex\x12\x11\n\tage_years\x18\x02 \x01(\x01\x12\x10\n\x08height_m\x18\x03 \x01(\x01\x12\x0f\n\x07mass_kg\x18\x04 \x01(\x01\"\xeb\x01\n\x07Segment\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x0c\n\x04\x62one\x18\x02 \x01(\t\x12\x0e\n\x06parent\x18\x03 \x01(\x05\x12\x0f\n\x07mass_kg\x18\x04 \x01(\x01\x12 \n\x05\x63om_m\x18\x05 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x14\n\x0cinertia_kgm2\x18\x06 \x03(\x01\x12 \n\x05tip_m\x18\x07 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x18\n\x10\x63ontact_points_m\x18\x08 \x03(\x01\x12\x17\n\x0fmesh_vertices_m\x18\t \x03(\x01\x12\x16\n\x0emesh_triangles\x18\n \x03(\x05\"\x83\x01\n\x05Joint\x12\x0c\n\x04name\x18\x01 \x01(\t\x12!\n\x04type\x18\x02 \x01(\x0e\x32\x13.sinew.v1.JointType\x12#\n\x08offset_m\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x11\n\tdof_start\x18\x04 \x01(\x05\x12\x11\n\tdof_count\x18\x05 \x01(\x05\"\x80\x01\n\x03\x44of\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\r\n\x05joint\x18\x02 \x01(\x05\x12\x1f\n\x04\x61xis\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x11\n\tlower_rad\x18\x04 \x01(\x01\x12\x11\n\tupper_rad\x18\x05 \x01(\x01\x12\x15\n\rarmature_kgm2\x18\x06 \x01(\x01\"\xe9\x01\n\x04\x42ody\x12\x0c\n\x04name\x18\x01 \x01(\t\x12&\n\x07profile\x18\x02 \x01(\x0b\x32\x15.sinew.v1.BodyProfile\x12#\n\x08segments\x18\x03 \x03(\x0b\x32\x11.sinew.v1.Segment\x12\x1f\n\x06joints\x18\x04 \x03(\x0b\x32\x0f.sinew.v1.Joint\x12\x1b\n\x04\x64ofs\x18\x05 \x03(\x0b\x32\r.sinew.v1.Dof\x12\x1e\n\x16standing_root_height_m\x18\x06 \x01(\x01\x12(\n\nprovenance\x18\x07 \x03(\x0b\x32\x14.sinew.v1.Provenance\"\x84\x01\n\nProvenance\x12\x0c\n\x04part\x18\x01 \x01(\t\x12\x0e\n\x06\x61\x63tion\x18\x02 \x01(\t\x12\x10\n\x08quantity\x18\x03 \x01(\t\x12\r\n\x05value\x18\x04 \x01(\x01\x12\x0c\n\x04unit\x18\x05 \x01(\t\x12\x0e\n\x06source\x18\x06 \x01(\t\x12\x0b\n\x03tag\x18\x07 \x01(\t\x12\x0c\n\x04note\x18\x08 \x01(\t\":\n\x11ListBodiesRequest\x12\x11\n\tpage_size\x18\x01 \x01(\x05\x12\x12\n\npage_token\x18\x02 \x01(\t\"M\n\x12ListBodiesResponse\x12\x1e\n\x06\x62odies\x18\x01 \x03(\x0b\x32\x0e.sinew.v1.Body\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"T\n\x0eGetBodyRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x18\n\x10include_geometry\x18\x02 \x01(\x08\x12\x1a\n\x12include_provenance\x18\x03 \x01(\x08\"/\n\x0fGetBodyResponse\x12\x1c\n\x04\x62ody\x18\x01 \x01(\x0b\x32\x0e.sinew.v1.Body\"I\n\x11\x45xportBodyRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\x12&\n\x06\x66ormat\x18\x02 \x01(\x0e\x32\x16.sinew.v1.ExportFormat\"5\n\x12\x45xportBodyResponse\x12\x0c\n\x04text\x18\x01 \x01(\t\x12\x11\n\tfile_name\x18\x02 \x01(\t*8\n\x03Sex\x12\x13\n\x0fSEX_UNSPECIFIED\x10\x00\x12\x0c\n\x08SEX_MALE\x10\x01\x12\x0e\n\nSEX_FEMALE\x10\x02*g\n\tJointType\x12\x1a\n\x16JOINT_TYPE_UNSPECIFIED\x10\x00\x12\x13\n\x0fJOINT_TYPE_FREE\x10\x01\x12\x13\n\x0fJOINT_TYPE_BALL\x10\x02\x12\x14\n\x10JOINT_TYPE_HINGE\x10\x03*]\n\x0c\x45xportFormat\x12\x1d\n\x19\x45XPORT_FORMAT_UNSPECIFIED\x10\x00\x12\x16\n\x12\x45XPORT_FORMAT_MJCF\x10\x01\x12\x16\n\x12\x45XPORT_FORMAT_URDF\x10\x02\x32\xf1\x01\n\x0b\x42odyService\x12M\n\nListBodies\x12\x1b.sinew.v1.ListBodiesRequest\x1a\x1c.sinew.v1.ListBodiesResponse\"\x04\xe8\xe0\x18\x06\x12\x44\n\x07GetBody\x12\x18.sinew.v1.GetBodyRequest\x1a\x19.sinew.v1.GetBodyResponse\"\x04\xe8\xe0\x18\x06\x12M\n\nExportBody\x12\x1b.sinew.v1.ExportBodyRequest\x1a\x1c.sinew.v1.ExportBodyResponse\"\x04\xe8\xe0\x18\x06\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x13sinew/v1/body.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/types.proto\"w\n\x0b\x42odyProfile\x12 \n\x03sex\x18\x01 \x01(\x0e\x32\r.sinew.v1.SexB\x04\xe2\x41\x01\x02\x12\x17\n\tage_years\x18\x02 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x16\n\x08height_m\x18\x03 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x15\n\x07mass_kg\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\"\xeb\x01\n\x07Segment\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x0c\n\x04\x62one\x18\x02 \x01(\t\x12\x0e\n\x06parent\x18\x03 \x01(\x05\x12\x0f\n\x07mass_kg\x18\x04 \x01(\x01\x12 \n\x05\x63om_m\x18\x05 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x14\n\x0cinertia_kgm2\x18\x06 \x03(\x01\x12 \n\x05tip_m\x18\x07 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x18\n\x10\x63ontact_points_m\x18\x08 \x03(\x01\x12\x17\n\x0fmesh_vertices_m\x18\t \x03(\x01\x12\x16\n\x0emesh_triangles\x18\n \x03(\x05\"\x83\x01\n\x05Joint\x12\x0c\n\x04name\x18\x01 \x01(\t\x12!\n\x04type\x18\x02 \x01(\x0e\x32\x13.sinew.v1.JointType\x12#\n\x08offset_m\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x11\n\tdof_start\x18\x04 \x01(\x05\x12\x11\n\tdof_count\x18\x05 \x01(\x05\"\x80\x01\n\x03\x44of\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\r\n\x05joint\x18\x02 \x01(\x05\x12\x1f\n\x04\x61xis\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12\x11\n\tlower_rad\x18\x04 \x01(\x01\x12\x11\n\tupper_rad\x18\x05 \x01(\x01\x12\x15\n\rarmature_kgm2\x18\x06 \x01(\x01\"\xc1\x02\n\x04\x42ody\x12\x12\n\x04name\x18\x01 \x01(\tB\x04\xe2\x41\x01\x08\x12,\n\x07profile\x18\x02 \x01(\x0b\x32\x15.sinew.v1.BodyProfileB\x04\xe2\x41\x01\x03\x12)\n\x08segments\x18\x03 \x03(\x0b\x32\x11.sinew.v1.SegmentB\x04\xe2\x41\x01\x03\x12%\n\x06joints\x18\x04 \x03(\x0b\x32\x0f.sinew.v1.JointB\x04\xe2\x41\x01\x03\x12!\n\x04\x64ofs\x18\x05 \x03(\x0b\x32\r.sinew.v1.DofB\x04\xe2\x41\x01\x03\x12$\n\x16standing_root_height_m\x18\x06 \x01(\x01\x42\x04\xe2\x41\x01\x03\x12.\n\nprovenance\x18\x07 \x03(\x0b\x32\x14.sinew.v1.ProvenanceB\x04\xe2\x41\x01\x03:,\xea\x41)\n\nsinew/Body\x12\rbodies/{body}*\x06\x62odies2\x04\x62ody\"\x84\x01\n\nProvenance\x12\x0c\n\x04part\x18\x01 \x01(\t\x12\x0e\n\x06\x61\x63tion\x18\x02 \x01(\t\x12\x10\n\x08quantity\x18\x03 \x01(\t\x12\r\n\x05value\x18\x04 \x01(\x01\x12\x0c\n\x04unit\x18\x05 \x01(\t\x12\x0e\n\x06source\x18\x06 \x01(\t\x12\x0b\n\x03tag\x18\x07 \x01(\t\x12\x0c\n\x04note\x18\x08 \x01(\t\"F\n\x11ListBodiesRequest\x12\x17\n\tpage_size\x18\x01 \x01(\x05\x42\x04\xe2\x41\x01\x01\x12\x18\n\npage_token\x18\x02 \x01(\tB\x04\xe2\x41\x01\x01\"M\n\x12ListBodiesResponse\x12\x1e\n\x06\x62odies\x18\x01 \x03(\x0b\x32\x0e.sinew.v1.Body\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"u\n\x0eGetBodyRequest\x12!\n\x04name\x18\x01 \x01(\tB\x13\xe2\x41\x01\x02\xfa\x41\x0c\n\nsinew/Body\x12\x1e\n\x10include_geometry\x18\x02 \x01(\x08\x42\x04\xe2\x41\x01\x01\x12 \n\x12include_provenance\x18\x03 \x01(\x08\x42\x04\xe2\x41\x01\x01\"/\n\x0fGetBodyResponse\x12\x1c\n\x04\x62ody\x18\x01 \x01(\x0b\x32\x0e.sinew.v1.Body\"d\n\x11\x45xportBodyRequest\x12!\n\x04name\x18\x01 \x01(\tB\x13\xe2\x41\x01\x02\xfa\x41\x0c\n\nsinew/Body\x12,\n\x06\x66ormat\x18\x02 \x01(\x0e\x32\x16.sinew.v1.ExportFormatB\x04\xe2\x41\x01\x02\"5\n\x12\x45xportBodyResponse\x12\x0c\n\x04text\x18\x01 \x01(\t\x12\x11\n\tfile_name\x18\x02 \x01(\t*8\n\x03Sex\x12\x13\n\x0fSEX_UNSPECIFIED\x10\x00\x12\x0c\n\x08SEX_MALE\x10\x01\x12\x0e\n\nSEX_FEMALE\x10\x02*g\n\tJointType\x12\x1a\n\x16JOINT_TYPE_UNSPECIFIED\x10\x00\x12\x13\n\x0fJOINT_TYPE_FREE\x10\x01\x12\x13\n\x0fJOINT_TYPE_BALL\x10\x02\x12\x14\n\x10JOINT_TYPE_HINGE\x10\x03*]\n\x0c\x45xportFormat\x12\x1d\n\x19\x45XPORT_FORMAT_UNSPECIFIED\x10\x00\x12\x16\n\x12\x45XPORT_FORMAT_MJCF\x10\x01\x12\x16\n\x12\x45XPORT_FORMAT_URDF\x10\x02\x32\xf1\x01\n\x0b\x42odyService\x12M\n\nListBodies\x12\x1b.sinew.v1.ListBodiesRequest\x1a\x1c.sinew.v1.ListBodiesResponse\"\x04\xe8\xe0\x18\x06\x12\x44\n\x07GetBody\x12\x18.sinew.v1.GetBodyRequest\x1a\x19.sinew.v1.GetBodyResponse\"\x04\xe8\xe0\x18\x06\x12M\n\nExportBody\x12\x1b.sinew.v1.ExportBodyRequest\x1a\x1c.sinew.v1.ExportBodyResponse\"\x04\xe8\xe0\x18\x06\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.body_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
+  _globals['_BODYPROFILE'].fields_by_name['sex']._loaded_options = None
+  _globals['_BODYPROFILE'].fields_by_name['sex']._serialized_options = b'\342A\001\002'
+  _globals['_BODYPROFILE'].fields_by_name['age_years']._loaded_options = None
+  _globals['_BODYPROFILE'].fields_by_name['age_years']._serialized_options = b'\342A\001\001'
+  _globals['_BODYPROFILE'].fields_by_name['height_m']._loaded_options = None
+  _globals['_BODYPROFILE'].fields_by_name['height_m']._serialized_options = b'\342A\001\001'
+  _globals['_BODYPROFILE'].fields_by_name['mass_kg']._loaded_options = None
+  _globals['_BODYPROFILE'].fields_by_name['mass_kg']._serialized_options = b'\342A\001\001'
+  _globals['_BODY'].fields_by_name['name']._loaded_options = None
+  _globals['_BODY'].fields_by_name['name']._serialized_options = b'\342A\001\010'
+  _globals['_BODY'].fields_by_name['profile']._loaded_options = None
+  _globals['_BODY'].fields_by_name['profile']._serialized_options = b'\342A\001\003'
+  _globals['_BODY'].fields_by_name['segments']._loaded_options = None
+  _globals['_BODY'].fields_by_name['segments']._serialized_options = b'\342A\001\003'
+  _globals['_BODY'].fields_by_name['joints']._loaded_options = None
+  _globals['_BODY'].fields_by_name['joints']._serialized_options = b'\342A\001\003'
+  _globals['_BODY'].fields_by_name['dofs']._loaded_options = None
+  _globals['_BODY'].fields_by_name['dofs']._serialized_options = b'\342A\001\003'
+  _globals['_BODY'].fields_by_name['standing_root_height_m']._loaded_options = None
+  _globals['_BODY'].fields_by_name['standing_root_height_m']._serialized_options = b'\342A\001\003'
+  _globals['_BODY'].fields_by_name['provenance']._loaded_options = None
+  _globals['_BODY'].fields_by_name['provenance']._serialized_options = b'\342A\001\003'
+  _globals['_BODY']._loaded_options = None
+  _globals['_BODY']._serialized_options = b'\352A)\n\nsinew/Body\022\rbodies/{body}*\006bodies2\004body'
+  _globals['_LISTBODIESREQUEST'].fields_by_name['page_size']._loaded_options = None
+  _globals['_LISTBODIESREQUEST'].fields_by_name['page_size']._serialized_options = b'\342A\001\001'
+  _globals['_LISTBODIESREQUEST'].fields_by_name['page_token']._loaded_options = None
+  _globals['_LISTBODIESREQUEST'].fields_by_name['page_token']._serialized_options = b'\342A\001\001'
+  _globals['_GETBODYREQUEST'].fields_by_name['name']._loaded_options = None
+  _globals['_GETBODYREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\014\n\nsinew/Body'
+  _globals['_GETBODYREQUEST'].fields_by_name['include_geometry']._loaded_options = None
+  _globals['_GETBODYREQUEST'].fields_by_name['include_geometry']._serialized_options = b'\342A\001\001'
+  _globals['_GETBODYREQUEST'].fields_by_name['include_provenance']._loaded_options = None
+  _globals['_GETBODYREQUEST'].fields_by_name['include_provenance']._serialized_options = b'\342A\001\001'
+  _globals['_EXPORTBODYREQUEST'].fields_by_name['name']._loaded_options = None
+  _globals['_EXPORTBODYREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\014\n\nsinew/Body'
+  _globals['_EXPORTBODYREQUEST'].fields_by_name['format']._loaded_options = None
+  _globals['_EXPORTBODYREQUEST'].fields_by_name['format']._serialized_options = b'\342A\001\002'
   _globals['_BODYSERVICE'].methods_by_name['ListBodies']._loaded_options = None
   _globals['_BODYSERVICE'].methods_by_name['ListBodies']._serialized_options = b'\350\340\030\006'
   _globals['_BODYSERVICE'].methods_by_name['GetBody']._loaded_options = None
   _globals['_BODYSERVICE'].methods_by_name['GetBody']._serialized_options = b'\350\340\030\006'
   _globals['_BODYSERVICE'].methods_by_name['ExportBody']._loaded_options = None
   _globals['_BODYSERVICE'].methods_by_name['ExportBody']._serialized_options = b'\350\340\030\006'
-  _globals['_SEX']._serialized_start=1454
-  _globals['_SEX']._serialized_end=1510
-  _globals['_JOINTTYPE']._serialized_start=1512
-  _globals['_JOINTTYPE']._serialized_end=1615
-  _globals['_EXPORTFORMAT']._serialized_start=1617
-  _globals['_EXPORTFORMAT']._serialized_end=1710
-  _globals['_BODYPROFILE']._serialized_start=79
-  _globals['_BODYPROFILE']._serialized_end=174
-  _globals['_SEGMENT']._serialized_start=177
-  _globals['_SEGMENT']._serialized_end=412
-  _globals['_JOINT']._serialized_start=415
-  _globals['_JOINT']._serialized_end=546
-  _globals['_DOF']._serialized_start=549
-  _globals['_DOF']._serialized_end=677
-  _globals['_BODY']._serialized_start=680
-  _globals['_BODY']._serialized_end=913
-  _globals['_PROVENANCE']._serialized_start=916
-  _globals['_PROVENANCE']._serialized_end=1048
-  _globals['_LISTBODIESREQUEST']._serialized_start=1050
-  _globals['_LISTBODIESREQUEST']._serialized_end=1108
-  _globals['_LISTBODIESRESPONSE']._serialized_start=1110
-  _globals['_LISTBODIESRESPONSE']._serialized_end=1187
-  _globals['_GETBODYREQUEST']._serialized_start=1189
-  _globals['_GETBODYREQUEST']._serialized_end=1273
-  _globals['_GETBODYRESPONSE']._serialized_start=1275
-  _globals['_GETBODYRESPONSE']._serialized_end=1322
-  _globals['_EXPORTBODYREQUEST']._serialized_start=1324
-  _globals['_EXPORTBODYREQUEST']._serialized_end=1397
-  _globals['_EXPORTBODYRESPONSE']._serialized_start=1399
-  _globals['_EXPORTBODYRESPONSE']._serialized_end=1452
-  _globals['_BODYSERVICE']._serialized_start=1713
-  _globals['_BODYSERVICE']._serialized_end=1954
+  _globals['_SEX']._serialized_start=1698
+  _globals['_SEX']._serialized_end=1754
+  _globals['_JOINTTYPE']._serialized_start=1756
+  _globals['_JOINTTYPE']._serialized_end=1859
+  _globals['_EXPORTFORMAT']._serialized_start=1861
+  _globals['_EXPORTFORMAT']._serialized_end=1954
+  _globals['_BODYPROFILE']._serialized_start=139
+  _globals['_BODYPROFILE']._serialized_end=258
+  _globals['_SEGMENT']._serialized_start=261
+  _globals['_SEGMENT']._serialized_end=496
+  _globals['_JOINT']._serialized_start=499
+  _globals['_JOINT']._serialized_end=630
+  _globals['_DOF']._serialized_start=633
+  _globals['_DOF']._serialized_end=761
+  _globals['_BODY']._serialized_start=764
+  _globals['_BODY']._serialized_end=1085
+  _globals['_PROVENANCE']._serialized_start=1088
+  _globals['_PROVENANCE']._serialized_end=1220
+  _globals['_LISTBODIESREQUEST']._serialized_start=1222
+  _globals['_LISTBODIESREQUEST']._serialized_end=1292
+  _globals['_LISTBODIESRESPONSE']._serialized_start=1294
+  _globals['_LISTBODIESRESPONSE']._serialized_end=1371
+  _globals['_GETBODYREQUEST']._serialized_start=1373
+  _globals['_GETBODYREQUEST']._serialized_end=1490
+  _globals['_GETBODYRESPONSE']._serialized_start=1492
+  _globals['_GETBODYRESPONSE']._serialized_end=1539
+  _globals['_EXPORTBODYREQUEST']._serialized_start=1541
+  _globals['_EXPORTBODYREQUEST']._serialized_end=1641
+  _globals['_EXPORTBODYRESPONSE']._serialized_start=1643
+  _globals['_EXPORTBODYRESPONSE']._serialized_end=1696
+  _globals['_BODYSERVICE']._serialized_start=1957
+  _globals['_BODYSERVICE']._serialized_end=2198
 # @@protoc_insertion_point(module_scope)

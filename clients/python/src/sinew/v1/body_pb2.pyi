@@ -407,7 +407,7 @@ class ListBodiesRequest(_message.Message):
     PAGE_SIZE_FIELD_NUMBER: _builtins.int
     PAGE_TOKEN_FIELD_NUMBER: _builtins.int
     page_size: _builtins.int
-    """Most bodies to return, 0…1000. 0: 100."""
+    """Most bodies to return. 0: 100; more than 1000 are taken as 1000."""
     page_token: _builtins.str
     """`next_page_token` of the page before. Empty: from the start."""
     def __init__(

@@ -22,18 +22,72 @@ _runtime_version.ValidateProtobufRuntimeVersion(
 _sym_db = _symbol_database.Default()
 
 
+from google.api import field_behavior_pb2 as google_dot_api_dot_field__behavior__pb2
+from google.api import resource_pb2 as google_dot_api_dot_resource__pb2
 from google.protobuf import timestamp_pb2 as google_dot_protobuf_dot_timestamp__pb2
 from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 from sinew.v1 import world_pb2 as sinew_dot_v1_dot_world__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x19sinew/v1/checkpoint.proto\x12\x08sinew.v1\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/world.proto\"\x91\x01\n\nCheckpoint\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x0c\n\x04tick\x18\x02 \x01(\x03\x12\x0e\n\x06time_s\x18\x03 \x01(\x01\x12\x12\n\nstate_hash\x18\x04 \x01(\x10\x12\x12\n\nsize_bytes\x18\x05 \x01(\x03\x12/\n\x0b\x63reate_time\x18\x06 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\"R\n\x16\x43heckpointWorldRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x15\n\rcheckpoint_id\x18\x02 \x01(\t\x12\x13\n\x0breturn_data\x18\x03 \x01(\x08\"Q\n\x17\x43heckpointWorldResponse\x12(\n\ncheckpoint\x18\x01 \x01(\x0b\x32\x14.sinew.v1.Checkpoint\x12\x0c\n\x04\x64\x61ta\x18\x02 \x01(\x0c\"9\n\x14GetCheckpointRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x13\n\x0breturn_data\x18\x02 \x01(\x08\"O\n\x15GetCheckpointResponse\x12(\n\ncheckpoint\x18\x01 \x01(\x0b\x32\x14.sinew.v1.Checkpoint\x12\x0c\n\x04\x64\x61ta\x18\x02 \x01(\x0c\"O\n\x16ListCheckpointsRequest\x12\x0e\n\x06parent\x18\x01 \x01(\t\x12\x11\n\tpage_size\x18\x02 \x01(\x05\x12\x12\n\npage_token\x18\x03 \x01(\t\"]\n\x17ListCheckpointsResponse\x12)\n\x0b\x63heckpoints\x18\x01 \x03(\x0b\x32\x14.sinew.v1.Checkpoint\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"\'\n\x17\x44\x65leteCheckpointRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\"\x1a\n\x18\x44\x65leteCheckpointResponse\"S\n\x13RestoreWorldRequest\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\x14\n\ncheckpoint\x18\x02 \x01(\tH\x00\x12\x0e\n\x04\x64\x61ta\x18\x03 \x01(\x0cH\x00\x42\x08\n\x06source\"6\n\x14RestoreWorldResponse\x12\x1e\n\x05world\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.World\"u\n\x10\x46orkWorldRequest\x12\x14\n\ncheckpoint\x18\x01 \x01(\tH\x00\x12\x0e\n\x04\x64\x61ta\x18\x02 \x01(\x0cH\x00\x12\x0f\n\x05world\x18\x03 \x01(\tH\x00\x12\x10\n\x08world_id\x18\x04 \x01(\t\x12\x0e\n\x06paused\x18\x05 \x01(\x08\x42\x08\n\x06source\"3\n\x11\x46orkWorldResponse\x12\x1e\n\x05world\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.World2\xa9\x04\n\x11\x43heckpointService\x12\\\n\x0f\x43heckpointWorld\x12 .sinew.v1.CheckpointWorldRequest\x1a!.sinew.v1.CheckpointWorldResponse\"\x04\xe8\xe0\x18\x04\x12V\n\rGetCheckpoint\x12\x1e.sinew.v1.GetCheckpointRequest\x1a\x1f.sinew.v1.GetCheckpointResponse\"\x04\xe8\xe0\x18\x04\x12\\\n\x0fListCheckpoints\x12 .sinew.v1.ListCheckpointsRequest\x1a!.sinew.v1.ListCheckpointsResponse\"\x04\xe8\xe0\x18\x01\x12_\n\x10\x44\x65leteCheckpoint\x12!.sinew.v1.DeleteCheckpointRequest\x1a\".sinew.v1.DeleteCheckpointResponse\"\x04\xe8\xe0\x18\x04\x12S\n\x0cRestoreWorld\x12\x1d.sinew.v1.RestoreWorldRequest\x1a\x1e.sinew.v1.RestoreWorldResponse\"\x04\xe8\xe0\x18\x04\x12J\n\tForkWorld\x12\x1a.sinew.v1.ForkWorldRequest\x1a\x1b.sinew.v1.ForkWorldResponse\"\x04\xe8\xe0\x18\x07\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x19sinew/v1/checkpoint.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/world.proto\"\x8e\x02\n\nCheckpoint\x12\x12\n\x04name\x18\x01 \x01(\tB\x04\xe2\x41\x01\x08\x12\x12\n\x04tick\x18\x02 \x01(\x03\x42\x04\xe2\x41\x01\x03\x12\x14\n\x06time_s\x18\x03 \x01(\x01\x42\x04\xe2\x41\x01\x03\x12\x18\n\nstate_hash\x18\x04 \x01(\x10\x42\x04\xe2\x41\x01\x03\x12\x18\n\nsize_bytes\x18\x05 \x01(\x03\x42\x04\xe2\x41\x01\x03\x12\x35\n\x0b\x63reate_time\x18\x06 \x01(\x0b\x32\x1a.google.protobuf.TimestampB\x04\xe2\x41\x01\x03:W\xea\x41T\n\x10sinew/Checkpoint\x12\'worlds/{world}/checkpoints/{checkpoint}*\x0b\x63heckpoints2\ncheckpoint\"\x8e\x01\n\x16\x43heckpointWorldRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\x1b\n\rcheckpoint_id\x18\x02 \x01(\tB\x04\xe2\x41\x01\x01\x12\x19\n\x0breturn_data\x18\x03 \x01(\x08\x42\x04\xe2\x41\x01\x01\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"Q\n\x17\x43heckpointWorldResponse\x12(\n\ncheckpoint\x18\x01 \x01(\x0b\x32\x14.sinew.v1.Checkpoint\x12\x0c\n\x04\x64\x61ta\x18\x02 \x01(\x0c\"Z\n\x14GetCheckpointRequest\x12\'\n\x04name\x18\x01 \x01(\tB\x19\xe2\x41\x01\x02\xfa\x41\x12\n\x10sinew/Checkpoint\x12\x19\n\x0breturn_data\x18\x02 \x01(\x08\x42\x04\xe2\x41\x01\x01\"O\n\x15GetCheckpointResponse\x12(\n\ncheckpoint\x18\x01 \x01(\x0b\x32\x14.sinew.v1.Checkpoint\x12\x0c\n\x04\x64\x61ta\x18\x02 \x01(\x0c\"v\n\x16ListCheckpointsRequest\x12)\n\x06parent\x18\x01 \x01(\tB\x19\xe2\x41\x01\x02\xfa\x41\x12\x12\x10sinew/Checkpoint\x12\x17\n\tpage_size\x18\x02 \x01(\x05\x42\x04\xe2\x41\x01\x01\x12\x18\n\npage_token\x18\x03 \x01(\tB\x04\xe2\x41\x01\x01\"]\n\x17ListCheckpointsResponse\x12)\n\x0b\x63heckpoints\x18\x01 \x03(\x0b\x32\x14.sinew.v1.Checkpoint\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"\\\n\x17\x44\x65leteCheckpointRequest\x12\'\n\x04name\x18\x01 \x01(\tB\x19\xe2\x41\x01\x02\xfa\x41\x12\n\x10sinew/Checkpoint\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"\x1a\n\x18\x44\x65leteCheckpointResponse\"\x9a\x01\n\x13RestoreWorldRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12+\n\ncheckpoint\x18\x02 \x01(\tB\x15\xfa\x41\x12\n\x10sinew/CheckpointH\x00\x12\x0e\n\x04\x64\x61ta\x18\x03 \x01(\x0cH\x00\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\x42\x08\n\x06source\"6\n\x14RestoreWorldResponse\x12\x1e\n\x05world\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.World\"\xc4\x01\n\x10\x46orkWorldRequest\x12+\n\ncheckpoint\x18\x01 \x01(\tB\x15\xfa\x41\x12\n\x10sinew/CheckpointH\x00\x12\x0e\n\x04\x64\x61ta\x18\x02 \x01(\x0cH\x00\x12!\n\x05world\x18\x03 \x01(\tB\x10\xfa\x41\r\n\x0bsinew/WorldH\x00\x12\x16\n\x08world_id\x18\x04 \x01(\tB\x04\xe2\x41\x01\x01\x12\x14\n\x06paused\x18\x05 \x01(\x08\x42\x04\xe2\x41\x01\x01\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\x42\x08\n\x06source\"3\n\x11\x46orkWorldResponse\x12\x1e\n\x05world\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.World2\xa9\x04\n\x11\x43heckpointService\x12\\\n\x0f\x43heckpointWorld\x12 .sinew.v1.CheckpointWorldRequest\x1a!.sinew.v1.CheckpointWorldResponse\"\x04\xe8\xe0\x18\x04\x12V\n\rGetCheckpoint\x12\x1e.sinew.v1.GetCheckpointRequest\x1a\x1f.sinew.v1.GetCheckpointResponse\"\x04\xe8\xe0\x18\x04\x12\\\n\x0fListCheckpoints\x12 .sinew.v1.ListCheckpointsRequest\x1a!.sinew.v1.ListCheckpointsResponse\"\x04\xe8\xe0\x18\x01\x12_\n\x10\x44\x65leteCheckpoint\x12!.sinew.v1.DeleteCheckpointRequest\x1a\".sinew.v1.DeleteCheckpointResponse\"\x04\xe8\xe0\x18\x04\x12S\n\x0cRestoreWorld\x12\x1d.sinew.v1.RestoreWorldRequest\x1a\x1e.sinew.v1.RestoreWorldResponse\"\x04\xe8\xe0\x18\x04\x12J\n\tForkWorld\x12\x1a.sinew.v1.ForkWorldRequest\x1a\x1b.sinew.v1.ForkWorldResponse\"\x04\xe8\xe0\x18\x07\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.checkpoint_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
+  _globals['_CHECKPOINT'].fields_by_name['name']._loaded_options = None
+  _globals['_CHECKPOINT'].fields_by_name['name']._serialized_options = b'\342A\001\010'
+  _globals['_CHECKPOINT'].fields_by_name['tick']._loaded_options = None
+  _globals['_CHECKPOINT'].fields_by_name['tick']._serialized_options = b'\342A\001\003'
+  _globals['_CHECKPOINT'].fields_by_name['time_s']._loaded_options = None
+  _globals['_CHECKPOINT'].fields_by_name['time_s']._serialized_options = b'\342A\001\003'
+  _globals['_CHECKPOINT'].fields_by_name['state_hash']._loaded_options = None
+  _globals['_CHECKPOINT'].fields_by_name['state_hash']._serialized_options = b'\342A\001\003'
+  _globals['_CHECKPOINT'].fields_by_name['size_bytes']._loaded_options = None
+  _globals['_CHECKPOINT'].fields_by_name['size_bytes']._serialized_options = b'\342A\001\003'
+  _globals['_CHECKPOINT'].fields_by_name['create_time']._loaded_options = None
+  _globals['_CHECKPOINT'].fields_by_name['create_time']._serialized_options = b'\342A\001\003'
+  _globals['_CHECKPOINT']._loaded_options = None
+  _globals['_CHECKPOINT']._serialized_options = b'\352AT\n\020sinew/Checkpoint\022\'worlds/{world}/checkpoints/{checkpoint}*\013checkpoints2\ncheckpoint'
+  _globals['_CHECKPOINTWORLDREQUEST'].fields_by_name['name']._loaded_options = None
+  _globals['_CHECKPOINTWORLDREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/World'
+  _globals['_CHECKPOINTWORLDREQUEST'].fields_by_name['checkpoint_id']._loaded_options = None
+  _globals['_CHECKPOINTWORLDREQUEST'].fields_by_name['checkpoint_id']._serialized_options = b'\342A\001\001'
+  _globals['_CHECKPOINTWORLDREQUEST'].fields_by_name['return_data']._loaded_options = None
+  _globals['_CHECKPOINTWORLDREQUEST'].fields_by_name['return_data']._serialized_options = b'\342A\001\001'
+  _globals['_CHECKPOINTWORLDREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_CHECKPOINTWORLDREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
+  _globals['_GETCHECKPOINTREQUEST'].fields_by_name['name']._loaded_options = None
+  _globals['_GETCHECKPOINTREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\022\n\020sinew/Checkpoint'
+  _globals['_GETCHECKPOINTREQUEST'].fields_by_name['return_data']._loaded_options = None
+  _globals['_GETCHECKPOINTREQUEST'].fields_by_name['return_data']._serialized_options = b'\342A\001\001'
+  _globals['_LISTCHECKPOINTSREQUEST'].fields_by_name['parent']._loaded_options = None
+  _globals['_LISTCHECKPOINTSREQUEST'].fields_by_name['parent']._serialized_options = b'\342A\001\002\372A\022\022\020sinew/Checkpoint'
+  _globals['_LISTCHECKPOINTSREQUEST'].fields_by_name['page_size']._loaded_options = None
+  _globals['_LISTCHECKPOINTSREQUEST'].fields_by_name['page_size']._serialized_options = b'\342A\001\001'
+  _globals['_LISTCHECKPOINTSREQUEST'].fields_by_name['page_token']._loaded_options = None
+  _globals['_LISTCHECKPOINTSREQUEST'].fields_by_name['page_token']._serialized_options = b'\342A\001\001'
+  _globals['_DELETECHECKPOINTREQUEST'].fields_by_name['name']._loaded_options = None
+  _globals['_DELETECHECKPOINTREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\022\n\020sinew/Checkpoint'
+  _globals['_DELETECHECKPOINTREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_DELETECHECKPOINTREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
+  _globals['_RESTOREWORLDREQUEST'].fields_by_name['name']._loaded_options = None
+  _globals['_RESTOREWORLDREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/World'
+  _globals['_RESTOREWORLDREQUEST'].fields_by_name['checkpoint']._loaded_options = None
+  _globals['_RESTOREWORLDREQUEST'].fields_by_name['checkpoint']._serialized_options = b'\372A\022\n\020sinew/Checkpoint'
+  _globals['_RESTOREWORLDREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_RESTOREWORLDREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
+  _globals['_FORKWORLDREQUEST'].fields_by_name['checkpoint']._loaded_options = None
+  _globals['_FORKWORLDREQUEST'].fields_by_name['checkpoint']._serialized_options = b'\372A\022\n\020sinew/Checkpoint'
+  _globals['_FORKWORLDREQUEST'].fields_by_name['world']._loaded_options = None
+  _globals['_FORKWORLDREQUEST'].fields_by_name['world']._serialized_options = b'\372A\r\n\013sinew/World'
+  _globals['_FORKWORLDREQUEST'].fields_by_name['world_id']._loaded_options = None
+  _globals['_FORKWORLDREQUEST'].fields_by_name['world_id']._serialized_options = b'\342A\001\001'
+  _globals['_FORKWORLDREQUEST'].fields_by_name['paused']._loaded_options = None
+  _globals['_FORKWORLDREQUEST'].fields_by_name['paused']._serialized_options = b'\342A\001\001'
+  _globals['_FORKWORLDREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_FORKWORLDREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
   _globals['_CHECKPOINTSERVICE'].methods_by_name['CheckpointWorld']._loaded_options = None
   _globals['_CHECKPOINTSERVICE'].methods_by_name['CheckpointWorld']._serialized_options = b'\350\340\030\004'
   _globals['_CHECKPOINTSERVICE'].methods_by_name['GetCheckpoint']._loaded_options = None
@@ -46,32 +100,32 @@ if not _descriptor._USE_C_DESCRIPTORS:
   _globals['_CHECKPOINTSERVICE'].methods_by_name['RestoreWorld']._serialized_options = b'\350\340\030\004'
   _globals['_CHECKPOINTSERVICE'].methods_by_name['ForkWorld']._loaded_options = None
   _globals['_CHECKPOINTSERVICE'].methods_by_name['ForkWorld']._serialized_options = b'\350\340\030\007'
-  _globals['_CHECKPOINT']._serialized_start=119
-  _globals['_CHECKPOINT']._serialized_end=264
-  _globals['_CHECKPOINTWORLDREQUEST']._serialized_start=266
-  _globals['_CHECKPOINTWORLDREQUEST']._serialized_end=348
-  _globals['_CHECKPOINTWORLDRESPONSE']._serialized_start=350
-  _globals['_CHECKPOINTWORLDRESPONSE']._serialized_end=431
-  _globals['_GETCHECKPOINTREQUEST']._serialized_start=433
-  _globals['_GETCHECKPOINTREQUEST']._serialized_end=490
-  _globals['_GETCHECKPOINTRESPONSE']._serialized_start=492
-  _globals['_GETCHECKPOINTRESPONSE']._serialized_end=571
-  _globals['_LISTCHECKPOINTSREQUEST']._serialized_start=573
-  _globals['_LISTCHECKPOINTSREQUEST']._serialized_end=652
-  _globals['_LISTCHECKPOINTSRESPONSE']._serialized_start=654
-  _globals['_LISTCHECKPOINTSRESPONSE']._serialized_end=747
-  _globals['_DELETECHECKPOINTREQUEST']._serialized_start=749
-  _globals['_DELETECHECKPOINTREQUEST']._serialized_end=788
-  _globals['_DELETECHECKPOINTRESPONSE']._serialized_start=790
-  _globals['_DELETECHECKPOINTRESPONSE']._serialized_end=816
-  _globals['_RESTOREWORLDREQUEST']._serialized_start=818
-  _globals['_RESTOREWORLDREQUEST']._serialized_end=901
-  _globals['_RESTOREWORLDRESPONSE']._serialized_start=903
-  _globals['_RESTOREWORLDRESPONSE']._serialized_end=957
-  _globals['_FORKWORLDREQUEST']._serialized_start=959
-  _globals['_FORKWORLDREQUEST']._serialized_end=1076
-  _globals['_FORKWORLDRESPONSE']._serialized_start=1078
-  _globals['_FORKWORLDRESPONSE']._serialized_end=1129
-  _globals['_CHECKPOINTSERVICE']._serialized_start=1132
-  _globals['_CHECKPOINTSERVICE']._serialized_end=1685
+  _globals['_CHECKPOINT']._serialized_start=179
+  _globals['_CHECKPOINT']._serialized_end=449
+  _globals['_CHECKPOINTWORLDREQUEST']._serialized_start=452
+  _globals['_CHECKPOINTWORLDREQUEST']._serialized_end=594
+  _globals['_CHECKPOINTWORLDRESPONSE']._serialized_start=596
+  _globals['_CHECKPOINTWORLDRESPONSE']._serialized_end=677
+  _globals['_GETCHECKPOINTREQUEST']._serialized_start=679
+  _globals['_GETCHECKPOINTREQUEST']._serialized_end=769
+  _globals['_GETCHECKPOINTRESPONSE']._serialized_start=771
+  _globals['_GETCHECKPOINTRESPONSE']._serialized_end=850
+  _globals['_LISTCHECKPOINTSREQUEST']._serialized_start=852
+  _globals['_LISTCHECKPOINTSREQUEST']._serialized_end=970
+  _globals['_LISTCHECKPOINTSRESPONSE']._serialized_start=972
+  _globals['_LISTCHECKPOINTSRESPONSE']._serialized_end=1065
+  _globals['_DELETECHECKPOINTREQUEST']._serialized_start=1067
+  _globals['_DELETECHECKPOINTREQUEST']._serialized_end=1159
+  _globals['_DELETECHECKPOINTRESPONSE']._serialized_start=1161
+  _globals['_DELETECHECKPOINTRESPONSE']._serialized_end=1187
+  _globals['_RESTOREWORLDREQUEST']._serialized_start=1190
+  _globals['_RESTOREWORLDREQUEST']._serialized_end=1344
+  _globals['_RESTOREWORLDRESPONSE']._serialized_start=1346
+  _globals['_RESTOREWORLDRESPONSE']._serialized_end=1400
+  _globals['_FORKWORLDREQUEST']._serialized_start=1403
+  _globals['_FORKWORLDREQUEST']._serialized_end=1599
+  _globals['_FORKWORLDRESPONSE']._serialized_start=1601
+  _globals['_FORKWORLDRESPONSE']._serialized_end=1652
+  _globals['_CHECKPOINTSERVICE']._serialized_start=1655
+  _globals['_CHECKPOINTSERVICE']._serialized_end=2208
 # @@protoc_insertion_point(module_scope)

@@ -22,17 +22,59 @@ _runtime_version.ValidateProtobufRuntimeVersion(
 _sym_db = _symbol_database.Default()
 
 
+from google.api import field_behavior_pb2 as google_dot_api_dot_field__behavior__pb2
+from google.api import resource_pb2 as google_dot_api_dot_resource__pb2
 from google.protobuf import timestamp_pb2 as google_dot_protobuf_dot_timestamp__pb2
 from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x16sinew/v1/control.proto\x12\x08sinew.v1\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\"\xae\x01\n\x0c\x43ontrolLease\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\x12\x0e\n\x06holder\x18\x02 \x01(\t\x12\x15\n\rcontrol_epoch\x18\x03 \x01(\x03\x12\x10\n\x08priority\x18\x04 \x01(\x05\x12/\n\x0b\x65xpire_time\x18\x05 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\x12\x10\n\x08implicit\x18\x06 \x01(\x08\x12\x12\n\noffered_to\x18\x07 \x01(\t\"b\n\x15\x41\x63quireControlRequest\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\x12\x15\n\rcontrol_token\x18\x02 \x01(\t\x12\x10\n\x08priority\x18\x03 \x01(\x05\x12\x10\n\x08grace_ms\x18\x04 \x01(\x01\"V\n\x16\x41\x63quireControlResponse\x12%\n\x05lease\x18\x01 \x01(\x0b\x32\x16.sinew.v1.ControlLease\x12\x15\n\rcontrol_token\x18\x02 \x01(\t\">\n\x15ReleaseControlRequest\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\x12\x15\n\rcontrol_token\x18\x02 \x01(\t\"\x18\n\x16ReleaseControlResponse\"o\n\x16TransferControlRequest\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\x12\x15\n\rcontrol_token\x18\x02 \x01(\t\x12\n\n\x02to\x18\x03 \x01(\t\x12\x10\n\x08\x62lend_ms\x18\x04 \x01(\x01\x12\x10\n\x08offer_ms\x18\x05 \x01(\x01\"U\n\x17TransferControlResponse\x12%\n\x05lease\x18\x01 \x01(\x0b\x32\x16.sinew.v1.ControlLease\x12\x13\n\x0boffer_token\x18\x02 \x01(\t\"M\n\x14\x41\x63\x63\x65ptControlRequest\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\x12\x13\n\x0boffer_token\x18\x02 \x01(\t\x12\x10\n\x08grace_ms\x18\x03 \x01(\x01\"U\n\x15\x41\x63\x63\x65ptControlResponse\x12%\n\x05lease\x18\x01 \x01(\x0b\x32\x16.sinew.v1.ControlLease\x12\x15\n\rcontrol_token\x18\x02 \x01(\t\"#\n\x11GetControlRequest\x12\x0e\n\x06\x66igure\x18\x01 \x01(\t\";\n\x12GetControlResponse\x12%\n\x05lease\x18\x01 \x01(\x0b\x32\x16.sinew.v1.ControlLease2\xcb\x03\n\x0e\x43ontrolService\x12Y\n\x0e\x41\x63quireControl\x12\x1f.sinew.v1.AcquireControlRequest\x1a .sinew.v1.AcquireControlResponse\"\x04\xe8\xe0\x18\x03\x12Y\n\x0eReleaseControl\x12\x1f.sinew.v1.ReleaseControlRequest\x1a .sinew.v1.ReleaseControlResponse\"\x04\xe8\xe0\x18\x03\x12\\\n\x0fTransferControl\x12 .sinew.v1.TransferControlRequest\x1a!.sinew.v1.TransferControlResponse\"\x04\xe8\xe0\x18\x03\x12V\n\rAcceptControl\x12\x1e.sinew.v1.AcceptControlRequest\x1a\x1f.sinew.v1.AcceptControlResponse\"\x04\xe8\xe0\x18\x03\x12M\n\nGetControl\x12\x1b.sinew.v1.GetControlRequest\x1a\x1c.sinew.v1.GetControlResponse\"\x04\xe8\xe0\x18\x01\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x16sinew/v1/control.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\"\xc1\x01\n\x0c\x43ontrolLease\x12!\n\x06\x66igure\x18\x01 \x01(\tB\x11\xfa\x41\x0e\n\x0csinew/Figure\x12\x0e\n\x06holder\x18\x02 \x01(\t\x12\x15\n\rcontrol_epoch\x18\x03 \x01(\x03\x12\x10\n\x08priority\x18\x04 \x01(\x05\x12/\n\x0b\x65xpire_time\x18\x05 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\x12\x10\n\x08implicit\x18\x06 \x01(\x08\x12\x12\n\noffered_to\x18\x07 \x01(\t\"\xa5\x01\n\x15\x41\x63quireControlRequest\x12%\n\x06\x66igure\x18\x01 \x01(\tB\x15\xe2\x41\x01\x02\xfa\x41\x0e\n\x0csinew/Figure\x12\x1b\n\rcontrol_token\x18\x02 \x01(\tB\x04\xe2\x41\x01\x01\x12\x16\n\x08priority\x18\x03 \x01(\x05\x42\x04\xe2\x41\x01\x01\x12\x16\n\x08grace_ms\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"V\n\x16\x41\x63quireControlResponse\x12%\n\x05lease\x18\x01 \x01(\x0b\x32\x16.sinew.v1.ControlLease\x12\x15\n\rcontrol_token\x18\x02 \x01(\t\"u\n\x15ReleaseControlRequest\x12%\n\x06\x66igure\x18\x01 \x01(\tB\x15\xe2\x41\x01\x02\xfa\x41\x0e\n\x0csinew/Figure\x12\x1b\n\rcontrol_token\x18\x02 \x01(\tB\x04\xe2\x41\x01\x02\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"\x18\n\x16ReleaseControlResponse\"\xb8\x01\n\x16TransferControlRequest\x12%\n\x06\x66igure\x18\x01 \x01(\tB\x15\xe2\x41\x01\x02\xfa\x41\x0e\n\x0csinew/Figure\x12\x1b\n\rcontrol_token\x18\x02 \x01(\tB\x04\xe2\x41\x01\x02\x12\x10\n\x02to\x18\x03 \x01(\tB\x04\xe2\x41\x01\x01\x12\x16\n\x08\x62lend_ms\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x16\n\x08offer_ms\x18\x05 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"U\n\x17TransferControlResponse\x12%\n\x05lease\x18\x01 \x01(\x0b\x32\x16.sinew.v1.ControlLease\x12\x13\n\x0boffer_token\x18\x02 \x01(\t\"\x8a\x01\n\x14\x41\x63\x63\x65ptControlRequest\x12%\n\x06\x66igure\x18\x01 \x01(\tB\x15\xe2\x41\x01\x02\xfa\x41\x0e\n\x0csinew/Figure\x12\x19\n\x0boffer_token\x18\x02 \x01(\tB\x04\xe2\x41\x01\x02\x12\x16\n\x08grace_ms\x18\x03 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"U\n\x15\x41\x63\x63\x65ptControlResponse\x12%\n\x05lease\x18\x01 \x01(\x0b\x32\x16.sinew.v1.ControlLease\x12\x15\n\rcontrol_token\x18\x02 \x01(\t\":\n\x11GetControlRequest\x12%\n\x06\x66igure\x18\x01 \x01(\tB\x15\xe2\x41\x01\x02\xfa\x41\x0e\n\x0csinew/Figure\";\n\x12GetControlResponse\x12%\n\x05lease\x18\x01 \x01(\x0b\x32\x16.sinew.v1.ControlLease2\xcb\x03\n\x0e\x43ontrolService\x12Y\n\x0e\x41\x63quireControl\x12\x1f.sinew.v1.AcquireControlRequest\x1a .sinew.v1.AcquireControlResponse\"\x04\xe8\xe0\x18\x03\x12Y\n\x0eReleaseControl\x12\x1f.sinew.v1.ReleaseControlRequest\x1a .sinew.v1.ReleaseControlResponse\"\x04\xe8\xe0\x18\x03\x12\\\n\x0fTransferControl\x12 .sinew.v1.TransferControlRequest\x1a!.sinew.v1.TransferControlResponse\"\x04\xe8\xe0\x18\x03\x12V\n\rAcceptControl\x12\x1e.sinew.v1.AcceptControlRequest\x1a\x1f.sinew.v1.AcceptControlResponse\"\x04\xe8\xe0\x18\x03\x12M\n\nGetControl\x12\x1b.sinew.v1.GetControlRequest\x1a\x1c.sinew.v1.GetControlResponse\"\x04\xe8\xe0\x18\x01\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.control_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
+  _globals['_CONTROLLEASE'].fields_by_name['figure']._loaded_options = None
+  _globals['_CONTROLLEASE'].fields_by_name['figure']._serialized_options = b'\372A\016\n\014sinew/Figure'
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['figure']._loaded_options = None
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['figure']._serialized_options = b'\342A\001\002\372A\016\n\014sinew/Figure'
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['control_token']._loaded_options = None
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['control_token']._serialized_options = b'\342A\001\001'
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['priority']._loaded_options = None
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['priority']._serialized_options = b'\342A\001\001'
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['grace_ms']._loaded_options = None
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['grace_ms']._serialized_options = b'\342A\001\001'
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_ACQUIRECONTROLREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
+  _globals['_RELEASECONTROLREQUEST'].fields_by_name['figure']._loaded_options = None
+  _globals['_RELEASECONTROLREQUEST'].fields_by_name['figure']._serialized_options = b'\342A\001\002\372A\016\n\014sinew/Figure'
+  _globals['_RELEASECONTROLREQUEST'].fields_by_name['control_token']._loaded_options = None
+  _globals['_RELEASECONTROLREQUEST'].fields_by_name['control_token']._serialized_options = b'\342A\001\002'
+  _globals['_RELEASECONTROLREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_RELEASECONTROLREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['figure']._loaded_options = None
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['figure']._serialized_options = b'\342A\001\002\372A\016\n\014sinew/Figure'
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['control_token']._loaded_options = None
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['control_token']._serialized_options = b'\342A\001\002'
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['to']._loaded_options = None
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['to']._serialized_options = b'\342A\001\001'
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['blend_ms']._loaded_options = None
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['blend_ms']._serialized_options = b'\342A\001\001'
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['offer_ms']._loaded_options = None
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['offer_ms']._serialized_options = b'\342A\001\001'
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_TRANSFERCONTROLREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
+  _globals['_ACCEPTCONTROLREQUEST'].fields_by_name['figure']._loaded_options = None
+  _globals['_ACCEPTCONTROLREQUEST'].fields_by_name['figure']._serialized_options = b'\342A\001\002\372A\016\n\014sinew/Figure'
+  _globals['_ACCEPTCONTROLREQUEST'].fields_by_name['offer_token']._loaded_options = None
+  _globals['_ACCEPTCONTROLREQUEST'].fields_by_name['offer_token']._serialized_options = b'\342A\001\002'
+  _globals['_ACCEPTCONTROLREQUEST'].fields_by_name['grace_ms']._loaded_options = None
+  _globals['_ACCEPTCONTROLREQUEST'].fields_by_name['grace_ms']._serialized_options = b'\342A\001\001'
+  _globals['_ACCEPTCONTROLREQUEST'].fields_by_name['request_id']._loaded_options = None
+  _globals['_ACCEPTCONTROLREQUEST'].fields_by_name['request_id']._serialized_options = b'\342A\001\001'
+  _globals['_GETCONTROLREQUEST'].fields_by_name['figure']._loaded_options = None
+  _globals['_GETCONTROLREQUEST'].fields_by_name['figure']._serialized_options = b'\342A\001\002\372A\016\n\014sinew/Figure'
   _globals['_CONTROLSERVICE'].methods_by_name['AcquireControl']._loaded_options = None
   _globals['_CONTROLSERVICE'].methods_by_name['AcquireControl']._serialized_options = b'\350\340\030\003'
   _globals['_CONTROLSERVICE'].methods_by_name['ReleaseControl']._loaded_options = None
@@ -43,28 +85,28 @@ if not _descriptor._USE_C_DESCRIPTORS:
   _globals['_CONTROLSERVICE'].methods_by_name['AcceptControl']._serialized_options = b'\350\340\030\003'
   _globals['_CONTROLSERVICE'].methods_by_name['GetControl']._loaded_options = None
   _globals['_CONTROLSERVICE'].methods_by_name['GetControl']._serialized_options = b'\350\340\030\001'
-  _globals['_CONTROLLEASE']._serialized_start=94
-  _globals['_CONTROLLEASE']._serialized_end=268
-  _globals['_ACQUIRECONTROLREQUEST']._serialized_start=270
-  _globals['_ACQUIRECONTROLREQUEST']._serialized_end=368
-  _globals['_ACQUIRECONTROLRESPONSE']._serialized_start=370
-  _globals['_ACQUIRECONTROLRESPONSE']._serialized_end=456
-  _globals['_RELEASECONTROLREQUEST']._serialized_start=458
-  _globals['_RELEASECONTROLREQUEST']._serialized_end=520
-  _globals['_RELEASECONTROLRESPONSE']._serialized_start=522
-  _globals['_RELEASECONTROLRESPONSE']._serialized_end=546
-  _globals['_TRANSFERCONTROLREQUEST']._serialized_start=548
-  _globals['_TRANSFERCONTROLREQUEST']._serialized_end=659
-  _globals['_TRANSFERCONTROLRESPONSE']._serialized_start=661
-  _globals['_TRANSFERCONTROLRESPONSE']._serialized_end=746
-  _globals['_ACCEPTCONTROLREQUEST']._serialized_start=748
-  _globals['_ACCEPTCONTROLREQUEST']._serialized_end=825
-  _globals['_ACCEPTCONTROLRESPONSE']._serialized_start=827
-  _globals['_ACCEPTCONTROLRESPONSE']._serialized_end=912
-  _globals['_GETCONTROLREQUEST']._serialized_start=914
-  _globals['_GETCONTROLREQUEST']._serialized_end=949
-  _globals['_GETCONTROLRESPONSE']._serialized_start=951
-  _globals['_GETCONTROLRESPONSE']._serialized_end=1010
-  _globals['_CONTROLSERVICE']._serialized_start=1013
-  _globals['_CONTROLSERVICE']._serialized_end=1472
+  _globals['_CONTROLLEASE']._serialized_start=154
+  _globals['_CONTROLLEASE']._serialized_end=347
+  _globals['_ACQUIRECONTROLREQUEST']._serialized_start=350
+  _globals['_ACQUIRECONTROLREQUEST']._serialized_end=515
+  _globals['_ACQUIRECONTROLRESPONSE']._serialized_start=517
+  _globals['_ACQUIRECONTROLRESPONSE']._serialized_end=603
+  _globals['_RELEASECONTROLREQUEST']._serialized_start=605
+  _globals['_RELEASECONTROLREQUEST']._serialized_end=722
+  _globals['_RELEASECONTROLRESPONSE']._serialized_start=724
+  _globals['_RELEASECONTROLRESPONSE']._serialized_end=748
+  _globals['_TRANSFERCONTROLREQUEST']._serialized_start=751
+  _globals['_TRANSFERCONTROLREQUEST']._serialized_end=935
+  _globals['_TRANSFERCONTROLRESPONSE']._serialized_start=937
+  _globals['_TRANSFERCONTROLRESPONSE']._serialized_end=1022
+  _globals['_ACCEPTCONTROLREQUEST']._serialized_start=1025
+  _globals['_ACCEPTCONTROLREQUEST']._serialized_end=1163
+  _globals['_ACCEPTCONTROLRESPONSE']._serialized_start=1165
+  _globals['_ACCEPTCONTROLRESPONSE']._serialized_end=1250
+  _globals['_GETCONTROLREQUEST']._serialized_start=1252
+  _globals['_GETCONTROLREQUEST']._serialized_end=1310
+  _globals['_GETCONTROLRESPONSE']._serialized_start=1312
+  _globals['_GETCONTROLRESPONSE']._serialized_end=1371
+  _globals['_CONTROLSERVICE']._serialized_start=1374
+  _globals['_CONTROLSERVICE']._serialized_end=1833
 # @@protoc_insertion_point(module_scope)

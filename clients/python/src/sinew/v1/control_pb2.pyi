@@ -75,6 +75,7 @@ class AcquireControlRequest(_message.Message):
     CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     PRIORITY_FIELD_NUMBER: _builtins.int
     GRACE_MS_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
     control_token: _builtins.str
@@ -83,6 +84,10 @@ class AcquireControlRequest(_message.Message):
     """Priority, 0…100, as far as the grant of the caller goes. A renewal keeps that of the lease if this is 0."""
     grace_ms: _builtins.float
     """How long the lease is kept while it is not used, ms, 1…60000. 0 or absent: 10000."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
@@ -90,10 +95,11 @@ class AcquireControlRequest(_message.Message):
         control_token: _builtins.str = ...,
         priority: _builtins.int = ...,
         grace_ms: _builtins.float = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure", "grace_ms", b"grace_ms", "priority", b"priority"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure", "grace_ms", b"grace_ms", "priority", b"priority", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -135,19 +141,25 @@ class ReleaseControlRequest(_message.Message):
 
     FIGURE_FIELD_NUMBER: _builtins.int
     CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
     control_token: _builtins.str
     """Token of the lease."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
         figure: _builtins.str = ...,
         control_token: _builtins.str = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -181,6 +193,7 @@ class TransferControlRequest(_message.Message):
     TO_FIELD_NUMBER: _builtins.int
     BLEND_MS_FIELD_NUMBER: _builtins.int
     OFFER_MS_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
     control_token: _builtins.str
@@ -191,6 +204,10 @@ class TransferControlRequest(_message.Message):
     """How long the figure goes over from one motion to the other, ms, 0…5000. 0 or absent: 500."""
     offer_ms: _builtins.float
     """How long the offer stands, ms, 1…600000. 0 or absent: 30000."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
@@ -199,10 +216,11 @@ class TransferControlRequest(_message.Message):
         to: _builtins.str = ...,
         blend_ms: _builtins.float = ...,
         offer_ms: _builtins.float = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["blend_ms", b"blend_ms", "control_token", b"control_token", "figure", b"figure", "offer_ms", b"offer_ms", "to", b"to"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["blend_ms", b"blend_ms", "control_token", b"control_token", "figure", b"figure", "offer_ms", b"offer_ms", "request_id", b"request_id", "to", b"to"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -245,22 +263,28 @@ class AcceptControlRequest(_message.Message):
     FIGURE_FIELD_NUMBER: _builtins.int
     OFFER_TOKEN_FIELD_NUMBER: _builtins.int
     GRACE_MS_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
     offer_token: _builtins.str
     """Token of the offer."""
     grace_ms: _builtins.float
     """How long the lease is kept while it is not used, ms, 1…60000. 0 or absent: 10000."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
         figure: _builtins.str = ...,
         offer_token: _builtins.str = ...,
         grace_ms: _builtins.float = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure", "grace_ms", b"grace_ms", "offer_token", b"offer_token"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure", "grace_ms", b"grace_ms", "offer_token", b"offer_token", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

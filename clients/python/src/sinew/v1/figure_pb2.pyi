@@ -381,15 +381,13 @@ class Figure(_message.Message):
     CONTROLLER_FIELD_NUMBER: _builtins.int
     STEPPER_FIELD_NUMBER: _builtins.int
     PLACEMENT_FIELD_NUMBER: _builtins.int
-    CLIP_FIELD_NUMBER: _builtins.int
-    DRIVER_ID_FIELD_NUMBER: _builtins.int
-    FIGURE_INDEX_FIELD_NUMBER: _builtins.int
     FATIGUE_TIME_SCALE_FIELD_NUMBER: _builtins.int
     ASSIST_FIELD_NUMBER: _builtins.int
     PAPER_FIELD_NUMBER: _builtins.int
     CONSTRAINTS_FIELD_NUMBER: _builtins.int
     PROTECTIVE_STEPS_FIELD_NUMBER: _builtins.int
-    NEXT_CLIP_FIELD_NUMBER: _builtins.int
+    STATUS_FIELD_NUMBER: _builtins.int
+    ETAG_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}/figures/{figure}`. Ignored in requests to create one."""
     display_name: _builtins.str
@@ -400,12 +398,6 @@ class Figure(_message.Message):
     """Controller."""
     stepper: Global___Stepper.ValueType
     """Stepper. Fixed at creation."""
-    clip: _builtins.str
-    """Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand. Output only."""
-    driver_id: _builtins.str
-    """Driver that moves it live; empty if none. Output only."""
-    figure_index: _builtins.int
-    """Index by which frames refer to it: position in the roster. Output only."""
     fatigue_time_scale: _builtins.float
     """Seconds of muscle fatigue per simulated second, 0…1000. 0: muscles never tire."""
     assist: _builtins.float
@@ -414,9 +406,9 @@ class Figure(_message.Message):
     """
     protective_steps: _builtins.bool
     """Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true."""
-    next_clip: _builtins.str
-    """Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output
-    only.
+    etag: _builtins.str
+    """Changes whenever the configuration does. In requests: the change is refused (ABORTED, `ETAG_MISMATCH`) unless it is
+    that of the figure. Empty: not checked.
     """
     @_builtins.property
     def profile(self) -> _body_pb2.BodyProfile:
@@ -441,6 +433,10 @@ class Figure(_message.Message):
         those that have ended are gone.
         """
 
+    @_builtins.property
+    def status(self) -> Global___FigureStatus:
+        """What it does now. Output only."""
+
     def __init__(
         self,
         *,
@@ -452,25 +448,57 @@ class Figure(_message.Message):
         controller: Global___Controller.ValueType = ...,
         stepper: Global___Stepper.ValueType = ...,
         placement: _types_pb2.Placement | None = ...,
-        clip: _builtins.str = ...,
-        driver_id: _builtins.str = ...,
-        figure_index: _builtins.int = ...,
         fatigue_time_scale: _builtins.float = ...,
         assist: _builtins.float = ...,
         paper: Global___PaperOptions | None = ...,
         constraints: _abc.Iterable[Global___Constraint] | None = ...,
         protective_steps: _builtins.bool | None = ...,
-        next_clip: _builtins.str = ...,
+        status: Global___FigureStatus | None = ...,
+        etag: _builtins.str = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "strength", b"strength"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "status", b"status", "strength", b"strength"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "assist", b"assist", "body", b"body", "clip", b"clip", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "driver_id", b"driver_id", "fatigue_time_scale", b"fatigue_time_scale", "figure_index", b"figure_index", "name", b"name", "next_clip", b"next_clip", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "assist", b"assist", "body", b"body", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "etag", b"etag", "fatigue_time_scale", b"fatigue_time_scale", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "status", b"status", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__protective_steps: _TypeAlias = _typing.Literal["protective_steps"]  # noqa: Y015
     _WhichOneofArgType__protective_steps: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps"]  # noqa: Y015
     def WhichOneof(self, oneof_group: _WhichOneofArgType__protective_steps) -> _WhichOneofReturnType__protective_steps | None: ...
 
 Global___Figure: _TypeAlias = Figure  # noqa: Y015
+
+@_typing.final
+class FigureStatus(_message.Message):
+    """What a figure does, as opposed to how it is set."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    CLIP_FIELD_NUMBER: _builtins.int
+    NEXT_CLIP_FIELD_NUMBER: _builtins.int
+    DRIVER_ID_FIELD_NUMBER: _builtins.int
+    FIGURE_INDEX_FIELD_NUMBER: _builtins.int
+    clip: _builtins.str
+    """Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand."""
+    next_clip: _builtins.str
+    """Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits."""
+    driver_id: _builtins.str
+    """Driver that moves it live; empty if none."""
+    figure_index: _builtins.int
+    """Index by which frames refer to it: position in the roster."""
+    def __init__(
+        self,
+        *,
+        clip: _builtins.str = ...,
+        next_clip: _builtins.str = ...,
+        driver_id: _builtins.str = ...,
+        figure_index: _builtins.int = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["clip", b"clip", "driver_id", b"driver_id", "figure_index", b"figure_index", "next_clip", b"next_clip"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___FigureStatus: _TypeAlias = FigureStatus  # noqa: Y015
 
 @_typing.final
 class Constraint(_message.Message):
@@ -561,10 +589,18 @@ class CreateFigureRequest(_message.Message):
     PARENT_FIELD_NUMBER: _builtins.int
     FIGURE_ID_FIELD_NUMBER: _builtins.int
     FIGURE_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
+    VALIDATE_ONLY_FIELD_NUMBER: _builtins.int
     parent: _builtins.str
     """World: resource name `worlds/{world}`."""
     figure_id: _builtins.str
     """Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
+    validate_only: _builtins.bool
+    """Checks the request and answers as if it had been carried out, but changes nothing. Default: false."""
     @_builtins.property
     def figure(self) -> Global___Figure:
         """Settings. Absent: all defaults."""
@@ -575,10 +611,12 @@ class CreateFigureRequest(_message.Message):
         parent: _builtins.str = ...,
         figure_id: _builtins.str = ...,
         figure: Global___Figure | None = ...,
+        request_id: _builtins.str = ...,
+        validate_only: _builtins.bool = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure", "figure_id", b"figure_id", "parent", b"parent"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure", "figure_id", b"figure_id", "parent", b"parent", "request_id", b"request_id", "validate_only", b"validate_only"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -666,7 +704,7 @@ class ListFiguresRequest(_message.Message):
     parent: _builtins.str
     """World: resource name `worlds/{world}`."""
     page_size: _builtins.int
-    """Most figures to return, 0…1000. 0: 100."""
+    """Most figures to return. 0: 100; more than 1000 are taken as 1000."""
     page_token: _builtins.str
     """`next_page_token` of the page before. Empty: from the start."""
     def __init__(
@@ -720,7 +758,10 @@ class UpdateFigureRequest(_message.Message):
 
     FIGURE_FIELD_NUMBER: _builtins.int
     UPDATE_MASK_FIELD_NUMBER: _builtins.int
+    VALIDATE_ONLY_FIELD_NUMBER: _builtins.int
     CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
+    validate_only: _builtins.bool
+    """Checks the request and answers as if it had been carried out, but changes nothing. Default: false."""
     control_token: _builtins.str
     """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
     the valid one.
@@ -732,7 +773,8 @@ class UpdateFigureRequest(_message.Message):
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
         """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-        `protective_steps` to take. Must not be empty. Fields that it does not name are ignored, whatever they hold.
+        `protective_steps` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
+        ignored, whatever they hold.
         """
 
     def __init__(
@@ -740,11 +782,12 @@ class UpdateFigureRequest(_message.Message):
         *,
         figure: Global___Figure | None = ...,
         update_mask: _field_mask_pb2.FieldMask | None = ...,
+        validate_only: _builtins.bool = ...,
         control_token: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure", "update_mask", b"update_mask"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure", "update_mask", b"update_mask"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure", "update_mask", b"update_mask", "validate_only", b"validate_only"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -781,16 +824,26 @@ class DeleteFigureRequest(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     NAME_FIELD_NUMBER: _builtins.int
+    ETAG_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}/figures/{figure}`."""
+    etag: _builtins.str
+    """Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
         name: _builtins.str = ...,
+        etag: _builtins.str = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["etag", b"etag", "name", b"name", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -821,9 +874,14 @@ class ResetFigureRequest(_message.Message):
 
     NAME_FIELD_NUMBER: _builtins.int
     PLACEMENT_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}/figures/{figure}`."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     control_token: _builtins.str
     """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
     the valid one.
@@ -837,11 +895,12 @@ class ResetFigureRequest(_message.Message):
         *,
         name: _builtins.str = ...,
         placement: _types_pb2.Placement | None = ...,
+        request_id: _builtins.str = ...,
         control_token: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["placement", b"placement"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "name", b"name", "placement", b"placement"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "name", b"name", "placement", b"placement", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -76,15 +76,15 @@ Global___WorldFrame: _TypeAlias = WorldFrame  # noqa: Y015
 
 @_typing.final
 class ObstacleFrame(_message.Message):
-    """One obstacle after one tick. `WorldService.ListObstacles` tells its shape."""
+    """One obstacle after one tick. `ObstacleService.ListObstacles` tells its shape."""
 
     DESCRIPTOR: _descriptor.Descriptor
 
-    OBSTACLE_FIELD_NUMBER: _builtins.int
+    OBSTACLE_ID_FIELD_NUMBER: _builtins.int
     POSE_FIELD_NUMBER: _builtins.int
     VELOCITY_FIELD_NUMBER: _builtins.int
     FORCE_FIELD_NUMBER: _builtins.int
-    obstacle: _builtins.str
+    obstacle_id: _builtins.str
     """Last part of the obstacle's name."""
     @_builtins.property
     def pose(self) -> _types_pb2.Numbers:
@@ -101,14 +101,14 @@ class ObstacleFrame(_message.Message):
     def __init__(
         self,
         *,
-        obstacle: _builtins.str = ...,
+        obstacle_id: _builtins.str = ...,
         pose: _types_pb2.Numbers | None = ...,
         velocity: _types_pb2.Numbers | None = ...,
         force: _types_pb2.Numbers | None = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["force", b"force", "pose", b"pose", "velocity", b"velocity"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["force", b"force", "obstacle", b"obstacle", "pose", b"pose", "velocity", b"velocity"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["force", b"force", "obstacle_id", b"obstacle_id", "pose", b"pose", "velocity", b"velocity"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

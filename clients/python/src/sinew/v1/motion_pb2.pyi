@@ -402,7 +402,7 @@ class FrameSource(_message.Message):
     """Frames per second, 1…1000. Required."""
     @_builtins.property
     def frames(self) -> _containers.RepeatedCompositeFieldContainer[Global___FigureMotion]:
-        """At least two. `figure`, velocities, sequence and source time are ignored."""
+        """At least two. `figure_id`, velocities, sequence and source time are ignored."""
 
     def __init__(
         self,
@@ -429,12 +429,20 @@ class CreateClipRequest(_message.Message):
     BODY_FIELD_NUMBER: _builtins.int
     BVH_FIELD_NUMBER: _builtins.int
     FRAMES_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
+    VALIDATE_ONLY_FIELD_NUMBER: _builtins.int
     clip_id: _builtins.str
     """Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses."""
     display_name: _builtins.str
     """Name for people, at most 128 bytes. Default: empty."""
     body: _builtins.str
     """Body to prepare it for: `bodies/{body}`. Empty: `bodies/adult-man`."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
+    validate_only: _builtins.bool
+    """Checks the request and answers as if it had been carried out, but changes nothing. Default: false."""
     @_builtins.property
     def bvh(self) -> Global___BvhSource:
         """A BVH file."""
@@ -451,10 +459,12 @@ class CreateClipRequest(_message.Message):
         body: _builtins.str = ...,
         bvh: Global___BvhSource | None = ...,
         frames: Global___FrameSource | None = ...,
+        request_id: _builtins.str = ...,
+        validate_only: _builtins.bool = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["bvh", b"bvh", "frames", b"frames", "source", b"source"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["body", b"body", "bvh", b"bvh", "clip_id", b"clip_id", "display_name", b"display_name", "frames", b"frames", "source", b"source"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["body", b"body", "bvh", b"bvh", "clip_id", b"clip_id", "display_name", b"display_name", "frames", b"frames", "request_id", b"request_id", "source", b"source", "validate_only", b"validate_only"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType_source: _TypeAlias = _typing.Literal["bvh", "frames"]  # noqa: Y015
     _WhichOneofArgType_source: _TypeAlias = _typing.Literal["source", b"source"]  # noqa: Y015
@@ -485,6 +495,60 @@ class CreateClipResponse(_message.Message):
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
 Global___CreateClipResponse: _TypeAlias = CreateClipResponse  # noqa: Y015
+
+@_typing.final
+class StreamCreateClipRequest(_message.Message):
+    """Asks to store a clip and to be told how far it is."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    CREATE_CLIP_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def create_clip(self) -> Global___CreateClipRequest:
+        """The clip. Its `request_id` is ignored: a stream is not repeated. Required."""
+
+    def __init__(
+        self,
+        *,
+        create_clip: Global___CreateClipRequest | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___StreamCreateClipRequest: _TypeAlias = StreamCreateClipRequest  # noqa: Y015
+
+@_typing.final
+class StreamCreateClipResponse(_message.Message):
+    """How far it is, and in the end the clip."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    PROGRESS_FIELD_NUMBER: _builtins.int
+    CREATE_CLIP_FIELD_NUMBER: _builtins.int
+    progress: _builtins.float
+    """Share of the work that is done, 0…1."""
+    @_builtins.property
+    def create_clip(self) -> Global___CreateClipResponse:
+        """The stored clip; the last message."""
+
+    def __init__(
+        self,
+        *,
+        progress: _builtins.float = ...,
+        create_clip: Global___CreateClipResponse | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "message", b"message", "progress", b"progress"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "message", b"message", "progress", b"progress"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType_message: _TypeAlias = _typing.Literal["progress", "create_clip"]  # noqa: Y015
+    _WhichOneofArgType_message: _TypeAlias = _typing.Literal["message", b"message"]  # noqa: Y015
+    def WhichOneof(self, oneof_group: _WhichOneofArgType_message) -> _WhichOneofReturnType_message | None: ...
+
+Global___StreamCreateClipResponse: _TypeAlias = StreamCreateClipResponse  # noqa: Y015
 
 @_typing.final
 class GetClipRequest(_message.Message):
@@ -541,7 +605,7 @@ class ListClipsRequest(_message.Message):
     PAGE_SIZE_FIELD_NUMBER: _builtins.int
     PAGE_TOKEN_FIELD_NUMBER: _builtins.int
     page_size: _builtins.int
-    """Most clips to return, 0…1000. 0: 100."""
+    """Most clips to return. 0: 100; more than 1000 are taken as 1000."""
     page_token: _builtins.str
     """`next_page_token` of the page before. Empty: from the start."""
     def __init__(
@@ -593,16 +657,22 @@ class DeleteClipRequest(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     NAME_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `clips/{clip}`."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
         name: _builtins.str = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -638,6 +708,7 @@ class PlayClipRequest(_message.Message):
     START_TIME_S_FIELD_NUMBER: _builtins.int
     RESET_FIELD_NUMBER: _builtins.int
     PLACEMENT_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
@@ -656,6 +727,10 @@ class PlayClipRequest(_message.Message):
     reset: _builtins.bool
     """Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
     by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
+    """
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
     """
     control_token: _builtins.str
     """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
@@ -677,11 +752,12 @@ class PlayClipRequest(_message.Message):
         start_time_s: _builtins.float | None = ...,
         reset: _builtins.bool = ...,
         placement: _types_pb2.Placement | None = ...,
+        request_id: _builtins.str = ...,
         control_token: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "placement", b"placement", "start_time_s", b"start_time_s"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "clip", b"clip", "control_token", b"control_token", "figure", b"figure", "loop", b"loop", "placement", b"placement", "reset", b"reset", "speed", b"speed", "start_time_s", b"start_time_s"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "clip", b"clip", "control_token", b"control_token", "figure", b"figure", "loop", b"loop", "placement", b"placement", "request_id", b"request_id", "reset", b"reset", "speed", b"speed", "start_time_s", b"start_time_s"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__start_time_s: _TypeAlias = _typing.Literal["start_time_s"]  # noqa: Y015
     _WhichOneofArgType__start_time_s: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s"]  # noqa: Y015
@@ -722,9 +798,14 @@ class StopClipRequest(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     FIGURE_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     control_token: _builtins.str
     """Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
     the valid one.
@@ -733,11 +814,12 @@ class StopClipRequest(_message.Message):
         self,
         *,
         figure: _builtins.str = ...,
+        request_id: _builtins.str = ...,
         control_token: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_token", b"control_token", "figure", b"figure", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -794,14 +876,14 @@ class FigureMotion(_message.Message):
 
     DESCRIPTOR: _descriptor.Descriptor
 
-    FIGURE_FIELD_NUMBER: _builtins.int
+    FIGURE_ID_FIELD_NUMBER: _builtins.int
     ROOT_FIELD_NUMBER: _builtins.int
     JOINT_ANGLES_RAD_FIELD_NUMBER: _builtins.int
     BONE_ROTATIONS_FIELD_NUMBER: _builtins.int
     ROTATION_SPACE_FIELD_NUMBER: _builtins.int
     VELOCITY_FIELD_NUMBER: _builtins.int
     PLANTED_FIELD_NUMBER: _builtins.int
-    figure: _builtins.str
+    figure_id: _builtins.str
     """Figure: last part of its name. May be empty if the header names exactly one."""
     rotation_space: Global___RotationSpace.ValueType
     """What `bone_rotations` are relative to."""
@@ -828,7 +910,7 @@ class FigureMotion(_message.Message):
     def __init__(
         self,
         *,
-        figure: _builtins.str = ...,
+        figure_id: _builtins.str = ...,
         root: _types_pb2.Pose | None = ...,
         joint_angles_rad: _abc.Iterable[_builtins.float] | None = ...,
         bone_rotations: _abc.Iterable[Global___BoneRotation] | None = ...,
@@ -838,7 +920,7 @@ class FigureMotion(_message.Message):
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["root", b"root"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["bone_rotations", b"bone_rotations", "figure", b"figure", "joint_angles_rad", b"joint_angles_rad", "planted", b"planted", "root", b"root", "rotation_space", b"rotation_space", "velocity", b"velocity"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["bone_rotations", b"bone_rotations", "figure_id", b"figure_id", "joint_angles_rad", b"joint_angles_rad", "planted", b"planted", "root", b"root", "rotation_space", b"rotation_space", "velocity", b"velocity"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -885,7 +967,7 @@ class DriveHeader(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     WORLD_FIELD_NUMBER: _builtins.int
-    FIGURES_FIELD_NUMBER: _builtins.int
+    FIGURE_IDS_FIELD_NUMBER: _builtins.int
     DRIVER_ID_FIELD_NUMBER: _builtins.int
     NOMINAL_RATE_HZ_FIELD_NUMBER: _builtins.int
     PLAYOUT_DELAY_MS_FIELD_NUMBER: _builtins.int
@@ -930,7 +1012,7 @@ class DriveHeader(_message.Message):
     for streams that stand. Absent: the server's `live_window_ms`.
     """
     @_builtins.property
-    def figures(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
+    def figure_ids(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
         """Figures that are driven: last parts of their names. At least one."""
 
     @_builtins.property
@@ -943,7 +1025,7 @@ class DriveHeader(_message.Message):
         self,
         *,
         world: _builtins.str = ...,
-        figures: _abc.Iterable[_builtins.str] | None = ...,
+        figure_ids: _abc.Iterable[_builtins.str] | None = ...,
         driver_id: _builtins.str = ...,
         nominal_rate_hz: _builtins.float = ...,
         playout_delay_ms: _builtins.float | None = ...,
@@ -958,7 +1040,7 @@ class DriveHeader(_message.Message):
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "_preparation_window_ms", b"_preparation_window_ms", "extrapolation_limit_ms", b"extrapolation_limit_ms", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "_preparation_window_ms", b"_preparation_window_ms", "control_tokens", b"control_tokens", "driver_id", b"driver_id", "extrapolation_limit_ms", b"extrapolation_limit_ms", "figures", b"figures", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "max_playout_delay_ms", b"max_playout_delay_ms", "nominal_rate_hz", b"nominal_rate_hz", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "reset", b"reset", "underrun", b"underrun", "world", b"world"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms", "_grace_ms", b"_grace_ms", "_hold_limit_ms", b"_hold_limit_ms", "_playout_delay_ms", b"_playout_delay_ms", "_preparation_window_ms", b"_preparation_window_ms", "control_tokens", b"control_tokens", "driver_id", b"driver_id", "extrapolation_limit_ms", b"extrapolation_limit_ms", "figure_ids", b"figure_ids", "grace_ms", b"grace_ms", "hold_limit_ms", b"hold_limit_ms", "max_playout_delay_ms", b"max_playout_delay_ms", "nominal_rate_hz", b"nominal_rate_hz", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "reset", b"reset", "underrun", b"underrun", "world", b"world"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__extrapolation_limit_ms: _TypeAlias = _typing.Literal["extrapolation_limit_ms"]  # noqa: Y015
     _WhichOneofArgType__extrapolation_limit_ms: _TypeAlias = _typing.Literal["_extrapolation_limit_ms", b"_extrapolation_limit_ms"]  # noqa: Y015
@@ -1165,7 +1247,7 @@ class FigureFeedback(_message.Message):
 
     DESCRIPTOR: _descriptor.Descriptor
 
-    FIGURE_FIELD_NUMBER: _builtins.int
+    FIGURE_ID_FIELD_NUMBER: _builtins.int
     APPLIED_SEQUENCE_FIELD_NUMBER: _builtins.int
     APPLIED_SOURCE_TIME_NS_FIELD_NUMBER: _builtins.int
     BUFFERED_MS_FIELD_NUMBER: _builtins.int
@@ -1183,7 +1265,7 @@ class FigureFeedback(_message.Message):
     PREPARATION_WINDOW_MS_FIELD_NUMBER: _builtins.int
     RESYNC_COUNT_FIELD_NUMBER: _builtins.int
     BEHIND_MS_FIELD_NUMBER: _builtins.int
-    figure: _builtins.str
+    figure_id: _builtins.str
     """Last part of the figure's name."""
     applied_sequence: _builtins.int
     """Sequence of the newest frame that acts now; -1 if none yet."""
@@ -1228,7 +1310,7 @@ class FigureFeedback(_message.Message):
     def __init__(
         self,
         *,
-        figure: _builtins.str = ...,
+        figure_id: _builtins.str = ...,
         applied_sequence: _builtins.int = ...,
         applied_source_time_ns: _builtins.int = ...,
         buffered_ms: _builtins.float = ...,
@@ -1249,7 +1331,7 @@ class FigureFeedback(_message.Message):
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "behind_ms", b"behind_ms", "buffered_ms", b"buffered_ms", "extrapolated_count", b"extrapolated_count", "figure", b"figure", "held_count", b"held_count", "interpolated_count", b"interpolated_count", "jitter_ms", b"jitter_ms", "late_count", b"late_count", "overflow_count", b"overflow_count", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "present_count", b"present_count", "relaxed_count", b"relaxed_count", "resync_count", b"resync_count", "stale_count", b"stale_count", "supply", b"supply"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["applied_sequence", b"applied_sequence", "applied_source_time_ns", b"applied_source_time_ns", "behind_ms", b"behind_ms", "buffered_ms", b"buffered_ms", "extrapolated_count", b"extrapolated_count", "figure_id", b"figure_id", "held_count", b"held_count", "interpolated_count", b"interpolated_count", "jitter_ms", b"jitter_ms", "late_count", b"late_count", "overflow_count", b"overflow_count", "playout_delay_ms", b"playout_delay_ms", "preparation_window_ms", b"preparation_window_ms", "present_count", b"present_count", "relaxed_count", b"relaxed_count", "resync_count", b"resync_count", "stale_count", b"stale_count", "supply", b"supply"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -40,6 +40,11 @@ class MotionServiceStub:
                 request_serializer=sinew_dot_v1_dot_motion__pb2.CreateClipRequest.SerializeToString,
                 response_deserializer=sinew_dot_v1_dot_motion__pb2.CreateClipResponse.FromString,
                 _registered_method=True)
+        self.StreamCreateClip = channel.unary_stream(
+                '/sinew.v1.MotionService/StreamCreateClip',
+                request_serializer=sinew_dot_v1_dot_motion__pb2.StreamCreateClipRequest.SerializeToString,
+                response_deserializer=sinew_dot_v1_dot_motion__pb2.StreamCreateClipResponse.FromString,
+                _registered_method=True)
         self.GetClip = channel.unary_unary(
                 '/sinew.v1.MotionService/GetClip',
                 request_serializer=sinew_dot_v1_dot_motion__pb2.GetClipRequest.SerializeToString,
@@ -88,6 +93,13 @@ class MotionServiceServicer:
         context.set_details('Method not implemented!')
         raise NotImplementedError('Method not implemented!')
 
+    def StreamCreateClip(self, request, context):
+        """As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up.
+        """
+        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
+        context.set_details('Method not implemented!')
+        raise NotImplementedError('Method not implemented!')
+
     def GetClip(self, request, context):
         """One clip.
         """
@@ -112,8 +124,8 @@ class MotionServiceServicer:
     def PlayClip(self, request, context):
         """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
         it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
-        `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
-        while someone drives it live.
+        `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
+        (`FIGURE_CONTROLLED`) while someone drives it live.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -150,6 +162,11 @@ def add_MotionServiceServicer_to_server(servicer, server):
                     servicer.CreateClip,
                     request_deserializer=sinew_dot_v1_dot_motion__pb2.CreateClipRequest.FromString,
                     response_serializer=sinew_dot_v1_dot_motion__pb2.CreateClipResponse.SerializeToString,
+            ),
+            'StreamCreateClip': grpc.unary_stream_rpc_method_handler(
+                    servicer.StreamCreateClip,
+                    request_deserializer=sinew_dot_v1_dot_motion__pb2.StreamCreateClipRequest.FromString,
+                    response_serializer=sinew_dot_v1_dot_motion__pb2.StreamCreateClipResponse.SerializeToString,
             ),
             'GetClip': grpc.unary_unary_rpc_method_handler(
                     servicer.GetClip,
@@ -215,6 +232,33 @@ class MotionService:
             '/sinew.v1.MotionService/CreateClip',
             sinew_dot_v1_dot_motion__pb2.CreateClipRequest.SerializeToString,
             sinew_dot_v1_dot_motion__pb2.CreateClipResponse.FromString,
+            options,
+            channel_credentials,
+            insecure,
+            call_credentials,
+            compression,
+            wait_for_ready,
+            timeout,
+            metadata,
+            _registered_method=True)
+
+    @staticmethod
+    def StreamCreateClip(request,
+            target,
+            options=(),
+            channel_credentials=None,
+            call_credentials=None,
+            insecure=False,
+            compression=None,
+            wait_for_ready=None,
+            timeout=None,
+            metadata=None):
+        return grpc.experimental.unary_stream(
+            request,
+            target,
+            '/sinew.v1.MotionService/StreamCreateClip',
+            sinew_dot_v1_dot_motion__pb2.StreamCreateClipRequest.SerializeToString,
+            sinew_dot_v1_dot_motion__pb2.StreamCreateClipResponse.FromString,
             options,
             channel_credentials,
             insecure,

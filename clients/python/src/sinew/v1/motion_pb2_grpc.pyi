@@ -35,6 +35,8 @@ class MotionServiceStub:
     def __new__(cls, channel: _aio.Channel) -> MotionServiceAsyncStub: ...
     CreateClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.CreateClipRequest, _motion_pb2.CreateClipResponse]
     """Stores a clip from BVH bytes or from frames, retargeted to a body; the response says how the file was understood."""
+    StreamCreateClip: _grpc.UnaryStreamMultiCallable[_motion_pb2.StreamCreateClipRequest, _motion_pb2.StreamCreateClipResponse]
+    """As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up."""
     GetClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.GetClipRequest, _motion_pb2.GetClipResponse]
     """One clip."""
     ListClips: _grpc.UnaryUnaryMultiCallable[_motion_pb2.ListClipsRequest, _motion_pb2.ListClipsResponse]
@@ -44,8 +46,8 @@ class MotionServiceStub:
     PlayClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]
     """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
     it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
-    `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
-    while someone drives it live.
+    `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
+    (`FIGURE_CONTROLLED`) while someone drives it live.
     """
     StopClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]
     """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
@@ -66,6 +68,8 @@ class MotionServiceAsyncStub(MotionServiceStub):
     def __init__(self, channel: _aio.Channel) -> None: ...
     CreateClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.CreateClipRequest, _motion_pb2.CreateClipResponse]  # type: ignore[assignment]
     """Stores a clip from BVH bytes or from frames, retargeted to a body; the response says how the file was understood."""
+    StreamCreateClip: _aio.UnaryStreamMultiCallable[_motion_pb2.StreamCreateClipRequest, _motion_pb2.StreamCreateClipResponse]  # type: ignore[assignment]
+    """As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up."""
     GetClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.GetClipRequest, _motion_pb2.GetClipResponse]  # type: ignore[assignment]
     """One clip."""
     ListClips: _aio.UnaryUnaryMultiCallable[_motion_pb2.ListClipsRequest, _motion_pb2.ListClipsResponse]  # type: ignore[assignment]
@@ -75,8 +79,8 @@ class MotionServiceAsyncStub(MotionServiceStub):
     PlayClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]  # type: ignore[assignment]
     """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
     it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
-    `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
-    while someone drives it live.
+    `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
+    (`FIGURE_CONTROLLED`) while someone drives it live.
     """
     StopClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.StopClipRequest, _motion_pb2.StopClipResponse]  # type: ignore[assignment]
     """Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
@@ -100,6 +104,14 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         context: _ServicerContext,
     ) -> _typing.Union[_motion_pb2.CreateClipResponse, _abc.Awaitable[_motion_pb2.CreateClipResponse]]:
         """Stores a clip from BVH bytes or from frames, retargeted to a body; the response says how the file was understood."""
+
+    @_abc_1.abstractmethod
+    def StreamCreateClip(
+        self,
+        request: _motion_pb2.StreamCreateClipRequest,
+        context: _ServicerContext,
+    ) -> _typing.Union[_abc.Iterator[_motion_pb2.StreamCreateClipResponse], _abc.AsyncIterator[_motion_pb2.StreamCreateClipResponse]]:
+        """As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up."""
 
     @_abc_1.abstractmethod
     def GetClip(
@@ -133,8 +145,8 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
     ) -> _typing.Union[_motion_pb2.PlayClipResponse, _abc.Awaitable[_motion_pb2.PlayClipResponse]]:
         """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
         it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
-        `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
-        while someone drives it live.
+        `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
+        (`FIGURE_CONTROLLED`) while someone drives it live.
         """
 
     @_abc_1.abstractmethod

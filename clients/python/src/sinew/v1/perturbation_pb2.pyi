@@ -32,7 +32,7 @@ class Load(_message.Message):
     VELOCITY_MPS_FIELD_NUMBER: _builtins.int
     SECOND_SEGMENT_FIELD_NUMBER: _builtins.int
     SECOND_POINT_M_FIELD_NUMBER: _builtins.int
-    GRIP_N_FIELD_NUMBER: _builtins.int
+    GRIP_NEWTONS_FIELD_NUMBER: _builtins.int
     segment: _builtins.str
     """Segment name, for example `r_hand`. Required."""
     mass_kg: _builtins.float
@@ -43,7 +43,7 @@ class Load(_message.Message):
     """Second carrying segment, for example `l_hand` when `segment` is `r_hand`. Each then carries half of the mass, and
     the two points keep the distance they have when the load is taken. Empty: one hand.
     """
-    grip_n: _builtins.float
+    grip_newtons: _builtins.float
     """Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never."""
     @_builtins.property
     def point_m(self) -> _types_pb2.Vector3:
@@ -69,11 +69,11 @@ class Load(_message.Message):
         velocity_mps: _types_pb2.Vector3 | None = ...,
         second_segment: _builtins.str = ...,
         second_point_m: _types_pb2.Vector3 | None = ...,
-        grip_n: _builtins.float = ...,
+        grip_newtons: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["point_m", b"point_m", "second_point_m", b"second_point_m", "velocity_mps", b"velocity_mps"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["duration_s", b"duration_s", "grip_n", b"grip_n", "mass_kg", b"mass_kg", "point_m", b"point_m", "second_point_m", b"second_point_m", "second_segment", b"second_segment", "segment", b"segment", "velocity_mps", b"velocity_mps"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["duration_s", b"duration_s", "grip_newtons", b"grip_newtons", "mass_kg", b"mass_kg", "point_m", b"point_m", "second_point_m", b"second_point_m", "second_segment", b"second_segment", "segment", b"segment", "velocity_mps", b"velocity_mps"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -87,7 +87,7 @@ class Impulse(_message.Message):
 
     SEGMENT_FIELD_NUMBER: _builtins.int
     POINT_M_FIELD_NUMBER: _builtins.int
-    IMPULSE_NS_FIELD_NUMBER: _builtins.int
+    IMPULSE_NEWTON_SECONDS_FIELD_NUMBER: _builtins.int
     DURATION_S_FIELD_NUMBER: _builtins.int
     segment: _builtins.str
     """Segment name. Required."""
@@ -98,7 +98,7 @@ class Impulse(_message.Message):
         """Where, segment frame, m, each component within ±2. Absent: the segment's centre of mass."""
 
     @_builtins.property
-    def impulse_ns(self) -> _types_pb2.Vector3:
+    def impulse_newton_seconds(self) -> _types_pb2.Vector3:
         """Impulse, world axes, N·s, each component within ±1000."""
 
     def __init__(
@@ -106,12 +106,12 @@ class Impulse(_message.Message):
         *,
         segment: _builtins.str = ...,
         point_m: _types_pb2.Vector3 | None = ...,
-        impulse_ns: _types_pb2.Vector3 | None = ...,
+        impulse_newton_seconds: _types_pb2.Vector3 | None = ...,
         duration_s: _builtins.float = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["impulse_ns", b"impulse_ns", "point_m", b"point_m"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["impulse_newton_seconds", b"impulse_newton_seconds", "point_m", b"point_m"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["duration_s", b"duration_s", "impulse_ns", b"impulse_ns", "point_m", b"point_m", "segment", b"segment"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["duration_s", b"duration_s", "impulse_newton_seconds", b"impulse_newton_seconds", "point_m", b"point_m", "segment", b"segment"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -125,7 +125,7 @@ class Force(_message.Message):
 
     SEGMENT_FIELD_NUMBER: _builtins.int
     POINT_M_FIELD_NUMBER: _builtins.int
-    FORCE_N_FIELD_NUMBER: _builtins.int
+    FORCE_NEWTONS_FIELD_NUMBER: _builtins.int
     DURATION_S_FIELD_NUMBER: _builtins.int
     segment: _builtins.str
     """Segment name. Required."""
@@ -136,7 +136,7 @@ class Force(_message.Message):
         """Where, segment frame, m, each component within ±2. Absent: the segment's centre of mass."""
 
     @_builtins.property
-    def force_n(self) -> _types_pb2.Vector3:
+    def force_newtons(self) -> _types_pb2.Vector3:
         """Force, world axes, N, each component within ±100000."""
 
     def __init__(
@@ -144,12 +144,12 @@ class Force(_message.Message):
         *,
         segment: _builtins.str = ...,
         point_m: _types_pb2.Vector3 | None = ...,
-        force_n: _types_pb2.Vector3 | None = ...,
+        force_newtons: _types_pb2.Vector3 | None = ...,
         duration_s: _builtins.float = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["force_n", b"force_n", "point_m", b"point_m"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["force_newtons", b"force_newtons", "point_m", b"point_m"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["duration_s", b"duration_s", "force_n", b"force_n", "point_m", b"point_m", "segment", b"segment"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["duration_s", b"duration_s", "force_newtons", b"force_newtons", "point_m", b"point_m", "segment", b"segment"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -161,12 +161,12 @@ class Perturbation(_message.Message):
 
     DESCRIPTOR: _descriptor.Descriptor
 
-    FIGURE_FIELD_NUMBER: _builtins.int
+    FIGURE_ID_FIELD_NUMBER: _builtins.int
     TICK_FIELD_NUMBER: _builtins.int
     LOAD_FIELD_NUMBER: _builtins.int
     IMPULSE_FIELD_NUMBER: _builtins.int
     FORCE_FIELD_NUMBER: _builtins.int
-    figure: _builtins.str
+    figure_id: _builtins.str
     """Figure: last part of its name."""
     tick: _builtins.int
     """Tick at whose start it begins. Absent: at the next tick. Must not be in the past."""
@@ -185,7 +185,7 @@ class Perturbation(_message.Message):
     def __init__(
         self,
         *,
-        figure: _builtins.str = ...,
+        figure_id: _builtins.str = ...,
         tick: _builtins.int | None = ...,
         load: Global___Load | None = ...,
         impulse: Global___Impulse | None = ...,
@@ -193,7 +193,7 @@ class Perturbation(_message.Message):
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_tick", b"_tick", "force", b"force", "impulse", b"impulse", "kind", b"kind", "load", b"load", "tick", b"tick"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_tick", b"_tick", "figure", b"figure", "force", b"force", "impulse", b"impulse", "kind", b"kind", "load", b"load", "tick", b"tick"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_tick", b"_tick", "figure_id", b"figure_id", "force", b"force", "impulse", b"impulse", "kind", b"kind", "load", b"load", "tick", b"tick"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__tick: _TypeAlias = _typing.Literal["tick"]  # noqa: Y015
     _WhichOneofArgType__tick: _TypeAlias = _typing.Literal["_tick", b"_tick"]  # noqa: Y015
@@ -216,6 +216,8 @@ class ApplyPerturbationsRequest(_message.Message):
     CLIENT_ID_FIELD_NUMBER: _builtins.int
     SEQUENCE_FIELD_NUMBER: _builtins.int
     PERTURBATIONS_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
+    VALIDATE_ONLY_FIELD_NUMBER: _builtins.int
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     client_id: _builtins.str
@@ -224,6 +226,12 @@ class ApplyPerturbationsRequest(_message.Message):
     """
     sequence: _builtins.int
     """Number of the request at this client. Default: 0."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
+    validate_only: _builtins.bool
+    """Checks the request and answers as if it had been carried out, but changes nothing. Default: false."""
     @_builtins.property
     def perturbations(self) -> _containers.RepeatedCompositeFieldContainer[Global___Perturbation]:
         """At least one, at most 64."""
@@ -235,10 +243,12 @@ class ApplyPerturbationsRequest(_message.Message):
         client_id: _builtins.str = ...,
         sequence: _builtins.int = ...,
         perturbations: _abc.Iterable[Global___Perturbation] | None = ...,
+        request_id: _builtins.str = ...,
+        validate_only: _builtins.bool = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["client_id", b"client_id", "perturbations", b"perturbations", "sequence", b"sequence", "world", b"world"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["client_id", b"client_id", "perturbations", b"perturbations", "request_id", b"request_id", "sequence", b"sequence", "validate_only", b"validate_only", "world", b"world"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -273,16 +283,22 @@ class ClearPerturbationsRequest(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     FIGURE_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
     """Figure: resource name `worlds/{world}/figures/{figure}`."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
         figure: _builtins.str = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["figure", b"figure", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -22,35 +22,43 @@ _runtime_version.ValidateProtobufRuntimeVersion(
 _sym_db = _symbol_database.Default()
 
 
+from google.api import field_behavior_pb2 as google_dot_api_dot_field__behavior__pb2
+from google.api import resource_pb2 as google_dot_api_dot_resource__pb2
 from google.protobuf import timestamp_pb2 as google_dot_protobuf_dot_timestamp__pb2
 from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15sinew/v1/server.proto\x12\x08sinew.v1\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\"\x16\n\x14GetServerInfoRequest\"\xd5\x01\n\x15GetServerInfoResponse\x12\x0f\n\x07version\x18\x01 \x01(\t\x12.\n\nstart_time\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\x12\x12\n\nflag_names\x18\x03 \x03(\t\x12\x13\n\x0bview_fields\x18\x04 \x03(\t\x12\x15\n\rbuiltin_clips\x18\x05 \x03(\t\x12\x14\n\x0c\x63\x61pabilities\x18\x06 \x03(\t\x12%\n\x06limits\x18\x07 \x03(\x0b\x32\x15.sinew.v1.ServerLimit\"*\n\x0bServerLimit\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\r\n\x05value\x18\x02 \x01(\x03\"&\n\x15GetServerStatsRequest\x12\r\n\x05world\x18\x01 \x01(\t\"\xbb\x01\n\x16GetServerStatsResponse\x12$\n\x06worlds\x18\x01 \x03(\x0b\x32\x14.sinew.v1.WorldStats\x12\x1a\n\x12watch_stream_count\x18\x02 \x01(\x05\x12\x1a\n\x12\x64rive_stream_count\x18\x03 \x01(\x05\x12\x18\n\x10simulation_count\x18\x04 \x01(\x05\x12\x13\n\x0b\x62udget_used\x18\x05 \x01(\x01\x12\x14\n\x0c\x62udget_limit\x18\x06 \x01(\x01\"\xe1\x01\n\nWorldStats\x12\r\n\x05world\x18\x01 \x01(\t\x12\x12\n\ntick_count\x18\x02 \x01(\x03\x12\x15\n\roverrun_count\x18\x03 \x01(\x03\x12\x15\n\rskipped_count\x18\x04 \x01(\x03\x12\x15\n\rrefused_count\x18\x05 \x01(\x03\x12\x1b\n\x13\x64ropped_frame_count\x18\x06 \x01(\x03\x12\x14\n\x0cviewer_count\x18\x07 \x01(\x05\x12\x13\n\x0b\x62udget_used\x18\x08 \x01(\x01\x12#\n\x06stages\x18\t \x03(\x0b\x32\x13.sinew.v1.StageTime\"J\n\tStageTime\x12\r\n\x05stage\x18\x01 \x01(\t\x12\x0e\n\x06p50_us\x18\x02 \x01(\x01\x12\x0e\n\x06p99_us\x18\x03 \x01(\x01\x12\x0e\n\x06max_us\x18\x04 \x01(\x01\x32\xc2\x01\n\rServerService\x12V\n\rGetServerInfo\x12\x1e.sinew.v1.GetServerInfoRequest\x1a\x1f.sinew.v1.GetServerInfoResponse\"\x04\xe8\xe0\x18\x06\x12Y\n\x0eGetServerStats\x12\x1f.sinew.v1.GetServerStatsRequest\x1a .sinew.v1.GetServerStatsResponse\"\x04\xe8\xe0\x18\x06\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15sinew/v1/server.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\"\x16\n\x14GetServerInfoRequest\"\xe6\x01\n\x15GetServerInfoResponse\x12\x0f\n\x07version\x18\x01 \x01(\t\x12.\n\nstart_time\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\x12\x12\n\nflag_names\x18\x03 \x03(\t\x12\x13\n\x0bview_fields\x18\x04 \x03(\t\x12&\n\rbuiltin_clips\x18\x05 \x03(\tB\x0f\xfa\x41\x0c\n\nsinew/Clip\x12\x14\n\x0c\x63\x61pabilities\x18\x06 \x03(\t\x12%\n\x06limits\x18\x07 \x03(\x0b\x32\x15.sinew.v1.ServerLimit\"*\n\x0bServerLimit\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\r\n\x05value\x18\x02 \x01(\x03\"<\n\x15GetServerStatsRequest\x12#\n\x05world\x18\x01 \x01(\tB\x14\xe2\x41\x01\x01\xfa\x41\r\n\x0bsinew/World\"\xbb\x01\n\x16GetServerStatsResponse\x12$\n\x06worlds\x18\x01 \x03(\x0b\x32\x14.sinew.v1.WorldStats\x12\x1a\n\x12watch_stream_count\x18\x02 \x01(\x05\x12\x1a\n\x12\x64rive_stream_count\x18\x03 \x01(\x05\x12\x18\n\x10simulation_count\x18\x04 \x01(\x05\x12\x13\n\x0b\x62udget_used\x18\x05 \x01(\x01\x12\x14\n\x0c\x62udget_limit\x18\x06 \x01(\x01\"\xf3\x01\n\nWorldStats\x12\x1f\n\x05world\x18\x01 \x01(\tB\x10\xfa\x41\r\n\x0bsinew/World\x12\x12\n\ntick_count\x18\x02 \x01(\x03\x12\x15\n\roverrun_count\x18\x03 \x01(\x03\x12\x15\n\rskipped_count\x18\x04 \x01(\x03\x12\x15\n\rrefused_count\x18\x05 \x01(\x03\x12\x1b\n\x13\x64ropped_frame_count\x18\x06 \x01(\x03\x12\x14\n\x0cviewer_count\x18\x07 \x01(\x05\x12\x13\n\x0b\x62udget_used\x18\x08 \x01(\x01\x12#\n\x06stages\x18\t \x03(\x0b\x32\x13.sinew.v1.StageTime\"J\n\tStageTime\x12\r\n\x05stage\x18\x01 \x01(\t\x12\x0e\n\x06p50_us\x18\x02 \x01(\x01\x12\x0e\n\x06p99_us\x18\x03 \x01(\x01\x12\x0e\n\x06max_us\x18\x04 \x01(\x01\x32\xc2\x01\n\rServerService\x12V\n\rGetServerInfo\x12\x1e.sinew.v1.GetServerInfoRequest\x1a\x1f.sinew.v1.GetServerInfoResponse\"\x04\xe8\xe0\x18\x06\x12Y\n\x0eGetServerStats\x12\x1f.sinew.v1.GetServerStatsRequest\x1a .sinew.v1.GetServerStatsResponse\"\x04\xe8\xe0\x18\x06\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.server_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
+  _globals['_GETSERVERINFORESPONSE'].fields_by_name['builtin_clips']._loaded_options = None
+  _globals['_GETSERVERINFORESPONSE'].fields_by_name['builtin_clips']._serialized_options = b'\372A\014\n\nsinew/Clip'
+  _globals['_GETSERVERSTATSREQUEST'].fields_by_name['world']._loaded_options = None
+  _globals['_GETSERVERSTATSREQUEST'].fields_by_name['world']._serialized_options = b'\342A\001\001\372A\r\n\013sinew/World'
+  _globals['_WORLDSTATS'].fields_by_name['world']._loaded_options = None
+  _globals['_WORLDSTATS'].fields_by_name['world']._serialized_options = b'\372A\r\n\013sinew/World'
   _globals['_SERVERSERVICE'].methods_by_name['GetServerInfo']._loaded_options = None
   _globals['_SERVERSERVICE'].methods_by_name['GetServerInfo']._serialized_options = b'\350\340\030\006'
   _globals['_SERVERSERVICE'].methods_by_name['GetServerStats']._loaded_options = None
   _globals['_SERVERSERVICE'].methods_by_name['GetServerStats']._serialized_options = b'\350\340\030\006'
-  _globals['_GETSERVERINFOREQUEST']._serialized_start=92
-  _globals['_GETSERVERINFOREQUEST']._serialized_end=114
-  _globals['_GETSERVERINFORESPONSE']._serialized_start=117
-  _globals['_GETSERVERINFORESPONSE']._serialized_end=330
-  _globals['_SERVERLIMIT']._serialized_start=332
-  _globals['_SERVERLIMIT']._serialized_end=374
-  _globals['_GETSERVERSTATSREQUEST']._serialized_start=376
-  _globals['_GETSERVERSTATSREQUEST']._serialized_end=414
-  _globals['_GETSERVERSTATSRESPONSE']._serialized_start=417
-  _globals['_GETSERVERSTATSRESPONSE']._serialized_end=604
-  _globals['_WORLDSTATS']._serialized_start=607
-  _globals['_WORLDSTATS']._serialized_end=832
-  _globals['_STAGETIME']._serialized_start=834
-  _globals['_STAGETIME']._serialized_end=908
-  _globals['_SERVERSERVICE']._serialized_start=911
-  _globals['_SERVERSERVICE']._serialized_end=1105
+  _globals['_GETSERVERINFOREQUEST']._serialized_start=152
+  _globals['_GETSERVERINFOREQUEST']._serialized_end=174
+  _globals['_GETSERVERINFORESPONSE']._serialized_start=177
+  _globals['_GETSERVERINFORESPONSE']._serialized_end=407
+  _globals['_SERVERLIMIT']._serialized_start=409
+  _globals['_SERVERLIMIT']._serialized_end=451
+  _globals['_GETSERVERSTATSREQUEST']._serialized_start=453
+  _globals['_GETSERVERSTATSREQUEST']._serialized_end=513
+  _globals['_GETSERVERSTATSRESPONSE']._serialized_start=516
+  _globals['_GETSERVERSTATSRESPONSE']._serialized_end=703
+  _globals['_WORLDSTATS']._serialized_start=706
+  _globals['_WORLDSTATS']._serialized_end=949
+  _globals['_STAGETIME']._serialized_start=951
+  _globals['_STAGETIME']._serialized_end=1025
+  _globals['_SERVERSERVICE']._serialized_start=1028
+  _globals['_SERVERSERVICE']._serialized_end=1222
 # @@protoc_insertion_point(module_scope)

@@ -22,6 +22,8 @@ _runtime_version.ValidateProtobufRuntimeVersion(
 _sym_db = _symbol_database.Default()
 
 
+from google.api import field_behavior_pb2 as google_dot_api_dot_field__behavior__pb2
+from google.api import resource_pb2 as google_dot_api_dot_resource__pb2
 from sinew.v1 import figure_pb2 as sinew_dot_v1_dot_figure__pb2
 from sinew.v1 import frame_pb2 as sinew_dot_v1_dot_frame__pb2
 from sinew.v1 import motion_pb2 as sinew_dot_v1_dot_motion__pb2
@@ -31,23 +33,53 @@ from sinew.v1 import state_pb2 as sinew_dot_v1_dot_state__pb2
 from sinew.v1 import types_pb2 as sinew_dot_v1_dot_types__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x19sinew/v1/simulation.proto\x12\x08sinew.v1\x1a\x15sinew/v1/figure.proto\x1a\x14sinew/v1/frame.proto\x1a\x15sinew/v1/motion.proto\x1a\x16sinew/v1/options.proto\x1a\x1bsinew/v1/perturbation.proto\x1a\x14sinew/v1/state.proto\x1a\x14sinew/v1/types.proto\"R\n\x11TimedPerturbation\x12\x0f\n\x07start_s\x18\x01 \x01(\x01\x12,\n\x0cperturbation\x18\x02 \x01(\x0b\x32\x16.sinew.v1.Perturbation\"\x8c\x02\n\x13SimulateClipRequest\x12\x0e\n\x04\x63lip\x18\x01 \x01(\tH\x00\x12\"\n\x03\x62vh\x18\x02 \x01(\x0b\x32\x13.sinew.v1.BvhSourceH\x00\x12 \n\x06\x66igure\x18\x03 \x01(\x0b\x32\x10.sinew.v1.Figure\x12\x0f\n\x07rate_hz\x18\x04 \x01(\x01\x12\x10\n\x08substeps\x18\x05 \x01(\x05\x12\x12\n\nduration_s\x18\x06 \x01(\x01\x12\x0c\n\x04loop\x18\x07 \x01(\x08\x12\x32\n\rperturbations\x18\x08 \x03(\x0b\x32\x1b.sinew.v1.TimedPerturbation\x12\x1c\n\x04view\x18\t \x01(\x0b\x32\x0e.sinew.v1.ViewB\x08\n\x06source\"\xb5\x01\n\x14SimulateClipResponse\x12,\n\x07summary\x18\x01 \x01(\x0b\x32\x1b.sinew.v1.SimulationSummary\x12$\n\x06\x66rames\x18\x02 \x03(\x0b\x32\x14.sinew.v1.WorldFrame\x12\x1f\n\x06\x65vents\x18\x03 \x03(\x0b\x32\x0f.sinew.v1.Event\x12(\n\x06report\x18\x04 \x01(\x0b\x32\x18.sinew.v1.RetargetReport\"\xe9\x02\n\x11SimulationSummary\x12\x12\n\ntick_count\x18\x01 \x01(\x05\x12\x0f\n\x07rate_hz\x18\x02 \x01(\x01\x12\x16\n\tfell_at_s\x18\x03 \x01(\x01H\x00\x88\x01\x01\x12\x1e\n\x16tracking_joint_rms_deg\x18\x04 \x01(\x01\x12\x1e\n\x16tracking_joint_max_deg\x18\x05 \x01(\x01\x12\x17\n\x0fmax_utilisation\x18\x06 \x01(\x01\x12\x16\n\x0eover_limit_max\x18\x07 \x01(\x01\x12\x13\n\x0bsaturated_s\x18\x08 \x03(\x01\x12\x19\n\x0cmargin_min_m\x18\t \x01(\x01H\x01\x88\x01\x01\x12\x19\n\x11penetration_max_m\x18\n \x01(\x01\x12\x12\n\nstate_hash\x18\x0b \x01(\x10\x12\x13\n\x0btick_p50_us\x18\x0c \x01(\x01\x12\x13\n\x0btick_p99_us\x18\r \x01(\x01\x42\x0c\n\n_fell_at_sB\x0f\n\r_margin_min_m2h\n\x11SimulationService\x12S\n\x0cSimulateClip\x12\x1d.sinew.v1.SimulateClipRequest\x1a\x1e.sinew.v1.SimulateClipResponse\"\x04\xe8\xe0\x18\x07\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x19sinew/v1/simulation.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x15sinew/v1/figure.proto\x1a\x14sinew/v1/frame.proto\x1a\x15sinew/v1/motion.proto\x1a\x16sinew/v1/options.proto\x1a\x1bsinew/v1/perturbation.proto\x1a\x14sinew/v1/state.proto\x1a\x14sinew/v1/types.proto\"^\n\x11TimedPerturbation\x12\x15\n\x07start_s\x18\x01 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x32\n\x0cperturbation\x18\x02 \x01(\x0b\x32\x16.sinew.v1.PerturbationB\x04\xe2\x41\x01\x01\"\xcc\x02\n\x13SimulateClipRequest\x12\x1f\n\x04\x63lip\x18\x01 \x01(\tB\x0f\xfa\x41\x0c\n\nsinew/ClipH\x00\x12\"\n\x03\x62vh\x18\x02 \x01(\x0b\x32\x13.sinew.v1.BvhSourceH\x00\x12&\n\x06\x66igure\x18\x03 \x01(\x0b\x32\x10.sinew.v1.FigureB\x04\xe2\x41\x01\x01\x12\x15\n\x07rate_hz\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x1b\n\rsubstep_count\x18\x05 \x01(\x05\x42\x04\xe2\x41\x01\x01\x12\x18\n\nduration_s\x18\x06 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x12\n\x04loop\x18\x07 \x01(\x08\x42\x04\xe2\x41\x01\x01\x12\x38\n\rperturbations\x18\x08 \x03(\x0b\x32\x1b.sinew.v1.TimedPerturbationB\x04\xe2\x41\x01\x01\x12\"\n\x04view\x18\t \x01(\x0b\x32\x0e.sinew.v1.ViewB\x04\xe2\x41\x01\x01\x42\x08\n\x06source\"\xb5\x01\n\x14SimulateClipResponse\x12,\n\x07summary\x18\x01 \x01(\x0b\x32\x1b.sinew.v1.SimulationSummary\x12$\n\x06\x66rames\x18\x02 \x03(\x0b\x32\x14.sinew.v1.WorldFrame\x12\x1f\n\x06\x65vents\x18\x03 \x03(\x0b\x32\x0f.sinew.v1.Event\x12(\n\x06report\x18\x04 \x01(\x0b\x32\x18.sinew.v1.RetargetReport\"W\n\x19StreamSimulateClipRequest\x12:\n\rsimulate_clip\x18\x01 \x01(\x0b\x32\x1d.sinew.v1.SimulateClipRequestB\x04\xe2\x41\x01\x02\"\x92\x01\n\x1aStreamSimulateClipResponse\x12\x30\n\x08progress\x18\x01 \x01(\x0b\x32\x1c.sinew.v1.SimulationProgressH\x00\x12\x37\n\rsimulate_clip\x18\x02 \x01(\x0b\x32\x1e.sinew.v1.SimulateClipResponseH\x00\x42\t\n\x07message\"L\n\x12SimulationProgress\x12\x10\n\x08progress\x18\x01 \x01(\x01\x12$\n\x06\x66rames\x18\x02 \x03(\x0b\x32\x14.sinew.v1.WorldFrame\"\xe9\x02\n\x11SimulationSummary\x12\x12\n\ntick_count\x18\x01 \x01(\x05\x12\x0f\n\x07rate_hz\x18\x02 \x01(\x01\x12\x16\n\tfell_at_s\x18\x03 \x01(\x01H\x00\x88\x01\x01\x12\x1e\n\x16tracking_joint_rms_rad\x18\x04 \x01(\x01\x12\x1e\n\x16tracking_joint_max_rad\x18\x05 \x01(\x01\x12\x17\n\x0fmax_utilisation\x18\x06 \x01(\x01\x12\x16\n\x0eover_limit_max\x18\x07 \x01(\x01\x12\x13\n\x0bsaturated_s\x18\x08 \x03(\x01\x12\x19\n\x0cmargin_min_m\x18\t \x01(\x01H\x01\x88\x01\x01\x12\x19\n\x11penetration_max_m\x18\n \x01(\x01\x12\x12\n\nstate_hash\x18\x0b \x01(\x10\x12\x13\n\x0btick_p50_us\x18\x0c \x01(\x01\x12\x13\n\x0btick_p99_us\x18\r \x01(\x01\x42\x0c\n\n_fell_at_sB\x0f\n\r_margin_min_m2\xd1\x01\n\x11SimulationService\x12S\n\x0cSimulateClip\x12\x1d.sinew.v1.SimulateClipRequest\x1a\x1e.sinew.v1.SimulateClipResponse\"\x04\xe8\xe0\x18\x07\x12g\n\x12StreamSimulateClip\x12#.sinew.v1.StreamSimulateClipRequest\x1a$.sinew.v1.StreamSimulateClipResponse\"\x04\xe8\xe0\x18\x07\x30\x01\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.simulation_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
+  _globals['_TIMEDPERTURBATION'].fields_by_name['start_s']._loaded_options = None
+  _globals['_TIMEDPERTURBATION'].fields_by_name['start_s']._serialized_options = b'\342A\001\001'
+  _globals['_TIMEDPERTURBATION'].fields_by_name['perturbation']._loaded_options = None
+  _globals['_TIMEDPERTURBATION'].fields_by_name['perturbation']._serialized_options = b'\342A\001\001'
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['clip']._loaded_options = None
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['clip']._serialized_options = b'\372A\014\n\nsinew/Clip'
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['figure']._loaded_options = None
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['figure']._serialized_options = b'\342A\001\001'
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['rate_hz']._loaded_options = None
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['rate_hz']._serialized_options = b'\342A\001\001'
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['substep_count']._loaded_options = None
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['substep_count']._serialized_options = b'\342A\001\001'
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['duration_s']._loaded_options = None
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['duration_s']._serialized_options = b'\342A\001\001'
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['loop']._loaded_options = None
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['loop']._serialized_options = b'\342A\001\001'
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['perturbations']._loaded_options = None
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['perturbations']._serialized_options = b'\342A\001\001'
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['view']._loaded_options = None
+  _globals['_SIMULATECLIPREQUEST'].fields_by_name['view']._serialized_options = b'\342A\001\001'
+  _globals['_STREAMSIMULATECLIPREQUEST'].fields_by_name['simulate_clip']._loaded_options = None
+  _globals['_STREAMSIMULATECLIPREQUEST'].fields_by_name['simulate_clip']._serialized_options = b'\342A\001\002'
   _globals['_SIMULATIONSERVICE'].methods_by_name['SimulateClip']._loaded_options = None
   _globals['_SIMULATIONSERVICE'].methods_by_name['SimulateClip']._serialized_options = b'\350\340\030\007'
-  _globals['_TIMEDPERTURBATION']._serialized_start=204
-  _globals['_TIMEDPERTURBATION']._serialized_end=286
-  _globals['_SIMULATECLIPREQUEST']._serialized_start=289
-  _globals['_SIMULATECLIPREQUEST']._serialized_end=557
-  _globals['_SIMULATECLIPRESPONSE']._serialized_start=560
-  _globals['_SIMULATECLIPRESPONSE']._serialized_end=741
-  _globals['_SIMULATIONSUMMARY']._serialized_start=744
-  _globals['_SIMULATIONSUMMARY']._serialized_end=1105
-  _globals['_SIMULATIONSERVICE']._serialized_start=1107
-  _globals['_SIMULATIONSERVICE']._serialized_end=1211
+  _globals['_SIMULATIONSERVICE'].methods_by_name['StreamSimulateClip']._loaded_options = None
+  _globals['_SIMULATIONSERVICE'].methods_by_name['StreamSimulateClip']._serialized_options = b'\350\340\030\007'
+  _globals['_TIMEDPERTURBATION']._serialized_start=264
+  _globals['_TIMEDPERTURBATION']._serialized_end=358
+  _globals['_SIMULATECLIPREQUEST']._serialized_start=361
+  _globals['_SIMULATECLIPREQUEST']._serialized_end=693
+  _globals['_SIMULATECLIPRESPONSE']._serialized_start=696
+  _globals['_SIMULATECLIPRESPONSE']._serialized_end=877
+  _globals['_STREAMSIMULATECLIPREQUEST']._serialized_start=879
+  _globals['_STREAMSIMULATECLIPREQUEST']._serialized_end=966
+  _globals['_STREAMSIMULATECLIPRESPONSE']._serialized_start=969
+  _globals['_STREAMSIMULATECLIPRESPONSE']._serialized_end=1115
+  _globals['_SIMULATIONPROGRESS']._serialized_start=1117
+  _globals['_SIMULATIONPROGRESS']._serialized_end=1193
+  _globals['_SIMULATIONSUMMARY']._serialized_start=1196
+  _globals['_SIMULATIONSUMMARY']._serialized_end=1557
+  _globals['_SIMULATIONSERVICE']._serialized_start=1560
+  _globals['_SIMULATIONSERVICE']._serialized_end=1769
 # @@protoc_insertion_point(module_scope)

@@ -62,7 +62,7 @@ class SimulateClipRequest(_message.Message):
     BVH_FIELD_NUMBER: _builtins.int
     FIGURE_FIELD_NUMBER: _builtins.int
     RATE_HZ_FIELD_NUMBER: _builtins.int
-    SUBSTEPS_FIELD_NUMBER: _builtins.int
+    SUBSTEP_COUNT_FIELD_NUMBER: _builtins.int
     DURATION_S_FIELD_NUMBER: _builtins.int
     LOOP_FIELD_NUMBER: _builtins.int
     PERTURBATIONS_FIELD_NUMBER: _builtins.int
@@ -71,7 +71,7 @@ class SimulateClipRequest(_message.Message):
     """A stored or built-in clip: `clips/{clip}`."""
     rate_hz: _builtins.float
     """Ticks per second, 10…1000. 0 or absent: 60."""
-    substeps: _builtins.int
+    substep_count: _builtins.int
     """Substeps in one tick, 1…16. 0 or absent: 2."""
     duration_s: _builtins.float
     """How long, s, up to the server's `max_simulation_s` (default 120). 0 or absent: the length of the clip."""
@@ -100,7 +100,7 @@ class SimulateClipRequest(_message.Message):
         bvh: _motion_pb2.BvhSource | None = ...,
         figure: _figure_pb2.Figure | None = ...,
         rate_hz: _builtins.float = ...,
-        substeps: _builtins.int = ...,
+        substep_count: _builtins.int = ...,
         duration_s: _builtins.float = ...,
         loop: _builtins.bool = ...,
         perturbations: _abc.Iterable[Global___TimedPerturbation] | None = ...,
@@ -108,7 +108,7 @@ class SimulateClipRequest(_message.Message):
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["bvh", b"bvh", "clip", b"clip", "figure", b"figure", "source", b"source", "view", b"view"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["bvh", b"bvh", "clip", b"clip", "duration_s", b"duration_s", "figure", b"figure", "loop", b"loop", "perturbations", b"perturbations", "rate_hz", b"rate_hz", "source", b"source", "substeps", b"substeps", "view", b"view"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["bvh", b"bvh", "clip", b"clip", "duration_s", b"duration_s", "figure", b"figure", "loop", b"loop", "perturbations", b"perturbations", "rate_hz", b"rate_hz", "source", b"source", "substep_count", b"substep_count", "view", b"view"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType_source: _TypeAlias = _typing.Literal["clip", "bvh"]  # noqa: Y015
     _WhichOneofArgType_source: _TypeAlias = _typing.Literal["source", b"source"]  # noqa: Y015
@@ -159,6 +159,90 @@ class SimulateClipResponse(_message.Message):
 Global___SimulateClipResponse: _TypeAlias = SimulateClipResponse  # noqa: Y015
 
 @_typing.final
+class StreamSimulateClipRequest(_message.Message):
+    """Asks for a simulation, bit by bit."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    SIMULATE_CLIP_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def simulate_clip(self) -> Global___SimulateClipRequest:
+        """The simulation. Required."""
+
+    def __init__(
+        self,
+        *,
+        simulate_clip: Global___SimulateClipRequest | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["simulate_clip", b"simulate_clip"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["simulate_clip", b"simulate_clip"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___StreamSimulateClipRequest: _TypeAlias = StreamSimulateClipRequest  # noqa: Y015
+
+@_typing.final
+class StreamSimulateClipResponse(_message.Message):
+    """One message of a simulation."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    PROGRESS_FIELD_NUMBER: _builtins.int
+    SIMULATE_CLIP_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def progress(self) -> Global___SimulationProgress:
+        """How far it is, and what was computed since the message before."""
+
+    @_builtins.property
+    def simulate_clip(self) -> Global___SimulateClipResponse:
+        """The end: as the answer of `SimulateClip`, without frames. The last message."""
+
+    def __init__(
+        self,
+        *,
+        progress: Global___SimulationProgress | None = ...,
+        simulate_clip: Global___SimulateClipResponse | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["message", b"message", "progress", b"progress", "simulate_clip", b"simulate_clip"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["message", b"message", "progress", b"progress", "simulate_clip", b"simulate_clip"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType_message: _TypeAlias = _typing.Literal["progress", "simulate_clip"]  # noqa: Y015
+    _WhichOneofArgType_message: _TypeAlias = _typing.Literal["message", b"message"]  # noqa: Y015
+    def WhichOneof(self, oneof_group: _WhichOneofArgType_message) -> _WhichOneofReturnType_message | None: ...
+
+Global___StreamSimulateClipResponse: _TypeAlias = StreamSimulateClipResponse  # noqa: Y015
+
+@_typing.final
+class SimulationProgress(_message.Message):
+    """How far a simulation is."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    PROGRESS_FIELD_NUMBER: _builtins.int
+    FRAMES_FIELD_NUMBER: _builtins.int
+    progress: _builtins.float
+    """Share of the work that is done, 0…1."""
+    @_builtins.property
+    def frames(self) -> _containers.RepeatedCompositeFieldContainer[_frame_pb2.WorldFrame]:
+        """Frames since the message before, if a view was asked for."""
+
+    def __init__(
+        self,
+        *,
+        progress: _builtins.float = ...,
+        frames: _abc.Iterable[_frame_pb2.WorldFrame] | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["frames", b"frames", "progress", b"progress"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___SimulationProgress: _TypeAlias = SimulationProgress  # noqa: Y015
+
+@_typing.final
 class SimulationSummary(_message.Message):
     """Figures of merit of a simulation."""
 
@@ -167,8 +251,8 @@ class SimulationSummary(_message.Message):
     TICK_COUNT_FIELD_NUMBER: _builtins.int
     RATE_HZ_FIELD_NUMBER: _builtins.int
     FELL_AT_S_FIELD_NUMBER: _builtins.int
-    TRACKING_JOINT_RMS_DEG_FIELD_NUMBER: _builtins.int
-    TRACKING_JOINT_MAX_DEG_FIELD_NUMBER: _builtins.int
+    TRACKING_JOINT_RMS_RAD_FIELD_NUMBER: _builtins.int
+    TRACKING_JOINT_MAX_RAD_FIELD_NUMBER: _builtins.int
     MAX_UTILISATION_FIELD_NUMBER: _builtins.int
     OVER_LIMIT_MAX_FIELD_NUMBER: _builtins.int
     SATURATED_S_FIELD_NUMBER: _builtins.int
@@ -183,12 +267,12 @@ class SimulationSummary(_message.Message):
     """Ticks per second."""
     fell_at_s: _builtins.float
     """When the figure fell, s; absent if it did not."""
-    tracking_joint_rms_deg: _builtins.float
+    tracking_joint_rms_rad: _builtins.float
     """Tracking error of the joint angles, target minus actual at the start of a tick: root mean square over DOFs and
-    ticks, degrees. The target is the prepared motion, moved along with the feet after each step.
+    ticks, rad. The target is the prepared motion, moved along with the feet after each step.
     """
-    tracking_joint_max_deg: _builtins.float
-    """Largest tracking error of a joint angle, degrees."""
+    tracking_joint_max_rad: _builtins.float
+    """Largest tracking error of a joint angle, rad."""
     max_utilisation: _builtins.float
     """Largest torque relative to the torque available."""
     over_limit_max: _builtins.float
@@ -213,8 +297,8 @@ class SimulationSummary(_message.Message):
         tick_count: _builtins.int = ...,
         rate_hz: _builtins.float = ...,
         fell_at_s: _builtins.float | None = ...,
-        tracking_joint_rms_deg: _builtins.float = ...,
-        tracking_joint_max_deg: _builtins.float = ...,
+        tracking_joint_rms_rad: _builtins.float = ...,
+        tracking_joint_max_rad: _builtins.float = ...,
         max_utilisation: _builtins.float = ...,
         over_limit_max: _builtins.float = ...,
         saturated_s: _abc.Iterable[_builtins.float] | None = ...,
@@ -226,7 +310,7 @@ class SimulationSummary(_message.Message):
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_fell_at_s", b"_fell_at_s", "_margin_min_m", b"_margin_min_m", "fell_at_s", b"fell_at_s", "margin_min_m", b"margin_min_m"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_fell_at_s", b"_fell_at_s", "_margin_min_m", b"_margin_min_m", "fell_at_s", b"fell_at_s", "margin_min_m", b"margin_min_m", "max_utilisation", b"max_utilisation", "over_limit_max", b"over_limit_max", "penetration_max_m", b"penetration_max_m", "rate_hz", b"rate_hz", "saturated_s", b"saturated_s", "state_hash", b"state_hash", "tick_count", b"tick_count", "tick_p50_us", b"tick_p50_us", "tick_p99_us", b"tick_p99_us", "tracking_joint_max_deg", b"tracking_joint_max_deg", "tracking_joint_rms_deg", b"tracking_joint_rms_deg"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_fell_at_s", b"_fell_at_s", "_margin_min_m", b"_margin_min_m", "fell_at_s", b"fell_at_s", "margin_min_m", b"margin_min_m", "max_utilisation", b"max_utilisation", "over_limit_max", b"over_limit_max", "penetration_max_m", b"penetration_max_m", "rate_hz", b"rate_hz", "saturated_s", b"saturated_s", "state_hash", b"state_hash", "tick_count", b"tick_count", "tick_p50_us", b"tick_p50_us", "tick_p99_us", b"tick_p99_us", "tracking_joint_max_rad", b"tracking_joint_max_rad", "tracking_joint_rms_rad", b"tracking_joint_rms_rad"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__fell_at_s: _TypeAlias = _typing.Literal["fell_at_s"]  # noqa: Y015
     _WhichOneofArgType__fell_at_s: _TypeAlias = _typing.Literal["_fell_at_s", b"_fell_at_s"]  # noqa: Y015

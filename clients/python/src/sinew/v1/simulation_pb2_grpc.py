@@ -40,6 +40,11 @@ class SimulationServiceStub:
                 request_serializer=sinew_dot_v1_dot_simulation__pb2.SimulateClipRequest.SerializeToString,
                 response_deserializer=sinew_dot_v1_dot_simulation__pb2.SimulateClipResponse.FromString,
                 _registered_method=True)
+        self.StreamSimulateClip = channel.unary_stream(
+                '/sinew.v1.SimulationService/StreamSimulateClip',
+                request_serializer=sinew_dot_v1_dot_simulation__pb2.StreamSimulateClipRequest.SerializeToString,
+                response_deserializer=sinew_dot_v1_dot_simulation__pb2.StreamSimulateClipResponse.FromString,
+                _registered_method=True)
 
 
 class SimulationServiceServicer:
@@ -53,6 +58,14 @@ class SimulationServiceServicer:
         context.set_details('Method not implemented!')
         raise NotImplementedError('Method not implemented!')
 
+    def StreamSimulateClip(self, request, context):
+        """As `SimulateClip`, with frames as they are computed: the streaming twin. The size of a response does not bound
+        them, and a slow reader slows the simulation down. Ending the stream gives the simulation up.
+        """
+        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
+        context.set_details('Method not implemented!')
+        raise NotImplementedError('Method not implemented!')
+
 
 def add_SimulationServiceServicer_to_server(servicer, server):
     rpc_method_handlers = {
@@ -60,6 +73,11 @@ def add_SimulationServiceServicer_to_server(servicer, server):
                     servicer.SimulateClip,
                     request_deserializer=sinew_dot_v1_dot_simulation__pb2.SimulateClipRequest.FromString,
                     response_serializer=sinew_dot_v1_dot_simulation__pb2.SimulateClipResponse.SerializeToString,
+            ),
+            'StreamSimulateClip': grpc.unary_stream_rpc_method_handler(
+                    servicer.StreamSimulateClip,
+                    request_deserializer=sinew_dot_v1_dot_simulation__pb2.StreamSimulateClipRequest.FromString,
+                    response_serializer=sinew_dot_v1_dot_simulation__pb2.StreamSimulateClipResponse.SerializeToString,
             ),
     }
     generic_handler = grpc.method_handlers_generic_handler(
@@ -90,6 +108,33 @@ class SimulationService:
             '/sinew.v1.SimulationService/SimulateClip',
             sinew_dot_v1_dot_simulation__pb2.SimulateClipRequest.SerializeToString,
             sinew_dot_v1_dot_simulation__pb2.SimulateClipResponse.FromString,
+            options,
+            channel_credentials,
+            insecure,
+            call_credentials,
+            compression,
+            wait_for_ready,
+            timeout,
+            metadata,
+            _registered_method=True)
+
+    @staticmethod
+    def StreamSimulateClip(request,
+            target,
+            options=(),
+            channel_credentials=None,
+            call_credentials=None,
+            insecure=False,
+            compression=None,
+            wait_for_ready=None,
+            timeout=None,
+            metadata=None):
+        return grpc.experimental.unary_stream(
+            request,
+            target,
+            '/sinew.v1.SimulationService/StreamSimulateClip',
+            sinew_dot_v1_dot_simulation__pb2.StreamSimulateClipRequest.SerializeToString,
+            sinew_dot_v1_dot_simulation__pb2.StreamSimulateClipResponse.FromString,
             options,
             channel_credentials,
             insecure,

@@ -35,6 +35,10 @@ class SimulationServiceStub:
     def __new__(cls, channel: _aio.Channel) -> SimulationServiceAsyncStub: ...
     SimulateClip: _grpc.UnaryUnaryMultiCallable[_simulation_pb2.SimulateClipRequest, _simulation_pb2.SimulateClipResponse]
     """One clip tracked by one figure, faster than real time: motion, torques and events come back in one message."""
+    StreamSimulateClip: _grpc.UnaryStreamMultiCallable[_simulation_pb2.StreamSimulateClipRequest, _simulation_pb2.StreamSimulateClipResponse]
+    """As `SimulateClip`, with frames as they are computed: the streaming twin. The size of a response does not bound
+    them, and a slow reader slows the simulation down. Ending the stream gives the simulation up.
+    """
 
 @_typing.type_check_only
 class SimulationServiceAsyncStub(SimulationServiceStub):
@@ -43,6 +47,10 @@ class SimulationServiceAsyncStub(SimulationServiceStub):
     def __init__(self, channel: _aio.Channel) -> None: ...
     SimulateClip: _aio.UnaryUnaryMultiCallable[_simulation_pb2.SimulateClipRequest, _simulation_pb2.SimulateClipResponse]  # type: ignore[assignment]
     """One clip tracked by one figure, faster than real time: motion, torques and events come back in one message."""
+    StreamSimulateClip: _aio.UnaryStreamMultiCallable[_simulation_pb2.StreamSimulateClipRequest, _simulation_pb2.StreamSimulateClipResponse]  # type: ignore[assignment]
+    """As `SimulateClip`, with frames as they are computed: the streaming twin. The size of a response does not bound
+    them, and a slow reader slows the simulation down. Ending the stream gives the simulation up.
+    """
 
 class SimulationServiceServicer(metaclass=_abc_1.ABCMeta):
     """Simulates without a world."""
@@ -54,5 +62,15 @@ class SimulationServiceServicer(metaclass=_abc_1.ABCMeta):
         context: _ServicerContext,
     ) -> _typing.Union[_simulation_pb2.SimulateClipResponse, _abc.Awaitable[_simulation_pb2.SimulateClipResponse]]:
         """One clip tracked by one figure, faster than real time: motion, torques and events come back in one message."""
+
+    @_abc_1.abstractmethod
+    def StreamSimulateClip(
+        self,
+        request: _simulation_pb2.StreamSimulateClipRequest,
+        context: _ServicerContext,
+    ) -> _typing.Union[_abc.Iterator[_simulation_pb2.StreamSimulateClipResponse], _abc.AsyncIterator[_simulation_pb2.StreamSimulateClipResponse]]:
+        """As `SimulateClip`, with frames as they are computed: the streaming twin. The size of a response does not bound
+        them, and a slow reader slows the simulation down. Ending the stream gives the simulation up.
+        """
 
 def add_SimulationServiceServicer_to_server(servicer: SimulationServiceServicer, server: _typing.Union[_grpc.Server, _aio.Server]) -> None: ...

@@ -22,47 +22,79 @@ _runtime_version.ValidateProtobufRuntimeVersion(
 _sym_db = _symbol_database.Default()
 
 
+from google.api import field_behavior_pb2 as google_dot_api_dot_field__behavior__pb2
+from google.api import resource_pb2 as google_dot_api_dot_resource__pb2
 from google.protobuf import field_mask_pb2 as google_dot_protobuf_dot_field__mask__pb2
 from sinew.v1 import frame_pb2 as sinew_dot_v1_dot_frame__pb2
 from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 from sinew.v1 import types_pb2 as sinew_dot_v1_dot_types__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x14sinew/v1/state.proto\x12\x08sinew.v1\x1a google/protobuf/field_mask.proto\x1a\x14sinew/v1/frame.proto\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/types.proto\"\x7f\n\x04View\x12\x0f\n\x07\x66igures\x18\x01 \x03(\t\x12*\n\x06\x66ields\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.FieldMask\x12$\n\x08\x65ncoding\x18\x03 \x01(\x0e\x32\x12.sinew.v1.Encoding\x12\x14\n\x0crate_divisor\x18\x04 \x01(\x05\"a\n\x06Roster\x12\r\n\x05world\x18\x01 \x01(\t\x12\x0f\n\x07rate_hz\x18\x02 \x01(\x01\x12\x0f\n\x07version\x18\x03 \x01(\x05\x12&\n\x07\x66igures\x18\x04 \x03(\x0b\x32\x15.sinew.v1.RosterEntry\"A\n\x0bRosterEntry\x12\x14\n\x0c\x66igure_index\x18\x01 \x01(\x05\x12\x0e\n\x06\x66igure\x18\x02 \x01(\t\x12\x0c\n\x04\x62ody\x18\x03 \x01(\t\"_\n\x14GetWorldFrameRequest\x12\r\n\x05world\x18\x01 \x01(\t\x12\x11\n\x04tick\x18\x02 \x01(\x03H\x00\x88\x01\x01\x12\x1c\n\x04view\x18\x03 \x01(\x0b\x32\x0e.sinew.v1.ViewB\x07\n\x05_tick\"^\n\x15GetWorldFrameResponse\x12 \n\x06roster\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Roster\x12#\n\x05\x66rame\x18\x02 \x01(\x0b\x32\x14.sinew.v1.WorldFrame\"j\n\x11WatchWorldRequest\x12\r\n\x05world\x18\x01 \x01(\t\x12\x1c\n\x04view\x18\x02 \x01(\x0b\x32\x0e.sinew.v1.View\x12\x18\n\x0bresume_tick\x18\x03 \x01(\x03H\x00\x88\x01\x01\x42\x0e\n\x0c_resume_tick\"j\n\x12WatchWorldResponse\x12\"\n\x06roster\x18\x01 \x01(\x0b\x32\x10.sinew.v1.RosterH\x00\x12%\n\x05\x66rame\x18\x02 \x01(\x0b\x32\x14.sinew.v1.WorldFrameH\x00\x42\t\n\x07message\"\xbd\x01\n\x05\x45vent\x12!\n\x04type\x18\x01 \x01(\x0e\x32\x13.sinew.v1.EventType\x12\x0c\n\x04tick\x18\x02 \x01(\x03\x12\x0e\n\x06time_s\x18\x03 \x01(\x01\x12\x0e\n\x06\x66igure\x18\x04 \x01(\t\x12\x0f\n\x07segment\x18\x05 \x01(\t\x12\x0b\n\x03\x64of\x18\x06 \x01(\t\x12\x0f\n\x07mass_kg\x18\x07 \x01(\x01\x12\x0e\n\x06\x64\x65tail\x18\x08 \x01(\t\x12\r\n\x05other\x18\t \x01(\t\x12\x15\n\rother_segment\x18\n \x01(\t\"X\n\x12WatchEventsRequest\x12\r\n\x05world\x18\x01 \x01(\t\x12\x0f\n\x07\x66igures\x18\x02 \x03(\t\x12\"\n\x05types\x18\x03 \x03(\x0e\x32\x13.sinew.v1.EventType\"L\n\x13WatchEventsResponse\x12\x1f\n\x06\x65vents\x18\x01 \x03(\x0b\x32\x0f.sinew.v1.Event\x12\x14\n\x0cmissed_count\x18\x02 \x01(\x03*\x86\x07\n\tEventType\x12\x1a\n\x16\x45VENT_TYPE_UNSPECIFIED\x10\x00\x12\x1d\n\x19\x45VENT_TYPE_SUPPORT_GAINED\x10\x01\x12\x1b\n\x17\x45VENT_TYPE_SUPPORT_LOST\x10\x02\x12\x18\n\x14\x45VENT_TYPE_SATURATED\x10\x03\x12\x17\n\x13\x45VENT_TYPE_RELIEVED\x10\x04\x12\x1b\n\x17\x45VENT_TYPE_BALANCE_LOST\x10\x05\x12\x18\n\x14\x45VENT_TYPE_RECOVERED\x10\x06\x12\x13\n\x0f\x45VENT_TYPE_FELL\x10\x07\x12\x19\n\x15\x45VENT_TYPE_LOAD_TAKEN\x10\x08\x12\x1b\n\x17\x45VENT_TYPE_LOAD_DROPPED\x10\t\x12\x1b\n\x17\x45VENT_TYPE_LOAD_SLIPPED\x10\x1e\x12\x1a\n\x16\x45VENT_TYPE_QUARANTINED\x10\n\x12\x1b\n\x17\x45VENT_TYPE_FIGURE_ADDED\x10\x0b\x12\x1d\n\x19\x45VENT_TYPE_FIGURE_REMOVED\x10\x0c\x12\x1a\n\x16\x45VENT_TYPE_DRIVE_BEGAN\x10\r\x12\x1a\n\x16\x45VENT_TYPE_DRIVE_ENDED\x10\x0e\x12\x1d\n\x19\x45VENT_TYPE_DRIVE_RESYNCED\x10#\x12\x1b\n\x17\x45VENT_TYPE_WORLD_PAUSED\x10\x0f\x12\x1c\n\x18\x45VENT_TYPE_WORLD_RESUMED\x10\x10\x12\x1b\n\x17\x45VENT_TYPE_WORLD_FAILED\x10\x11\x12\x15\n\x11\x45VENT_TYPE_GOT_UP\x10\x12\x12\x1d\n\x19\x45VENT_TYPE_WORLD_RESTORED\x10-\x12\x16\n\x12\x45VENT_TYPE_TOUCHED\x10\x1f\x12\x15\n\x11\x45VENT_TYPE_PARTED\x10 \x12\x1d\n\x19\x45VENT_TYPE_OBSTACLE_ADDED\x10!\x12\x1f\n\x1b\x45VENT_TYPE_OBSTACLE_REMOVED\x10\"\x12\x1f\n\x1b\x45VENT_TYPE_CONTROL_ACQUIRED\x10(\x12\x1f\n\x1b\x45VENT_TYPE_CONTROL_RELEASED\x10)\x12 \n\x1c\x45VENT_TYPE_CONTROL_PREEMPTED\x10*\x12\x1e\n\x1a\x45VENT_TYPE_CONTROL_OFFERED\x10+\x12\x1d\n\x19\x45VENT_TYPE_ACCESS_REFUSED\x10,2\x8b\x02\n\x0cStateService\x12V\n\rGetWorldFrame\x12\x1e.sinew.v1.GetWorldFrameRequest\x1a\x1f.sinew.v1.GetWorldFrameResponse\"\x04\xe8\xe0\x18\x01\x12O\n\nWatchWorld\x12\x1b.sinew.v1.WatchWorldRequest\x1a\x1c.sinew.v1.WatchWorldResponse\"\x04\xe8\xe0\x18\x01\x30\x01\x12R\n\x0bWatchEvents\x12\x1c.sinew.v1.WatchEventsRequest\x1a\x1d.sinew.v1.WatchEventsResponse\"\x04\xe8\xe0\x18\x01\x30\x01\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x14sinew/v1/state.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a google/protobuf/field_mask.proto\x1a\x14sinew/v1/frame.proto\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/types.proto\"\x9a\x01\n\x04View\x12\x18\n\nfigure_ids\x18\x01 \x03(\tB\x04\xe2\x41\x01\x01\x12\x30\n\x06\x66ields\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.FieldMaskB\x04\xe2\x41\x01\x01\x12*\n\x08\x65ncoding\x18\x03 \x01(\x0e\x32\x12.sinew.v1.EncodingB\x04\xe2\x41\x01\x01\x12\x1a\n\x0crate_divisor\x18\x04 \x01(\x05\x42\x04\xe2\x41\x01\x01\"s\n\x06Roster\x12\x1f\n\x05world\x18\x01 \x01(\tB\x10\xfa\x41\r\n\x0bsinew/World\x12\x0f\n\x07rate_hz\x18\x02 \x01(\x01\x12\x0f\n\x07version\x18\x03 \x01(\x05\x12&\n\x07\x66igures\x18\x04 \x03(\x0b\x32\x15.sinew.v1.RosterEntry\"U\n\x0bRosterEntry\x12\x14\n\x0c\x66igure_index\x18\x01 \x01(\x05\x12\x11\n\tfigure_id\x18\x02 \x01(\t\x12\x1d\n\x04\x62ody\x18\x03 \x01(\tB\x0f\xfa\x41\x0c\n\nsinew/Body\"\x81\x01\n\x14GetWorldFrameRequest\x12#\n\x05world\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\x17\n\x04tick\x18\x02 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x00\x88\x01\x01\x12\"\n\x04view\x18\x03 \x01(\x0b\x32\x0e.sinew.v1.ViewB\x04\xe2\x41\x01\x01\x42\x07\n\x05_tick\"^\n\x15GetWorldFrameResponse\x12 \n\x06roster\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Roster\x12#\n\x05\x66rame\x18\x02 \x01(\x0b\x32\x14.sinew.v1.WorldFrame\"\x8c\x01\n\x11WatchWorldRequest\x12#\n\x05world\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\"\n\x04view\x18\x02 \x01(\x0b\x32\x0e.sinew.v1.ViewB\x04\xe2\x41\x01\x01\x12\x1e\n\x0bresume_tick\x18\x03 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x00\x88\x01\x01\x42\x0e\n\x0c_resume_tick\"j\n\x12WatchWorldResponse\x12\"\n\x06roster\x18\x01 \x01(\x0b\x32\x10.sinew.v1.RosterH\x00\x12%\n\x05\x66rame\x18\x02 \x01(\x0b\x32\x14.sinew.v1.WorldFrameH\x00\x42\t\n\x07message\"\xc0\x01\n\x05\x45vent\x12!\n\x04type\x18\x01 \x01(\x0e\x32\x13.sinew.v1.EventType\x12\x0c\n\x04tick\x18\x02 \x01(\x03\x12\x0e\n\x06time_s\x18\x03 \x01(\x01\x12\x11\n\tfigure_id\x18\x04 \x01(\t\x12\x0f\n\x07segment\x18\x05 \x01(\t\x12\x0b\n\x03\x64of\x18\x06 \x01(\t\x12\x0f\n\x07mass_kg\x18\x07 \x01(\x01\x12\x0e\n\x06\x64\x65tail\x18\x08 \x01(\t\x12\r\n\x05other\x18\t \x01(\t\x12\x15\n\rother_segment\x18\n \x01(\t\"}\n\x12WatchEventsRequest\x12#\n\x05world\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\x18\n\nfigure_ids\x18\x02 \x03(\tB\x04\xe2\x41\x01\x01\x12(\n\x05types\x18\x03 \x03(\x0e\x32\x13.sinew.v1.EventTypeB\x04\xe2\x41\x01\x01\"L\n\x13WatchEventsResponse\x12\x1f\n\x06\x65vents\x18\x01 \x03(\x0b\x32\x0f.sinew.v1.Event\x12\x14\n\x0cmissed_count\x18\x02 \x01(\x03*\xda\x07\n\tEventType\x12\x1a\n\x16\x45VENT_TYPE_UNSPECIFIED\x10\x00\x12\x1d\n\x19\x45VENT_TYPE_SUPPORT_GAINED\x10\x01\x12\x1b\n\x17\x45VENT_TYPE_SUPPORT_LOST\x10\x02\x12\x18\n\x14\x45VENT_TYPE_SATURATED\x10\x03\x12\x17\n\x13\x45VENT_TYPE_RELIEVED\x10\x04\x12\x1b\n\x17\x45VENT_TYPE_BALANCE_LOST\x10\x05\x12\x18\n\x14\x45VENT_TYPE_RECOVERED\x10\x06\x12\x13\n\x0f\x45VENT_TYPE_FELL\x10\x07\x12\x19\n\x15\x45VENT_TYPE_LOAD_TAKEN\x10\x08\x12\x1b\n\x17\x45VENT_TYPE_LOAD_DROPPED\x10\t\x12\x1b\n\x17\x45VENT_TYPE_LOAD_SLIPPED\x10\x1e\x12\x1a\n\x16\x45VENT_TYPE_QUARANTINED\x10\n\x12\x1b\n\x17\x45VENT_TYPE_FIGURE_ADDED\x10\x0b\x12\x1d\n\x19\x45VENT_TYPE_FIGURE_REMOVED\x10\x0c\x12\x1a\n\x16\x45VENT_TYPE_DRIVE_BEGAN\x10\r\x12\x1a\n\x16\x45VENT_TYPE_DRIVE_ENDED\x10\x0e\x12\x19\n\x15\x45VENT_TYPE_CLIP_BEGAN\x10\x13\x12\x19\n\x15\x45VENT_TYPE_CLIP_ENDED\x10\x14\x12\x1d\n\x19\x45VENT_TYPE_DRIVE_RESYNCED\x10#\x12\x1b\n\x17\x45VENT_TYPE_WORLD_PAUSED\x10\x0f\x12\x1c\n\x18\x45VENT_TYPE_WORLD_RESUMED\x10\x10\x12\x1b\n\x17\x45VENT_TYPE_WORLD_FAILED\x10\x11\x12\x1c\n\x18\x45VENT_TYPE_WORLD_DELETED\x10\x15\x12\x15\n\x11\x45VENT_TYPE_GOT_UP\x10\x12\x12\x1d\n\x19\x45VENT_TYPE_WORLD_RESTORED\x10-\x12\x16\n\x12\x45VENT_TYPE_TOUCHED\x10\x1f\x12\x15\n\x11\x45VENT_TYPE_PARTED\x10 \x12\x1d\n\x19\x45VENT_TYPE_OBSTACLE_ADDED\x10!\x12\x1f\n\x1b\x45VENT_TYPE_OBSTACLE_REMOVED\x10\"\x12\x1f\n\x1b\x45VENT_TYPE_CONTROL_ACQUIRED\x10(\x12\x1f\n\x1b\x45VENT_TYPE_CONTROL_RELEASED\x10)\x12 \n\x1c\x45VENT_TYPE_CONTROL_PREEMPTED\x10*\x12\x1e\n\x1a\x45VENT_TYPE_CONTROL_OFFERED\x10+\x12\x1d\n\x19\x45VENT_TYPE_ACCESS_REFUSED\x10,2\x8b\x02\n\x0cStateService\x12V\n\rGetWorldFrame\x12\x1e.sinew.v1.GetWorldFrameRequest\x1a\x1f.sinew.v1.GetWorldFrameResponse\"\x04\xe8\xe0\x18\x01\x12O\n\nWatchWorld\x12\x1b.sinew.v1.WatchWorldRequest\x1a\x1c.sinew.v1.WatchWorldResponse\"\x04\xe8\xe0\x18\x01\x30\x01\x12R\n\x0bWatchEvents\x12\x1c.sinew.v1.WatchEventsRequest\x1a\x1d.sinew.v1.WatchEventsResponse\"\x04\xe8\xe0\x18\x01\x30\x01\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.state_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
+  _globals['_VIEW'].fields_by_name['figure_ids']._loaded_options = None
+  _globals['_VIEW'].fields_by_name['figure_ids']._serialized_options = b'\342A\001\001'
+  _globals['_VIEW'].fields_by_name['fields']._loaded_options = None
+  _globals['_VIEW'].fields_by_name['fields']._serialized_options = b'\342A\001\001'
+  _globals['_VIEW'].fields_by_name['encoding']._loaded_options = None
+  _globals['_VIEW'].fields_by_name['encoding']._serialized_options = b'\342A\001\001'
+  _globals['_VIEW'].fields_by_name['rate_divisor']._loaded_options = None
+  _globals['_VIEW'].fields_by_name['rate_divisor']._serialized_options = b'\342A\001\001'
+  _globals['_ROSTER'].fields_by_name['world']._loaded_options = None
+  _globals['_ROSTER'].fields_by_name['world']._serialized_options = b'\372A\r\n\013sinew/World'
+  _globals['_ROSTERENTRY'].fields_by_name['body']._loaded_options = None
+  _globals['_ROSTERENTRY'].fields_by_name['body']._serialized_options = b'\372A\014\n\nsinew/Body'
+  _globals['_GETWORLDFRAMEREQUEST'].fields_by_name['world']._loaded_options = None
+  _globals['_GETWORLDFRAMEREQUEST'].fields_by_name['world']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/World'
+  _globals['_GETWORLDFRAMEREQUEST'].fields_by_name['tick']._loaded_options = None
+  _globals['_GETWORLDFRAMEREQUEST'].fields_by_name['tick']._serialized_options = b'\342A\001\001'
+  _globals['_GETWORLDFRAMEREQUEST'].fields_by_name['view']._loaded_options = None
+  _globals['_GETWORLDFRAMEREQUEST'].fields_by_name['view']._serialized_options = b'\342A\001\001'
+  _globals['_WATCHWORLDREQUEST'].fields_by_name['world']._loaded_options = None
+  _globals['_WATCHWORLDREQUEST'].fields_by_name['world']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/World'
+  _globals['_WATCHWORLDREQUEST'].fields_by_name['view']._loaded_options = None
+  _globals['_WATCHWORLDREQUEST'].fields_by_name['view']._serialized_options = b'\342A\001\001'
+  _globals['_WATCHWORLDREQUEST'].fields_by_name['resume_tick']._loaded_options = None
+  _globals['_WATCHWORLDREQUEST'].fields_by_name['resume_tick']._serialized_options = b'\342A\001\001'
+  _globals['_WATCHEVENTSREQUEST'].fields_by_name['world']._loaded_options = None
+  _globals['_WATCHEVENTSREQUEST'].fields_by_name['world']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/World'
+  _globals['_WATCHEVENTSREQUEST'].fields_by_name['figure_ids']._loaded_options = None
+  _globals['_WATCHEVENTSREQUEST'].fields_by_name['figure_ids']._serialized_options = b'\342A\001\001'
+  _globals['_WATCHEVENTSREQUEST'].fields_by_name['types']._loaded_options = None
+  _globals['_WATCHEVENTSREQUEST'].fields_by_name['types']._serialized_options = b'\342A\001\001'
   _globals['_STATESERVICE'].methods_by_name['GetWorldFrame']._loaded_options = None
   _globals['_STATESERVICE'].methods_by_name['GetWorldFrame']._serialized_options = b'\350\340\030\001'
   _globals['_STATESERVICE'].methods_by_name['WatchWorld']._loaded_options = None
   _globals['_STATESERVICE'].methods_by_name['WatchWorld']._serialized_options = b'\350\340\030\001'
   _globals['_STATESERVICE'].methods_by_name['WatchEvents']._loaded_options = None
   _globals['_STATESERVICE'].methods_by_name['WatchEvents']._serialized_options = b'\350\340\030\001'
-  _globals['_EVENTTYPE']._serialized_start=1201
-  _globals['_EVENTTYPE']._serialized_end=2103
-  _globals['_VIEW']._serialized_start=136
-  _globals['_VIEW']._serialized_end=263
-  _globals['_ROSTER']._serialized_start=265
-  _globals['_ROSTER']._serialized_end=362
-  _globals['_ROSTERENTRY']._serialized_start=364
-  _globals['_ROSTERENTRY']._serialized_end=429
-  _globals['_GETWORLDFRAMEREQUEST']._serialized_start=431
-  _globals['_GETWORLDFRAMEREQUEST']._serialized_end=526
-  _globals['_GETWORLDFRAMERESPONSE']._serialized_start=528
-  _globals['_GETWORLDFRAMERESPONSE']._serialized_end=622
-  _globals['_WATCHWORLDREQUEST']._serialized_start=624
-  _globals['_WATCHWORLDREQUEST']._serialized_end=730
-  _globals['_WATCHWORLDRESPONSE']._serialized_start=732
-  _globals['_WATCHWORLDRESPONSE']._serialized_end=838
-  _globals['_EVENT']._serialized_start=841
-  _globals['_EVENT']._serialized_end=1030
-  _globals['_WATCHEVENTSREQUEST']._serialized_start=1032
-  _globals['_WATCHEVENTSREQUEST']._serialized_end=1120
-  _globals['_WATCHEVENTSRESPONSE']._serialized_start=1122
-  _globals['_WATCHEVENTSRESPONSE']._serialized_end=1198
-  _globals['_STATESERVICE']._serialized_start=2106
-  _globals['_STATESERVICE']._serialized_end=2373
+  _globals['_EVENTTYPE']._serialized_start=1437
+  _globals['_EVENTTYPE']._serialized_end=2423
+  _globals['_VIEW']._serialized_start=197
+  _globals['_VIEW']._serialized_end=351
+  _globals['_ROSTER']._serialized_start=353
+  _globals['_ROSTER']._serialized_end=468
+  _globals['_ROSTERENTRY']._serialized_start=470
+  _globals['_ROSTERENTRY']._serialized_end=555
+  _globals['_GETWORLDFRAMEREQUEST']._serialized_start=558
+  _globals['_GETWORLDFRAMEREQUEST']._serialized_end=687
+  _globals['_GETWORLDFRAMERESPONSE']._serialized_start=689
+  _globals['_GETWORLDFRAMERESPONSE']._serialized_end=783
+  _globals['_WATCHWORLDREQUEST']._serialized_start=786
+  _globals['_WATCHWORLDREQUEST']._serialized_end=926
+  _globals['_WATCHWORLDRESPONSE']._serialized_start=928
+  _globals['_WATCHWORLDRESPONSE']._serialized_end=1034
+  _globals['_EVENT']._serialized_start=1037
+  _globals['_EVENT']._serialized_end=1229
+  _globals['_WATCHEVENTSREQUEST']._serialized_start=1231
+  _globals['_WATCHEVENTSREQUEST']._serialized_end=1356
+  _globals['_WATCHEVENTSRESPONSE']._serialized_start=1358
+  _globals['_WATCHEVENTSRESPONSE']._serialized_end=1434
+  _globals['_STATESERVICE']._serialized_start=2426
+  _globals['_STATESERVICE']._serialized_end=2693
 # @@protoc_insertion_point(module_scope)

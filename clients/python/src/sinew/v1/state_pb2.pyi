@@ -60,6 +60,10 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """A driver took a figure."""
     EVENT_TYPE_DRIVE_ENDED: _EventType.ValueType  # 14
     """A driver gave a figure back or lost it."""
+    EVENT_TYPE_CLIP_BEGAN: _EventType.ValueType  # 19
+    """A clip began to play: the detail is its name, `clips/{clip}`."""
+    EVENT_TYPE_CLIP_ENDED: _EventType.ValueType  # 20
+    """A clip is over, or was ended: the detail is its name, `clips/{clip}`."""
     EVENT_TYPE_DRIVE_RESYNCED: _EventType.ValueType  # 35
     """The stream of a driver began anew; the detail says why."""
     EVENT_TYPE_WORLD_PAUSED: _EventType.ValueType  # 15
@@ -68,6 +72,8 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """The world was resumed."""
     EVENT_TYPE_WORLD_FAILED: _EventType.ValueType  # 17
     """The world failed."""
+    EVENT_TYPE_WORLD_DELETED: _EventType.ValueType  # 21
+    """The world was deleted, and this is its last event; the detail says by whom or why."""
     EVENT_TYPE_GOT_UP: _EventType.ValueType  # 18
     """The figure stands again after a fall."""
     EVENT_TYPE_WORLD_RESTORED: _EventType.ValueType  # 45
@@ -128,6 +134,10 @@ EVENT_TYPE_DRIVE_BEGAN: EventType.ValueType  # 13
 """A driver took a figure."""
 EVENT_TYPE_DRIVE_ENDED: EventType.ValueType  # 14
 """A driver gave a figure back or lost it."""
+EVENT_TYPE_CLIP_BEGAN: EventType.ValueType  # 19
+"""A clip began to play: the detail is its name, `clips/{clip}`."""
+EVENT_TYPE_CLIP_ENDED: EventType.ValueType  # 20
+"""A clip is over, or was ended: the detail is its name, `clips/{clip}`."""
 EVENT_TYPE_DRIVE_RESYNCED: EventType.ValueType  # 35
 """The stream of a driver began anew; the detail says why."""
 EVENT_TYPE_WORLD_PAUSED: EventType.ValueType  # 15
@@ -136,6 +146,8 @@ EVENT_TYPE_WORLD_RESUMED: EventType.ValueType  # 16
 """The world was resumed."""
 EVENT_TYPE_WORLD_FAILED: EventType.ValueType  # 17
 """The world failed."""
+EVENT_TYPE_WORLD_DELETED: EventType.ValueType  # 21
+"""The world was deleted, and this is its last event; the detail says by whom or why."""
 EVENT_TYPE_GOT_UP: EventType.ValueType  # 18
 """The figure stands again after a fall."""
 EVENT_TYPE_WORLD_RESTORED: EventType.ValueType  # 45
@@ -168,7 +180,7 @@ class View(_message.Message):
 
     DESCRIPTOR: _descriptor.Descriptor
 
-    FIGURES_FIELD_NUMBER: _builtins.int
+    FIGURE_IDS_FIELD_NUMBER: _builtins.int
     FIELDS_FIELD_NUMBER: _builtins.int
     ENCODING_FIELD_NUMBER: _builtins.int
     RATE_DIVISOR_FIELD_NUMBER: _builtins.int
@@ -177,7 +189,7 @@ class View(_message.Message):
     rate_divisor: _builtins.int
     """Sends one frame for every n ticks, 1…1000. 0 or absent: 1. Ignored by `GetWorldFrame`."""
     @_builtins.property
-    def figures(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
+    def figure_ids(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
         """Figures by the last parts of their names. Empty: all."""
 
     @_builtins.property
@@ -189,14 +201,14 @@ class View(_message.Message):
     def __init__(
         self,
         *,
-        figures: _abc.Iterable[_builtins.str] | None = ...,
+        figure_ids: _abc.Iterable[_builtins.str] | None = ...,
         fields: _field_mask_pb2.FieldMask | None = ...,
         encoding: _types_pb2.Encoding.ValueType = ...,
         rate_divisor: _builtins.int = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["fields", b"fields"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["encoding", b"encoding", "fields", b"fields", "figures", b"figures", "rate_divisor", b"rate_divisor"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["encoding", b"encoding", "fields", b"fields", "figure_ids", b"figure_ids", "rate_divisor", b"rate_divisor"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -245,11 +257,11 @@ class RosterEntry(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     FIGURE_INDEX_FIELD_NUMBER: _builtins.int
-    FIGURE_FIELD_NUMBER: _builtins.int
+    FIGURE_ID_FIELD_NUMBER: _builtins.int
     BODY_FIELD_NUMBER: _builtins.int
     figure_index: _builtins.int
     """Index in frames. Indices of removed figures are not used again."""
-    figure: _builtins.str
+    figure_id: _builtins.str
     """Last part of the figure's name."""
     body: _builtins.str
     """Body: resource name."""
@@ -257,12 +269,12 @@ class RosterEntry(_message.Message):
         self,
         *,
         figure_index: _builtins.int = ...,
-        figure: _builtins.str = ...,
+        figure_id: _builtins.str = ...,
         body: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["body", b"body", "figure", b"figure", "figure_index", b"figure_index"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["body", b"body", "figure_id", b"figure_id", "figure_index", b"figure_index"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -409,7 +421,7 @@ class Event(_message.Message):
     TYPE_FIELD_NUMBER: _builtins.int
     TICK_FIELD_NUMBER: _builtins.int
     TIME_S_FIELD_NUMBER: _builtins.int
-    FIGURE_FIELD_NUMBER: _builtins.int
+    FIGURE_ID_FIELD_NUMBER: _builtins.int
     SEGMENT_FIELD_NUMBER: _builtins.int
     DOF_FIELD_NUMBER: _builtins.int
     MASS_KG_FIELD_NUMBER: _builtins.int
@@ -422,7 +434,7 @@ class Event(_message.Message):
     """Tick after which it was true."""
     time_s: _builtins.float
     """World time, s."""
-    figure: _builtins.str
+    figure_id: _builtins.str
     """Last part of the figure's name; empty for events of the world."""
     segment: _builtins.str
     """Segment name, where there is one."""
@@ -442,7 +454,7 @@ class Event(_message.Message):
         type: Global___EventType.ValueType = ...,
         tick: _builtins.int = ...,
         time_s: _builtins.float = ...,
-        figure: _builtins.str = ...,
+        figure_id: _builtins.str = ...,
         segment: _builtins.str = ...,
         dof: _builtins.str = ...,
         mass_kg: _builtins.float = ...,
@@ -452,7 +464,7 @@ class Event(_message.Message):
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["detail", b"detail", "dof", b"dof", "figure", b"figure", "mass_kg", b"mass_kg", "other", b"other", "other_segment", b"other_segment", "segment", b"segment", "tick", b"tick", "time_s", b"time_s", "type", b"type"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["detail", b"detail", "dof", b"dof", "figure_id", b"figure_id", "mass_kg", b"mass_kg", "other", b"other", "other_segment", b"other_segment", "segment", b"segment", "tick", b"tick", "time_s", b"time_s", "type", b"type"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -465,12 +477,12 @@ class WatchEventsRequest(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     WORLD_FIELD_NUMBER: _builtins.int
-    FIGURES_FIELD_NUMBER: _builtins.int
+    FIGURE_IDS_FIELD_NUMBER: _builtins.int
     TYPES_FIELD_NUMBER: _builtins.int
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     @_builtins.property
-    def figures(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
+    def figure_ids(self) -> _containers.RepeatedScalarFieldContainer[_builtins.str]:
         """Figures by the last parts of their names. Empty: all, and events of the world."""
 
     @_builtins.property
@@ -481,12 +493,12 @@ class WatchEventsRequest(_message.Message):
         self,
         *,
         world: _builtins.str = ...,
-        figures: _abc.Iterable[_builtins.str] | None = ...,
+        figure_ids: _abc.Iterable[_builtins.str] | None = ...,
         types: _abc.Iterable[Global___EventType.ValueType] | None = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["figures", b"figures", "types", b"types", "world", b"world"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["figure_ids", b"figure_ids", "types", b"types", "world", b"world"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -22,33 +22,44 @@ _runtime_version.ValidateProtobufRuntimeVersion(
 _sym_db = _symbol_database.Default()
 
 
+from google.api import field_behavior_pb2 as google_dot_api_dot_field__behavior__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x14sinew/v1/types.proto\x12\x08sinew.v1\"*\n\x07Vector3\x12\t\n\x01x\x18\x01 \x01(\x01\x12\t\n\x01y\x18\x02 \x01(\x01\x12\t\n\x01z\x18\x03 \x01(\x01\"8\n\nQuaternion\x12\t\n\x01x\x18\x01 \x01(\x01\x12\t\n\x01y\x18\x02 \x01(\x01\x12\t\n\x01z\x18\x03 \x01(\x01\x12\t\n\x01w\x18\x04 \x01(\x01\"U\n\x04Pose\x12%\n\nposition_m\x18\x01 \x01(\x0b\x32\x11.sinew.v1.Vector3\x12&\n\x08rotation\x18\x02 \x01(\x0b\x32\x14.sinew.v1.Quaternion\"6\n\tPlacement\x12\x0b\n\x03x_m\x18\x01 \x01(\x01\x12\x0b\n\x03y_m\x18\x02 \x01(\x01\x12\x0f\n\x07yaw_rad\x18\x03 \x01(\x01\"?\n\x07Numbers\x12\x0b\n\x03\x66\x33\x32\x18\x01 \x03(\x02\x12\x0b\n\x03\x66\x36\x34\x18\x02 \x03(\x01\x12\x0b\n\x03i16\x18\x03 \x01(\x0c\x12\r\n\x05scale\x18\x04 \x01(\x02\"\x8f\x04\n\x0eRetargetReport\x12%\n\x06mapped\x18\x01 \x03(\x0b\x32\x15.sinew.v1.BoneMapping\x12\x15\n\rmissing_bones\x18\x02 \x03(\t\x12\x14\n\x0c\x62y_structure\x18\x03 \x01(\x08\x12\x0e\n\x06unit_m\x18\x04 \x01(\x01\x12\x0f\n\x07up_axis\x18\x05 \x01(\t\x12\x11\n\tstature_m\x18\x06 \x01(\x01\x12\x16\n\x0e\x66loor_offset_m\x18\x07 \x01(\x01\x12\'\n\x07\x63lamped\x18\x08 \x03(\x0b\x32\x16.sinew.v1.ClampedAngle\x12\x1b\n\x13\x66oot_slide_before_m\x18\t \x01(\x01\x12\x1a\n\x12\x66oot_slide_after_m\x18\n \x01(\x01\x12\x1b\n\x13\x62ridged_frame_count\x18\x0b \x01(\x05\x12.\n\x0e\x63ontact_phases\x18\x0c \x03(\x0b\x32\x16.sinew.v1.ContactPhase\x12\x10\n\x08warnings\x18\r \x03(\t\x12\x1b\n\x13\x64ropped_frame_count\x18\x0e \x01(\x05\x12\r\n\x05scale\x18\x0f \x01(\x01\x12\x16\n\x0esource_rate_hz\x18\x10 \x01(\x01\x12\x15\n\rsides_swapped\x18\x11 \x01(\x08\x12\x1a\n\rrun_speed_m_s\x18\x12 \x01(\x01H\x00\x88\x01\x01\x12\x13\n\x0bruns_walked\x18\x13 \x01(\x08\x42\x10\n\x0e_run_speed_m_s\"+\n\x0b\x42oneMapping\x12\x0c\n\x04\x62one\x18\x01 \x01(\t\x12\x0e\n\x06joints\x18\x02 \x03(\t\"E\n\x0c\x43lampedAngle\x12\x0b\n\x03\x64of\x18\x01 \x01(\t\x12\x10\n\x08\x66raction\x18\x02 \x01(\x01\x12\x16\n\x0emax_excess_rad\x18\x03 \x01(\x01\"<\n\x0c\x43ontactPhase\x12\x0c\n\x04left\x18\x01 \x01(\x08\x12\x0f\n\x07start_s\x18\x02 \x01(\x01\x12\r\n\x05\x65nd_s\x18\x03 \x01(\x01*c\n\x08\x45ncoding\x12\x18\n\x14\x45NCODING_UNSPECIFIED\x10\x00\x12\x12\n\x0e\x45NCODING_FLOAT\x10\x01\x12\x13\n\x0f\x45NCODING_DOUBLE\x10\x02\x12\x14\n\x10\x45NCODING_FIXED16\x10\x03\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x14sinew/v1/types.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\"*\n\x07Vector3\x12\t\n\x01x\x18\x01 \x01(\x01\x12\t\n\x01y\x18\x02 \x01(\x01\x12\t\n\x01z\x18\x03 \x01(\x01\"8\n\nQuaternion\x12\t\n\x01x\x18\x01 \x01(\x01\x12\t\n\x01y\x18\x02 \x01(\x01\x12\t\n\x01z\x18\x03 \x01(\x01\x12\t\n\x01w\x18\x04 \x01(\x01\"a\n\x04Pose\x12+\n\nposition_m\x18\x01 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12,\n\x08rotation\x18\x02 \x01(\x0b\x32\x14.sinew.v1.QuaternionB\x04\xe2\x41\x01\x01\"H\n\tPlacement\x12\x11\n\x03x_m\x18\x01 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x11\n\x03y_m\x18\x02 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12\x15\n\x07yaw_rad\x18\x03 \x01(\x01\x42\x04\xe2\x41\x01\x01\"?\n\x07Numbers\x12\x0b\n\x03\x66\x33\x32\x18\x01 \x03(\x02\x12\x0b\n\x03\x66\x36\x34\x18\x02 \x03(\x01\x12\x0b\n\x03i16\x18\x03 \x01(\x0c\x12\r\n\x05scale\x18\x04 \x01(\x02\"\x8f\x04\n\x0eRetargetReport\x12%\n\x06mapped\x18\x01 \x03(\x0b\x32\x15.sinew.v1.BoneMapping\x12\x15\n\rmissing_bones\x18\x02 \x03(\t\x12\x14\n\x0c\x62y_structure\x18\x03 \x01(\x08\x12\x0e\n\x06unit_m\x18\x04 \x01(\x01\x12\x0f\n\x07up_axis\x18\x05 \x01(\t\x12\x11\n\tstature_m\x18\x06 \x01(\x01\x12\x16\n\x0e\x66loor_offset_m\x18\x07 \x01(\x01\x12\'\n\x07\x63lamped\x18\x08 \x03(\x0b\x32\x16.sinew.v1.ClampedAngle\x12\x1b\n\x13\x66oot_slide_before_m\x18\t \x01(\x01\x12\x1a\n\x12\x66oot_slide_after_m\x18\n \x01(\x01\x12\x1b\n\x13\x62ridged_frame_count\x18\x0b \x01(\x05\x12.\n\x0e\x63ontact_phases\x18\x0c \x03(\x0b\x32\x16.sinew.v1.ContactPhase\x12\x10\n\x08warnings\x18\r \x03(\t\x12\x1b\n\x13\x64ropped_frame_count\x18\x0e \x01(\x05\x12\r\n\x05scale\x18\x0f \x01(\x01\x12\x16\n\x0esource_rate_hz\x18\x10 \x01(\x01\x12\x15\n\rsides_swapped\x18\x11 \x01(\x08\x12\x1a\n\rrun_speed_mps\x18\x12 \x01(\x01H\x00\x88\x01\x01\x12\x13\n\x0bruns_walked\x18\x13 \x01(\x08\x42\x10\n\x0e_run_speed_mps\"+\n\x0b\x42oneMapping\x12\x0c\n\x04\x62one\x18\x01 \x01(\t\x12\x0e\n\x06joints\x18\x02 \x03(\t\"E\n\x0c\x43lampedAngle\x12\x0b\n\x03\x64of\x18\x01 \x01(\t\x12\x10\n\x08\x66raction\x18\x02 \x01(\x01\x12\x16\n\x0emax_excess_rad\x18\x03 \x01(\x01\"<\n\x0c\x43ontactPhase\x12\x0c\n\x04left\x18\x01 \x01(\x08\x12\x0f\n\x07start_s\x18\x02 \x01(\x01\x12\r\n\x05\x65nd_s\x18\x03 \x01(\x01*c\n\x08\x45ncoding\x12\x18\n\x14\x45NCODING_UNSPECIFIED\x10\x00\x12\x12\n\x0e\x45NCODING_FLOAT\x10\x01\x12\x13\n\x0f\x45NCODING_DOUBLE\x10\x02\x12\x14\n\x10\x45NCODING_FIXED16\x10\x03\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
 _builder.BuildTopDescriptorsAndMessages(DESCRIPTOR, 'sinew.v1.types_pb2', _globals)
 if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
-  _globals['_ENCODING']._serialized_start=1052
-  _globals['_ENCODING']._serialized_end=1151
-  _globals['_VECTOR3']._serialized_start=34
-  _globals['_VECTOR3']._serialized_end=76
-  _globals['_QUATERNION']._serialized_start=78
-  _globals['_QUATERNION']._serialized_end=134
-  _globals['_POSE']._serialized_start=136
-  _globals['_POSE']._serialized_end=221
-  _globals['_PLACEMENT']._serialized_start=223
-  _globals['_PLACEMENT']._serialized_end=277
-  _globals['_NUMBERS']._serialized_start=279
-  _globals['_NUMBERS']._serialized_end=342
-  _globals['_RETARGETREPORT']._serialized_start=345
-  _globals['_RETARGETREPORT']._serialized_end=872
-  _globals['_BONEMAPPING']._serialized_start=874
-  _globals['_BONEMAPPING']._serialized_end=917
-  _globals['_CLAMPEDANGLE']._serialized_start=919
-  _globals['_CLAMPEDANGLE']._serialized_end=988
-  _globals['_CONTACTPHASE']._serialized_start=990
-  _globals['_CONTACTPHASE']._serialized_end=1050
+  _globals['_POSE'].fields_by_name['position_m']._loaded_options = None
+  _globals['_POSE'].fields_by_name['position_m']._serialized_options = b'\342A\001\001'
+  _globals['_POSE'].fields_by_name['rotation']._loaded_options = None
+  _globals['_POSE'].fields_by_name['rotation']._serialized_options = b'\342A\001\001'
+  _globals['_PLACEMENT'].fields_by_name['x_m']._loaded_options = None
+  _globals['_PLACEMENT'].fields_by_name['x_m']._serialized_options = b'\342A\001\001'
+  _globals['_PLACEMENT'].fields_by_name['y_m']._loaded_options = None
+  _globals['_PLACEMENT'].fields_by_name['y_m']._serialized_options = b'\342A\001\001'
+  _globals['_PLACEMENT'].fields_by_name['yaw_rad']._loaded_options = None
+  _globals['_PLACEMENT'].fields_by_name['yaw_rad']._serialized_options = b'\342A\001\001'
+  _globals['_ENCODING']._serialized_start=1115
+  _globals['_ENCODING']._serialized_end=1214
+  _globals['_VECTOR3']._serialized_start=67
+  _globals['_VECTOR3']._serialized_end=109
+  _globals['_QUATERNION']._serialized_start=111
+  _globals['_QUATERNION']._serialized_end=167
+  _globals['_POSE']._serialized_start=169
+  _globals['_POSE']._serialized_end=266
+  _globals['_PLACEMENT']._serialized_start=268
+  _globals['_PLACEMENT']._serialized_end=340
+  _globals['_NUMBERS']._serialized_start=342
+  _globals['_NUMBERS']._serialized_end=405
+  _globals['_RETARGETREPORT']._serialized_start=408
+  _globals['_RETARGETREPORT']._serialized_end=935
+  _globals['_BONEMAPPING']._serialized_start=937
+  _globals['_BONEMAPPING']._serialized_end=980
+  _globals['_CLAMPEDANGLE']._serialized_start=982
+  _globals['_CLAMPEDANGLE']._serialized_end=1051
+  _globals['_CONTACTPHASE']._serialized_start=1053
+  _globals['_CONTACTPHASE']._serialized_end=1113
 # @@protoc_insertion_point(module_scope)

@@ -237,7 +237,7 @@ class RetargetReport(_message.Message):
     SCALE_FIELD_NUMBER: _builtins.int
     SOURCE_RATE_HZ_FIELD_NUMBER: _builtins.int
     SIDES_SWAPPED_FIELD_NUMBER: _builtins.int
-    RUN_SPEED_M_S_FIELD_NUMBER: _builtins.int
+    RUN_SPEED_MPS_FIELD_NUMBER: _builtins.int
     RUNS_WALKED_FIELD_NUMBER: _builtins.int
     by_structure: _builtins.bool
     """True if bones were found by the shape of the skeleton because their names said too little."""
@@ -263,7 +263,7 @@ class RetargetReport(_message.Message):
     """Frames per second of the file."""
     sides_swapped: _builtins.bool
     """True if left and right were found to be swapped by name."""
-    run_speed_m_s: _builtins.float
+    run_speed_mps: _builtins.float
     """Speed over the floor of the fastest run of the recording, m/s; absent if it runs nowhere."""
     runs_walked: _builtins.bool
     """True if that run, and every other, is walked: see `BvhOptions.walk_runs`."""
@@ -307,16 +307,16 @@ class RetargetReport(_message.Message):
         scale: _builtins.float = ...,
         source_rate_hz: _builtins.float = ...,
         sides_swapped: _builtins.bool = ...,
-        run_speed_m_s: _builtins.float | None = ...,
+        run_speed_mps: _builtins.float | None = ...,
         runs_walked: _builtins.bool = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_run_speed_m_s", b"_run_speed_m_s", "run_speed_m_s", b"run_speed_m_s"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_run_speed_mps", b"_run_speed_mps", "run_speed_mps", b"run_speed_mps"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_run_speed_m_s", b"_run_speed_m_s", "bridged_frame_count", b"bridged_frame_count", "by_structure", b"by_structure", "clamped", b"clamped", "contact_phases", b"contact_phases", "dropped_frame_count", b"dropped_frame_count", "floor_offset_m", b"floor_offset_m", "foot_slide_after_m", b"foot_slide_after_m", "foot_slide_before_m", b"foot_slide_before_m", "mapped", b"mapped", "missing_bones", b"missing_bones", "run_speed_m_s", b"run_speed_m_s", "runs_walked", b"runs_walked", "scale", b"scale", "sides_swapped", b"sides_swapped", "source_rate_hz", b"source_rate_hz", "stature_m", b"stature_m", "unit_m", b"unit_m", "up_axis", b"up_axis", "warnings", b"warnings"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_run_speed_mps", b"_run_speed_mps", "bridged_frame_count", b"bridged_frame_count", "by_structure", b"by_structure", "clamped", b"clamped", "contact_phases", b"contact_phases", "dropped_frame_count", b"dropped_frame_count", "floor_offset_m", b"floor_offset_m", "foot_slide_after_m", b"foot_slide_after_m", "foot_slide_before_m", b"foot_slide_before_m", "mapped", b"mapped", "missing_bones", b"missing_bones", "run_speed_mps", b"run_speed_mps", "runs_walked", b"runs_walked", "scale", b"scale", "sides_swapped", b"sides_swapped", "source_rate_hz", b"source_rate_hz", "stature_m", b"stature_m", "unit_m", b"unit_m", "up_axis", b"up_axis", "warnings", b"warnings"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    _WhichOneofReturnType__run_speed_m_s: _TypeAlias = _typing.Literal["run_speed_m_s"]  # noqa: Y015
-    _WhichOneofArgType__run_speed_m_s: _TypeAlias = _typing.Literal["_run_speed_m_s", b"_run_speed_m_s"]  # noqa: Y015
-    def WhichOneof(self, oneof_group: _WhichOneofArgType__run_speed_m_s) -> _WhichOneofReturnType__run_speed_m_s | None: ...
+    _WhichOneofReturnType__run_speed_mps: _TypeAlias = _typing.Literal["run_speed_mps"]  # noqa: Y015
+    _WhichOneofArgType__run_speed_mps: _TypeAlias = _typing.Literal["_run_speed_mps", b"_run_speed_mps"]  # noqa: Y015
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__run_speed_mps) -> _WhichOneofReturnType__run_speed_mps | None: ...
 
 Global___RetargetReport: _TypeAlias = RetargetReport  # noqa: Y015
 

@@ -5,12 +5,12 @@ isort:skip_file
 
 from collections import abc as _abc
 from google.protobuf import descriptor as _descriptor
+from google.protobuf import duration_pb2 as _duration_pb2
 from google.protobuf import field_mask_pb2 as _field_mask_pb2
 from google.protobuf import message as _message
 from google.protobuf import timestamp_pb2 as _timestamp_pb2
 from google.protobuf.internal import containers as _containers
 from google.protobuf.internal import enum_type_wrapper as _enum_type_wrapper
-from sinew.v1 import types_pb2 as _types_pb2
 import builtins as _builtins
 import sys
 import typing as _typing
@@ -33,7 +33,7 @@ class _OverrunPolicyEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Overrun
     OVERRUN_POLICY_SKIP: _OverrunPolicy.ValueType  # 1
     """Keeps wall time by leaving out the deadlines that were missed; they are counted. World time then runs behind."""
     OVERRUN_POLICY_CATCH_UP: _OverrunPolicy.ValueType  # 2
-    """Computes up to `catch_up_limit` missed ticks back to back, then leaves out the rest."""
+    """Computes up to `catch_up_tick_count` missed ticks back to back, then leaves out the rest."""
     OVERRUN_POLICY_DILATE: _OverrunPolicy.ValueType  # 3
     """Lets world time run slower: every tick is computed and the next deadline is one period after its end."""
 
@@ -45,7 +45,7 @@ OVERRUN_POLICY_UNSPECIFIED: OverrunPolicy.ValueType  # 0
 OVERRUN_POLICY_SKIP: OverrunPolicy.ValueType  # 1
 """Keeps wall time by leaving out the deadlines that were missed; they are counted. World time then runs behind."""
 OVERRUN_POLICY_CATCH_UP: OverrunPolicy.ValueType  # 2
-"""Computes up to `catch_up_limit` missed ticks back to back, then leaves out the rest."""
+"""Computes up to `catch_up_tick_count` missed ticks back to back, then leaves out the rest."""
 OVERRUN_POLICY_DILATE: OverrunPolicy.ValueType  # 3
 """Lets world time run slower: every tick is computed and the next deadline is one period after its end."""
 Global___OverrunPolicy: _TypeAlias = OverrunPolicy  # noqa: Y015
@@ -78,34 +78,6 @@ WORLD_STATE_FAILED: WorldState.ValueType  # 3
 """A step ended abnormally. The world keeps its last frame and can only be read or deleted."""
 Global___WorldState: _TypeAlias = WorldState  # noqa: Y015
 
-class _ObstacleMobility:
-    ValueType = _typing.NewType("ValueType", _builtins.int)
-    V: _TypeAlias = ValueType  # noqa: Y015
-
-class _ObstacleMobilityEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_ObstacleMobility.ValueType], _builtins.type):
-    DESCRIPTOR: _descriptor.EnumDescriptor
-    OBSTACLE_MOBILITY_UNSPECIFIED: _ObstacleMobility.ValueType  # 0
-    """The default: OBSTACLE_MOBILITY_FIXED."""
-    OBSTACLE_MOBILITY_FIXED: _ObstacleMobility.ValueType  # 1
-    """Not at all."""
-    OBSTACLE_MOBILITY_LED: _ObstacleMobility.ValueType  # 2
-    """With its velocity, whatever it meets."""
-    OBSTACLE_MOBILITY_FREE: _ObstacleMobility.ValueType  # 3
-    """As a rigid body of `mass_kg`, under gravity and on the ground."""
-
-class ObstacleMobility(_ObstacleMobility, metaclass=_ObstacleMobilityEnumTypeWrapper):
-    """How an obstacle moves."""
-
-OBSTACLE_MOBILITY_UNSPECIFIED: ObstacleMobility.ValueType  # 0
-"""The default: OBSTACLE_MOBILITY_FIXED."""
-OBSTACLE_MOBILITY_FIXED: ObstacleMobility.ValueType  # 1
-"""Not at all."""
-OBSTACLE_MOBILITY_LED: ObstacleMobility.ValueType  # 2
-"""With its velocity, whatever it meets."""
-OBSTACLE_MOBILITY_FREE: ObstacleMobility.ValueType  # 3
-"""As a rigid body of `mass_kg`, under gravity and on the ground."""
-Global___ObstacleMobility: _TypeAlias = ObstacleMobility  # noqa: Y015
-
 @_typing.final
 class World(_message.Message):
     """One world."""
@@ -115,11 +87,11 @@ class World(_message.Message):
     NAME_FIELD_NUMBER: _builtins.int
     DISPLAY_NAME_FIELD_NUMBER: _builtins.int
     RATE_HZ_FIELD_NUMBER: _builtins.int
-    SUBSTEPS_FIELD_NUMBER: _builtins.int
+    SUBSTEP_COUNT_FIELD_NUMBER: _builtins.int
     GRAVITY_MPS2_FIELD_NUMBER: _builtins.int
     FRICTION_FIELD_NUMBER: _builtins.int
     OVERRUN_POLICY_FIELD_NUMBER: _builtins.int
-    CATCH_UP_LIMIT_FIELD_NUMBER: _builtins.int
+    CATCH_UP_TICK_COUNT_FIELD_NUMBER: _builtins.int
     SPEED_FIELD_NUMBER: _builtins.int
     STATE_FIELD_NUMBER: _builtins.int
     TICK_FIELD_NUMBER: _builtins.int
@@ -129,13 +101,15 @@ class World(_message.Message):
     CREATE_TIME_FIELD_NUMBER: _builtins.int
     FAILURE_FIELD_NUMBER: _builtins.int
     COLLISIONS_FIELD_NUMBER: _builtins.int
+    IDLE_TTL_FIELD_NUMBER: _builtins.int
+    ETAG_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}`. Ignored in requests to create one."""
     display_name: _builtins.str
     """Name for people, at most 128 bytes. Default: empty."""
     rate_hz: _builtins.float
     """Ticks per second of world time, 10…1000. 0 or absent: 60. Fixed at creation."""
-    substeps: _builtins.int
+    substep_count: _builtins.int
     """Substeps of the dynamics in one tick, 1…16. 0 or absent: 2. Fixed at creation."""
     gravity_mps2: _builtins.float
     """Downward acceleration of gravity, m/s², 0…30. Absent: 9.81. Fixed at creation."""
@@ -143,7 +117,7 @@ class World(_message.Message):
     """Coefficient of friction of the ground, 0.05…2. Absent: 0.9. Fixed at creation."""
     overrun_policy: Global___OverrunPolicy.ValueType
     """What happens when ticks take too long."""
-    catch_up_limit: _builtins.int
+    catch_up_tick_count: _builtins.int
     """Most ticks that are caught up at once with OVERRUN_POLICY_CATCH_UP, 1…100. 0 or absent: 5."""
     speed: _builtins.float
     """World seconds per wall second, 0.01…10. 0 or absent: 1."""
@@ -163,9 +137,19 @@ class World(_message.Message):
     """Figures and obstacles touch each other. Absent: true. False: figures touch nothing but the ground. Fixed at
     creation.
     """
+    etag: _builtins.str
+    """Changes whenever what was set of the world does; that its clock goes on does not count. In requests: the change is
+    refused (ABORTED, `ETAG_MISMATCH`) unless it is that of the world. Empty: not checked.
+    """
     @_builtins.property
     def create_time(self) -> _timestamp_pb2.Timestamp:
         """When it was created. Output only."""
+
+    @_builtins.property
+    def idle_ttl(self) -> _duration_pb2.Duration:
+        """The world is deleted after it was idle for so long: no call named it and no stream of it was open. 1 s…30 d. Absent
+        or zero: never.
+        """
 
     def __init__(
         self,
@@ -173,11 +157,11 @@ class World(_message.Message):
         name: _builtins.str = ...,
         display_name: _builtins.str = ...,
         rate_hz: _builtins.float = ...,
-        substeps: _builtins.int = ...,
+        substep_count: _builtins.int = ...,
         gravity_mps2: _builtins.float | None = ...,
         friction: _builtins.float | None = ...,
         overrun_policy: Global___OverrunPolicy.ValueType = ...,
-        catch_up_limit: _builtins.int = ...,
+        catch_up_tick_count: _builtins.int = ...,
         speed: _builtins.float = ...,
         state: Global___WorldState.ValueType = ...,
         tick: _builtins.int = ...,
@@ -187,10 +171,12 @@ class World(_message.Message):
         create_time: _timestamp_pb2.Timestamp | None = ...,
         failure: _builtins.str = ...,
         collisions: _builtins.bool | None = ...,
+        idle_ttl: _duration_pb2.Duration | None = ...,
+        etag: _builtins.str = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_collisions", b"_collisions", "_friction", b"_friction", "_gravity_mps2", b"_gravity_mps2", "collisions", b"collisions", "create_time", b"create_time", "friction", b"friction", "gravity_mps2", b"gravity_mps2"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_collisions", b"_collisions", "_friction", b"_friction", "_gravity_mps2", b"_gravity_mps2", "collisions", b"collisions", "create_time", b"create_time", "friction", b"friction", "gravity_mps2", b"gravity_mps2", "idle_ttl", b"idle_ttl"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_collisions", b"_collisions", "_friction", b"_friction", "_gravity_mps2", b"_gravity_mps2", "catch_up_limit", b"catch_up_limit", "collisions", b"collisions", "create_time", b"create_time", "display_name", b"display_name", "epoch", b"epoch", "failure", b"failure", "figure_count", b"figure_count", "friction", b"friction", "gravity_mps2", b"gravity_mps2", "name", b"name", "overrun_policy", b"overrun_policy", "rate_hz", b"rate_hz", "speed", b"speed", "state", b"state", "substeps", b"substeps", "tick", b"tick", "time_s", b"time_s"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_collisions", b"_collisions", "_friction", b"_friction", "_gravity_mps2", b"_gravity_mps2", "catch_up_tick_count", b"catch_up_tick_count", "collisions", b"collisions", "create_time", b"create_time", "display_name", b"display_name", "epoch", b"epoch", "etag", b"etag", "failure", b"failure", "figure_count", b"figure_count", "friction", b"friction", "gravity_mps2", b"gravity_mps2", "idle_ttl", b"idle_ttl", "name", b"name", "overrun_policy", b"overrun_policy", "rate_hz", b"rate_hz", "speed", b"speed", "state", b"state", "substep_count", b"substep_count", "tick", b"tick", "time_s", b"time_s"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__collisions: _TypeAlias = _typing.Literal["collisions"]  # noqa: Y015
     _WhichOneofArgType__collisions: _TypeAlias = _typing.Literal["_collisions", b"_collisions"]  # noqa: Y015
@@ -216,10 +202,18 @@ class CreateWorldRequest(_message.Message):
     WORLD_ID_FIELD_NUMBER: _builtins.int
     WORLD_FIELD_NUMBER: _builtins.int
     PAUSED_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
+    VALIDATE_ONLY_FIELD_NUMBER: _builtins.int
     world_id: _builtins.str
     """Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses."""
     paused: _builtins.bool
     """Leaves the clock stopped. Default: false."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
+    validate_only: _builtins.bool
+    """Checks the request and answers as if it had been carried out, but changes nothing. Default: false."""
     @_builtins.property
     def world(self) -> Global___World:
         """Settings. Absent: all defaults."""
@@ -230,10 +224,12 @@ class CreateWorldRequest(_message.Message):
         world_id: _builtins.str = ...,
         world: Global___World | None = ...,
         paused: _builtins.bool = ...,
+        request_id: _builtins.str = ...,
+        validate_only: _builtins.bool = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["world", b"world"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["paused", b"paused", "world", b"world", "world_id", b"world_id"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["paused", b"paused", "request_id", b"request_id", "validate_only", b"validate_only", "world", b"world", "world_id", b"world_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -318,7 +314,7 @@ class ListWorldsRequest(_message.Message):
     PAGE_SIZE_FIELD_NUMBER: _builtins.int
     PAGE_TOKEN_FIELD_NUMBER: _builtins.int
     page_size: _builtins.int
-    """Most worlds to return, 0…1000. 0: 100."""
+    """Most worlds to return. 0: 100; more than 1000 are taken as 1000."""
     page_token: _builtins.str
     """`next_page_token` of the page before. Empty: from the start."""
     def __init__(
@@ -371,23 +367,29 @@ class UpdateWorldRequest(_message.Message):
 
     WORLD_FIELD_NUMBER: _builtins.int
     UPDATE_MASK_FIELD_NUMBER: _builtins.int
+    VALIDATE_ONLY_FIELD_NUMBER: _builtins.int
+    validate_only: _builtins.bool
+    """Checks the request and answers as if it had been carried out, but changes nothing. Default: false."""
     @_builtins.property
     def world(self) -> Global___World:
         """The world, by `name`, with new values."""
 
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
-        """Which of `display_name`, `overrun_policy`, `catch_up_limit`, `speed` to take. Must not be empty."""
+        """Which of `display_name`, `overrun_policy`, `catch_up_tick_count`, `speed`, `idle_ttl` to take. Absent or empty:
+        those that are not empty. `*`: all.
+        """
 
     def __init__(
         self,
         *,
         world: Global___World | None = ...,
         update_mask: _field_mask_pb2.FieldMask | None = ...,
+        validate_only: _builtins.bool = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["update_mask", b"update_mask", "world", b"world"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["update_mask", b"update_mask", "world", b"world"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["update_mask", b"update_mask", "validate_only", b"validate_only", "world", b"world"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -424,16 +426,26 @@ class DeleteWorldRequest(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     NAME_FIELD_NUMBER: _builtins.int
+    ETAG_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}`."""
+    etag: _builtins.str
+    """Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
         name: _builtins.str = ...,
+        etag: _builtins.str = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["etag", b"etag", "name", b"name", "request_id", b"request_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -556,19 +568,25 @@ class StepWorldRequest(_message.Message):
 
     NAME_FIELD_NUMBER: _builtins.int
     TICK_COUNT_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `worlds/{world}`."""
     tick_count: _builtins.int
     """Number of ticks, 1…10000. 0: 1."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
     def __init__(
         self,
         *,
         name: _builtins.str = ...,
         tick_count: _builtins.int = ...,
+        request_id: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name", "tick_count", b"tick_count"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name", "request_id", b"request_id", "tick_count", b"tick_count"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -653,364 +671,3 @@ class SetWorldSpeedResponse(_message.Message):
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
 Global___SetWorldSpeedResponse: _TypeAlias = SetWorldSpeedResponse  # noqa: Y015
-
-@_typing.final
-class SphereShape(_message.Message):
-    """A ball around the obstacle's origin."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    RADIUS_M_FIELD_NUMBER: _builtins.int
-    radius_m: _builtins.float
-    """Radius, m, 0.005…100."""
-    def __init__(
-        self,
-        *,
-        radius_m: _builtins.float = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["radius_m", b"radius_m"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___SphereShape: _TypeAlias = SphereShape  # noqa: Y015
-
-@_typing.final
-class CapsuleShape(_message.Message):
-    """A cylinder with round ends along z of the obstacle's frame, around its origin."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    RADIUS_M_FIELD_NUMBER: _builtins.int
-    HALF_LENGTH_M_FIELD_NUMBER: _builtins.int
-    radius_m: _builtins.float
-    """Radius, m, 0.005…100."""
-    half_length_m: _builtins.float
-    """Half the length of the cylinder without its ends, m, 0…100."""
-    def __init__(
-        self,
-        *,
-        radius_m: _builtins.float = ...,
-        half_length_m: _builtins.float = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["half_length_m", b"half_length_m", "radius_m", b"radius_m"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___CapsuleShape: _TypeAlias = CapsuleShape  # noqa: Y015
-
-@_typing.final
-class BoxShape(_message.Message):
-    """A box around the obstacle's origin."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    HALF_M_FIELD_NUMBER: _builtins.int
-    @_builtins.property
-    def half_m(self) -> _types_pb2.Vector3:
-        """Half of its edges along the axes of the obstacle's frame, m, each 0.005…1000."""
-
-    def __init__(
-        self,
-        *,
-        half_m: _types_pb2.Vector3 | None = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["half_m", b"half_m"]  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["half_m", b"half_m"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___BoxShape: _TypeAlias = BoxShape  # noqa: Y015
-
-@_typing.final
-class PlaneShape(_message.Message):
-    """Everything below z = 0 of the obstacle's frame."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    def __init__(
-        self,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _Never  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___PlaneShape: _TypeAlias = PlaneShape  # noqa: Y015
-
-@_typing.final
-class Obstacle(_message.Message):
-    """A thing that figures can touch."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    NAME_FIELD_NUMBER: _builtins.int
-    SPHERE_FIELD_NUMBER: _builtins.int
-    CAPSULE_FIELD_NUMBER: _builtins.int
-    BOX_FIELD_NUMBER: _builtins.int
-    PLANE_FIELD_NUMBER: _builtins.int
-    MOBILITY_FIELD_NUMBER: _builtins.int
-    MASS_KG_FIELD_NUMBER: _builtins.int
-    FRICTION_FIELD_NUMBER: _builtins.int
-    POSE_FIELD_NUMBER: _builtins.int
-    VELOCITY_MPS_FIELD_NUMBER: _builtins.int
-    ANGULAR_VELOCITY_RADPS_FIELD_NUMBER: _builtins.int
-    name: _builtins.str
-    """Resource name `worlds/{world}/obstacles/{obstacle}`. Ignored in requests to add one."""
-    mobility: Global___ObstacleMobility.ValueType
-    """How it moves."""
-    mass_kg: _builtins.float
-    """Mass of a free obstacle, kg, 0.01…10000; spread evenly over its shape. Ignored for others."""
-    friction: _builtins.float
-    """Coefficient of friction, 0.05…2; of two obstacles the smaller one counts. Absent: 0.6."""
-    @_builtins.property
-    def sphere(self) -> Global___SphereShape:
-        """A ball."""
-
-    @_builtins.property
-    def capsule(self) -> Global___CapsuleShape:
-        """A cylinder with round ends."""
-
-    @_builtins.property
-    def box(self) -> Global___BoxShape:
-        """A box."""
-
-    @_builtins.property
-    def plane(self) -> Global___PlaneShape:
-        """A half-space."""
-
-    @_builtins.property
-    def pose(self) -> _types_pb2.Pose:
-        """Where it is; the origin of its frame is its centre. Absent: at the world's origin."""
-
-    @_builtins.property
-    def velocity_mps(self) -> _types_pb2.Vector3:
-        """Velocity of its centre, m/s, each component within ±100. Ignored for fixed ones. Absent: at rest."""
-
-    @_builtins.property
-    def angular_velocity_radps(self) -> _types_pb2.Vector3:
-        """Angular velocity, world axes, rad/s, each component within ±100. Ignored for fixed ones. Absent: none."""
-
-    def __init__(
-        self,
-        *,
-        name: _builtins.str = ...,
-        sphere: Global___SphereShape | None = ...,
-        capsule: Global___CapsuleShape | None = ...,
-        box: Global___BoxShape | None = ...,
-        plane: Global___PlaneShape | None = ...,
-        mobility: Global___ObstacleMobility.ValueType = ...,
-        mass_kg: _builtins.float = ...,
-        friction: _builtins.float | None = ...,
-        pose: _types_pb2.Pose | None = ...,
-        velocity_mps: _types_pb2.Vector3 | None = ...,
-        angular_velocity_radps: _types_pb2.Vector3 | None = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_friction", b"_friction", "angular_velocity_radps", b"angular_velocity_radps", "box", b"box", "capsule", b"capsule", "friction", b"friction", "plane", b"plane", "pose", b"pose", "shape", b"shape", "sphere", b"sphere", "velocity_mps", b"velocity_mps"]  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_friction", b"_friction", "angular_velocity_radps", b"angular_velocity_radps", "box", b"box", "capsule", b"capsule", "friction", b"friction", "mass_kg", b"mass_kg", "mobility", b"mobility", "name", b"name", "plane", b"plane", "pose", b"pose", "shape", b"shape", "sphere", b"sphere", "velocity_mps", b"velocity_mps"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    _WhichOneofReturnType__friction: _TypeAlias = _typing.Literal["friction"]  # noqa: Y015
-    _WhichOneofArgType__friction: _TypeAlias = _typing.Literal["_friction", b"_friction"]  # noqa: Y015
-    _WhichOneofReturnType_shape: _TypeAlias = _typing.Literal["sphere", "capsule", "box", "plane"]  # noqa: Y015
-    _WhichOneofArgType_shape: _TypeAlias = _typing.Literal["shape", b"shape"]  # noqa: Y015
-    @_typing.overload
-    def WhichOneof(self, oneof_group: _WhichOneofArgType__friction) -> _WhichOneofReturnType__friction | None: ...
-    @_typing.overload
-    def WhichOneof(self, oneof_group: _WhichOneofArgType_shape) -> _WhichOneofReturnType_shape | None: ...
-
-Global___Obstacle: _TypeAlias = Obstacle  # noqa: Y015
-
-@_typing.final
-class AddObstacleRequest(_message.Message):
-    """Asks to put an obstacle into a world."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    PARENT_FIELD_NUMBER: _builtins.int
-    OBSTACLE_ID_FIELD_NUMBER: _builtins.int
-    OBSTACLE_FIELD_NUMBER: _builtins.int
-    parent: _builtins.str
-    """World: resource name `worlds/{world}`."""
-    obstacle_id: _builtins.str
-    """Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses."""
-    @_builtins.property
-    def obstacle(self) -> Global___Obstacle:
-        """The obstacle. Required."""
-
-    def __init__(
-        self,
-        *,
-        parent: _builtins.str = ...,
-        obstacle_id: _builtins.str = ...,
-        obstacle: Global___Obstacle | None = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle", "obstacle_id", b"obstacle_id", "parent", b"parent"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___AddObstacleRequest: _TypeAlias = AddObstacleRequest  # noqa: Y015
-
-@_typing.final
-class AddObstacleResponse(_message.Message):
-    """The new obstacle."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    OBSTACLE_FIELD_NUMBER: _builtins.int
-    @_builtins.property
-    def obstacle(self) -> Global___Obstacle:
-        """As it was added, with defaults filled in."""
-
-    def __init__(
-        self,
-        *,
-        obstacle: Global___Obstacle | None = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___AddObstacleResponse: _TypeAlias = AddObstacleResponse  # noqa: Y015
-
-@_typing.final
-class UpdateObstacleRequest(_message.Message):
-    """Replaces an obstacle."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    OBSTACLE_FIELD_NUMBER: _builtins.int
-    @_builtins.property
-    def obstacle(self) -> Global___Obstacle:
-        """The obstacle, by `name`, with all its new values."""
-
-    def __init__(
-        self,
-        *,
-        obstacle: Global___Obstacle | None = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___UpdateObstacleRequest: _TypeAlias = UpdateObstacleRequest  # noqa: Y015
-
-@_typing.final
-class UpdateObstacleResponse(_message.Message):
-    """The changed obstacle."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    OBSTACLE_FIELD_NUMBER: _builtins.int
-    @_builtins.property
-    def obstacle(self) -> Global___Obstacle:
-        """As it is now."""
-
-    def __init__(
-        self,
-        *,
-        obstacle: Global___Obstacle | None = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacle", b"obstacle"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___UpdateObstacleResponse: _TypeAlias = UpdateObstacleResponse  # noqa: Y015
-
-@_typing.final
-class RemoveObstacleRequest(_message.Message):
-    """Takes an obstacle out."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    NAME_FIELD_NUMBER: _builtins.int
-    name: _builtins.str
-    """Resource name `worlds/{world}/obstacles/{obstacle}`."""
-    def __init__(
-        self,
-        *,
-        name: _builtins.str = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["name", b"name"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___RemoveObstacleRequest: _TypeAlias = RemoveObstacleRequest  # noqa: Y015
-
-@_typing.final
-class RemoveObstacleResponse(_message.Message):
-    """The obstacle is gone."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    def __init__(
-        self,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _Never  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___RemoveObstacleResponse: _TypeAlias = RemoveObstacleResponse  # noqa: Y015
-
-@_typing.final
-class ListObstaclesRequest(_message.Message):
-    """Asks for the obstacles of a world."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    PARENT_FIELD_NUMBER: _builtins.int
-    parent: _builtins.str
-    """World: resource name `worlds/{world}`."""
-    def __init__(
-        self,
-        *,
-        parent: _builtins.str = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["parent", b"parent"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___ListObstaclesRequest: _TypeAlias = ListObstaclesRequest  # noqa: Y015
-
-@_typing.final
-class ListObstaclesResponse(_message.Message):
-    """The obstacles of a world: at most 256."""
-
-    DESCRIPTOR: _descriptor.Descriptor
-
-    OBSTACLES_FIELD_NUMBER: _builtins.int
-    @_builtins.property
-    def obstacles(self) -> _containers.RepeatedCompositeFieldContainer[Global___Obstacle]:
-        """In the order they were added."""
-
-    def __init__(
-        self,
-        *,
-        obstacles: _abc.Iterable[Global___Obstacle] | None = ...,
-    ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
-    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["obstacles", b"obstacles"]  # noqa: Y015
-    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    def WhichOneof(self, oneof_group: _Never) -> None: ...
-
-Global___ListObstaclesResponse: _TypeAlias = ListObstaclesResponse  # noqa: Y015

@@ -80,26 +80,6 @@ class WorldServiceStub:
                 request_serializer=sinew_dot_v1_dot_world__pb2.SetWorldSpeedRequest.SerializeToString,
                 response_deserializer=sinew_dot_v1_dot_world__pb2.SetWorldSpeedResponse.FromString,
                 _registered_method=True)
-        self.AddObstacle = channel.unary_unary(
-                '/sinew.v1.WorldService/AddObstacle',
-                request_serializer=sinew_dot_v1_dot_world__pb2.AddObstacleRequest.SerializeToString,
-                response_deserializer=sinew_dot_v1_dot_world__pb2.AddObstacleResponse.FromString,
-                _registered_method=True)
-        self.UpdateObstacle = channel.unary_unary(
-                '/sinew.v1.WorldService/UpdateObstacle',
-                request_serializer=sinew_dot_v1_dot_world__pb2.UpdateObstacleRequest.SerializeToString,
-                response_deserializer=sinew_dot_v1_dot_world__pb2.UpdateObstacleResponse.FromString,
-                _registered_method=True)
-        self.RemoveObstacle = channel.unary_unary(
-                '/sinew.v1.WorldService/RemoveObstacle',
-                request_serializer=sinew_dot_v1_dot_world__pb2.RemoveObstacleRequest.SerializeToString,
-                response_deserializer=sinew_dot_v1_dot_world__pb2.RemoveObstacleResponse.FromString,
-                _registered_method=True)
-        self.ListObstacles = channel.unary_unary(
-                '/sinew.v1.WorldService/ListObstacles',
-                request_serializer=sinew_dot_v1_dot_world__pb2.ListObstaclesRequest.SerializeToString,
-                response_deserializer=sinew_dot_v1_dot_world__pb2.ListObstaclesResponse.FromString,
-                _registered_method=True)
 
 
 class WorldServiceServicer:
@@ -137,7 +117,7 @@ class WorldServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def DeleteWorld(self, request, context):
-        """Ends a world: its streams end with NOT_FOUND.
+        """Ends a world: its streams end with NOT_FOUND, after the event `EVENT_TYPE_WORLD_DELETED`.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -168,35 +148,6 @@ class WorldServiceServicer:
 
     def SetWorldSpeed(self, request, context):
         """Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it.
-        """
-        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
-        context.set_details('Method not implemented!')
-        raise NotImplementedError('Method not implemented!')
-
-    def AddObstacle(self, request, context):
-        """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
-        (RESOURCE_EXHAUSTED).
-        """
-        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
-        context.set_details('Method not implemented!')
-        raise NotImplementedError('Method not implemented!')
-
-    def UpdateObstacle(self, request, context):
-        """Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
-        """
-        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
-        context.set_details('Method not implemented!')
-        raise NotImplementedError('Method not implemented!')
-
-    def RemoveObstacle(self, request, context):
-        """Takes an obstacle out of its world.
-        """
-        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
-        context.set_details('Method not implemented!')
-        raise NotImplementedError('Method not implemented!')
-
-    def ListObstacles(self, request, context):
-        """All obstacles of a world as they are now, in the order they were added.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -249,26 +200,6 @@ def add_WorldServiceServicer_to_server(servicer, server):
                     servicer.SetWorldSpeed,
                     request_deserializer=sinew_dot_v1_dot_world__pb2.SetWorldSpeedRequest.FromString,
                     response_serializer=sinew_dot_v1_dot_world__pb2.SetWorldSpeedResponse.SerializeToString,
-            ),
-            'AddObstacle': grpc.unary_unary_rpc_method_handler(
-                    servicer.AddObstacle,
-                    request_deserializer=sinew_dot_v1_dot_world__pb2.AddObstacleRequest.FromString,
-                    response_serializer=sinew_dot_v1_dot_world__pb2.AddObstacleResponse.SerializeToString,
-            ),
-            'UpdateObstacle': grpc.unary_unary_rpc_method_handler(
-                    servicer.UpdateObstacle,
-                    request_deserializer=sinew_dot_v1_dot_world__pb2.UpdateObstacleRequest.FromString,
-                    response_serializer=sinew_dot_v1_dot_world__pb2.UpdateObstacleResponse.SerializeToString,
-            ),
-            'RemoveObstacle': grpc.unary_unary_rpc_method_handler(
-                    servicer.RemoveObstacle,
-                    request_deserializer=sinew_dot_v1_dot_world__pb2.RemoveObstacleRequest.FromString,
-                    response_serializer=sinew_dot_v1_dot_world__pb2.RemoveObstacleResponse.SerializeToString,
-            ),
-            'ListObstacles': grpc.unary_unary_rpc_method_handler(
-                    servicer.ListObstacles,
-                    request_deserializer=sinew_dot_v1_dot_world__pb2.ListObstaclesRequest.FromString,
-                    response_serializer=sinew_dot_v1_dot_world__pb2.ListObstaclesResponse.SerializeToString,
             ),
     }
     generic_handler = grpc.method_handlers_generic_handler(
@@ -515,114 +446,6 @@ class WorldService:
             '/sinew.v1.WorldService/SetWorldSpeed',
             sinew_dot_v1_dot_world__pb2.SetWorldSpeedRequest.SerializeToString,
             sinew_dot_v1_dot_world__pb2.SetWorldSpeedResponse.FromString,
-            options,
-            channel_credentials,
-            insecure,
-            call_credentials,
-            compression,
-            wait_for_ready,
-            timeout,
-            metadata,
-            _registered_method=True)
-
-    @staticmethod
-    def AddObstacle(request,
-            target,
-            options=(),
-            channel_credentials=None,
-            call_credentials=None,
-            insecure=False,
-            compression=None,
-            wait_for_ready=None,
-            timeout=None,
-            metadata=None):
-        return grpc.experimental.unary_unary(
-            request,
-            target,
-            '/sinew.v1.WorldService/AddObstacle',
-            sinew_dot_v1_dot_world__pb2.AddObstacleRequest.SerializeToString,
-            sinew_dot_v1_dot_world__pb2.AddObstacleResponse.FromString,
-            options,
-            channel_credentials,
-            insecure,
-            call_credentials,
-            compression,
-            wait_for_ready,
-            timeout,
-            metadata,
-            _registered_method=True)
-
-    @staticmethod
-    def UpdateObstacle(request,
-            target,
-            options=(),
-            channel_credentials=None,
-            call_credentials=None,
-            insecure=False,
-            compression=None,
-            wait_for_ready=None,
-            timeout=None,
-            metadata=None):
-        return grpc.experimental.unary_unary(
-            request,
-            target,
-            '/sinew.v1.WorldService/UpdateObstacle',
-            sinew_dot_v1_dot_world__pb2.UpdateObstacleRequest.SerializeToString,
-            sinew_dot_v1_dot_world__pb2.UpdateObstacleResponse.FromString,
-            options,
-            channel_credentials,
-            insecure,
-            call_credentials,
-            compression,
-            wait_for_ready,
-            timeout,
-            metadata,
-            _registered_method=True)
-
-    @staticmethod
-    def RemoveObstacle(request,
-            target,
-            options=(),
-            channel_credentials=None,
-            call_credentials=None,
-            insecure=False,
-            compression=None,
-            wait_for_ready=None,
-            timeout=None,
-            metadata=None):
-        return grpc.experimental.unary_unary(
-            request,
-            target,
-            '/sinew.v1.WorldService/RemoveObstacle',
-            sinew_dot_v1_dot_world__pb2.RemoveObstacleRequest.SerializeToString,
-            sinew_dot_v1_dot_world__pb2.RemoveObstacleResponse.FromString,
-            options,
-            channel_credentials,
-            insecure,
-            call_credentials,
-            compression,
-            wait_for_ready,
-            timeout,
-            metadata,
-            _registered_method=True)
-
-    @staticmethod
-    def ListObstacles(request,
-            target,
-            options=(),
-            channel_credentials=None,
-            call_credentials=None,
-            insecure=False,
-            compression=None,
-            wait_for_ready=None,
-            timeout=None,
-            metadata=None):
-        return grpc.experimental.unary_unary(
-            request,
-            target,
-            '/sinew.v1.WorldService/ListObstacles',
-            sinew_dot_v1_dot_world__pb2.ListObstaclesRequest.SerializeToString,
-            sinew_dot_v1_dot_world__pb2.ListObstaclesResponse.FromString,
             options,
             channel_credentials,
             insecure,

@@ -46,7 +46,7 @@ class WorldServiceStub:
     for a faster clock.
     """
     DeleteWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.DeleteWorldRequest, _world_pb2.DeleteWorldResponse]
-    """Ends a world: its streams end with NOT_FOUND."""
+    """Ends a world: its streams end with NOT_FOUND, after the event `EVENT_TYPE_WORLD_DELETED`."""
     PauseWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.PauseWorldRequest, _world_pb2.PauseWorldResponse]
     """Stops the clock after the running tick. Pausing a paused world does nothing."""
     ResumeWorld: _grpc.UnaryUnaryMultiCallable[_world_pb2.ResumeWorldRequest, _world_pb2.ResumeWorldResponse]
@@ -59,16 +59,6 @@ class WorldServiceStub:
     """
     SetWorldSpeed: _grpc.UnaryUnaryMultiCallable[_world_pb2.SetWorldSpeedRequest, _world_pb2.SetWorldSpeedResponse]
     """Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it."""
-    AddObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.AddObstacleRequest, _world_pb2.AddObstacleResponse]
-    """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
-    (RESOURCE_EXHAUSTED).
-    """
-    UpdateObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.UpdateObstacleRequest, _world_pb2.UpdateObstacleResponse]
-    """Replaces an obstacle by another of the same name: shape, mobility, pose and velocity."""
-    RemoveObstacle: _grpc.UnaryUnaryMultiCallable[_world_pb2.RemoveObstacleRequest, _world_pb2.RemoveObstacleResponse]
-    """Takes an obstacle out of its world."""
-    ListObstacles: _grpc.UnaryUnaryMultiCallable[_world_pb2.ListObstaclesRequest, _world_pb2.ListObstaclesResponse]
-    """All obstacles of a world as they are now, in the order they were added."""
 
 @_typing.type_check_only
 class WorldServiceAsyncStub(WorldServiceStub):
@@ -88,7 +78,7 @@ class WorldServiceAsyncStub(WorldServiceStub):
     for a faster clock.
     """
     DeleteWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.DeleteWorldRequest, _world_pb2.DeleteWorldResponse]  # type: ignore[assignment]
-    """Ends a world: its streams end with NOT_FOUND."""
+    """Ends a world: its streams end with NOT_FOUND, after the event `EVENT_TYPE_WORLD_DELETED`."""
     PauseWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.PauseWorldRequest, _world_pb2.PauseWorldResponse]  # type: ignore[assignment]
     """Stops the clock after the running tick. Pausing a paused world does nothing."""
     ResumeWorld: _aio.UnaryUnaryMultiCallable[_world_pb2.ResumeWorldRequest, _world_pb2.ResumeWorldResponse]  # type: ignore[assignment]
@@ -101,16 +91,6 @@ class WorldServiceAsyncStub(WorldServiceStub):
     """
     SetWorldSpeed: _aio.UnaryUnaryMultiCallable[_world_pb2.SetWorldSpeedRequest, _world_pb2.SetWorldSpeedResponse]  # type: ignore[assignment]
     """Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it."""
-    AddObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.AddObstacleRequest, _world_pb2.AddObstacleResponse]  # type: ignore[assignment]
-    """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
-    (RESOURCE_EXHAUSTED).
-    """
-    UpdateObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.UpdateObstacleRequest, _world_pb2.UpdateObstacleResponse]  # type: ignore[assignment]
-    """Replaces an obstacle by another of the same name: shape, mobility, pose and velocity."""
-    RemoveObstacle: _aio.UnaryUnaryMultiCallable[_world_pb2.RemoveObstacleRequest, _world_pb2.RemoveObstacleResponse]  # type: ignore[assignment]
-    """Takes an obstacle out of its world."""
-    ListObstacles: _aio.UnaryUnaryMultiCallable[_world_pb2.ListObstaclesRequest, _world_pb2.ListObstaclesResponse]  # type: ignore[assignment]
-    """All obstacles of a world as they are now, in the order they were added."""
 
 class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
     """Creates, lists and controls worlds. A world is one shared scene with a clock of its own: gravity, ground, figures."""
@@ -157,7 +137,7 @@ class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _world_pb2.DeleteWorldRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_world_pb2.DeleteWorldResponse, _abc.Awaitable[_world_pb2.DeleteWorldResponse]]:
-        """Ends a world: its streams end with NOT_FOUND."""
+        """Ends a world: its streams end with NOT_FOUND, after the event `EVENT_TYPE_WORLD_DELETED`."""
 
     @_abc_1.abstractmethod
     def PauseWorld(
@@ -194,39 +174,5 @@ class WorldServiceServicer(metaclass=_abc_1.ABCMeta):
         context: _ServicerContext,
     ) -> _typing.Union[_world_pb2.SetWorldSpeedResponse, _abc.Awaitable[_world_pb2.SetWorldSpeedResponse]]:
         """Sets how fast world time passes. RESOURCE_EXHAUSTED (`TICK_BUDGET`) when there is no processor time for it."""
-
-    @_abc_1.abstractmethod
-    def AddObstacle(
-        self,
-        request: _world_pb2.AddObstacleRequest,
-        context: _ServicerContext,
-    ) -> _typing.Union[_world_pb2.AddObstacleResponse, _abc.Awaitable[_world_pb2.AddObstacleResponse]]:
-        """Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
-        (RESOURCE_EXHAUSTED).
-        """
-
-    @_abc_1.abstractmethod
-    def UpdateObstacle(
-        self,
-        request: _world_pb2.UpdateObstacleRequest,
-        context: _ServicerContext,
-    ) -> _typing.Union[_world_pb2.UpdateObstacleResponse, _abc.Awaitable[_world_pb2.UpdateObstacleResponse]]:
-        """Replaces an obstacle by another of the same name: shape, mobility, pose and velocity."""
-
-    @_abc_1.abstractmethod
-    def RemoveObstacle(
-        self,
-        request: _world_pb2.RemoveObstacleRequest,
-        context: _ServicerContext,
-    ) -> _typing.Union[_world_pb2.RemoveObstacleResponse, _abc.Awaitable[_world_pb2.RemoveObstacleResponse]]:
-        """Takes an obstacle out of its world."""
-
-    @_abc_1.abstractmethod
-    def ListObstacles(
-        self,
-        request: _world_pb2.ListObstaclesRequest,
-        context: _ServicerContext,
-    ) -> _typing.Union[_world_pb2.ListObstaclesResponse, _abc.Awaitable[_world_pb2.ListObstaclesResponse]]:
-        """All obstacles of a world as they are now, in the order they were added."""
 
 def add_WorldServiceServicer_to_server(servicer: WorldServiceServicer, server: _typing.Union[_grpc.Server, _aio.Server]) -> None: ...

@@ -4,6 +4,8 @@
 
 import type { GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
 import { fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
+import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import type { FieldMask, Timestamp } from "@bufbuild/protobuf/wkt";
 import { file_google_protobuf_field_mask, file_google_protobuf_timestamp } from "@bufbuild/protobuf/wkt";
 import type { Role } from "./options_pb.js";
@@ -14,7 +16,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/access.proto.
  */
 export const file_sinew_v1_access: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9hY2Nlc3MucHJvdG8SCHNpbmV3LnYxIv4BCgVHcmFudBIMCgRuYW1lGAEgASgJEhEKCXByaW5jaXBhbBgCIAEoCRIdCgVyb2xlcxgDIAMoDjIOLnNpbmV3LnYxLlJvbGUSDwoHZmlndXJlcxgEIAMoCRIsCgZib3VuZHMYBSABKAsyHC5zaW5ldy52MS5QZXJ0dXJiYXRpb25Cb3VuZHMSFAoMbWF4X3ByaW9yaXR5GAYgASgFEi8KC2NyZWF0ZV90aW1lGAcgASgLMhouZ29vZ2xlLnByb3RvYnVmLlRpbWVzdGFtcBIvCgtleHBpcmVfdGltZRgIIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5UaW1lc3RhbXAikgEKElBlcnR1cmJhdGlvbkJvdW5kcxIYCgttYXhfZm9yY2VfbhgBIAEoAUgAiAEBEhgKC21heF9tYXNzX2tnGAIgASgBSAGIAQESGAoLbWF4X3JhdGVfaHoYAyABKAFIAogBAUIOCgxfbWF4X2ZvcmNlX25CDgoMX21heF9tYXNzX2tnQg4KDF9tYXhfcmF0ZV9oeiIhChBHZXRDYWxsZXJSZXF1ZXN0Eg0KBXdvcmxkGAEgASgJInYKEUdldENhbGxlclJlc3BvbnNlEhEKCXByaW5jaXBhbBgBIAEoCRIdCgVyb2xlcxgCIAMoDjIOLnNpbmV3LnYxLlJvbGUSLwoLZXhwaXJlX3RpbWUYAyABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wIlYKEkNyZWF0ZUdyYW50UmVxdWVzdBIOCgZwYXJlbnQYASABKAkSEAoIZ3JhbnRfaWQYAiABKAkSHgoFZ3JhbnQYAyABKAsyDy5zaW5ldy52MS5HcmFudCI1ChNDcmVhdGVHcmFudFJlc3BvbnNlEh4KBWdyYW50GAEgASgLMg8uc2luZXcudjEuR3JhbnQiHwoPR2V0R3JhbnRSZXF1ZXN0EgwKBG5hbWUYASABKAkiMgoQR2V0R3JhbnRSZXNwb25zZRIeCgVncmFudBgBIAEoCzIPLnNpbmV3LnYxLkdyYW50IkoKEUxpc3RHcmFudHNSZXF1ZXN0Eg4KBnBhcmVudBgBIAEoCRIRCglwYWdlX3NpemUYAiABKAUSEgoKcGFnZV90b2tlbhgDIAEoCSJOChJMaXN0R3JhbnRzUmVzcG9uc2USHwoGZ3JhbnRzGAEgAygLMg8uc2luZXcudjEuR3JhbnQSFwoPbmV4dF9wYWdlX3Rva2VuGAIgASgJImUKElVwZGF0ZUdyYW50UmVxdWVzdBIeCgVncmFudBgBIAEoCzIPLnNpbmV3LnYxLkdyYW50Ei8KC3VwZGF0ZV9tYXNrGAIgASgLMhouZ29vZ2xlLnByb3RvYnVmLkZpZWxkTWFzayI1ChNVcGRhdGVHcmFudFJlc3BvbnNlEh4KBWdyYW50GAEgASgLMg8uc2luZXcudjEuR3JhbnQiIgoSRGVsZXRlR3JhbnRSZXF1ZXN0EgwKBG5hbWUYASABKAkiFQoTRGVsZXRlR3JhbnRSZXNwb25zZTLpAwoNQWNjZXNzU2VydmljZRJKCglHZXRDYWxsZXISGi5zaW5ldy52MS5HZXRDYWxsZXJSZXF1ZXN0Ghsuc2luZXcudjEuR2V0Q2FsbGVyUmVzcG9uc2UiBOjgGAYSUAoLQ3JlYXRlR3JhbnQSHC5zaW5ldy52MS5DcmVhdGVHcmFudFJlcXVlc3QaHS5zaW5ldy52MS5DcmVhdGVHcmFudFJlc3BvbnNlIgTo4BgFEkcKCEdldEdyYW50Ehkuc2luZXcudjEuR2V0R3JhbnRSZXF1ZXN0Ghouc2luZXcudjEuR2V0R3JhbnRSZXNwb25zZSIE6OAYBRJNCgpMaXN0R3JhbnRzEhsuc2luZXcudjEuTGlzdEdyYW50c1JlcXVlc3QaHC5zaW5ldy52MS5MaXN0R3JhbnRzUmVzcG9uc2UiBOjgGAUSUAoLVXBkYXRlR3JhbnQSHC5zaW5ldy52MS5VcGRhdGVHcmFudFJlcXVlc3QaHS5zaW5ldy52MS5VcGRhdGVHcmFudFJlc3BvbnNlIgTo4BgFElAKC0RlbGV0ZUdyYW50Ehwuc2luZXcudjEuRGVsZXRlR3JhbnRSZXF1ZXN0Gh0uc2luZXcudjEuRGVsZXRlR3JhbnRSZXNwb25zZSIE6OAYBWIGcHJvdG8z", [file_google_protobuf_field_mask, file_google_protobuf_timestamp, file_sinew_v1_options]);
+  fileDesc("ChVzaW5ldy92MS9hY2Nlc3MucHJvdG8SCHNpbmV3LnYxIoYDCgVHcmFudBISCgRuYW1lGAEgASgJQgTiQQEIEhgKCXByaW5jaXBhbBgCIAEoCUIF4kECAgUSIwoFcm9sZXMYAyADKA4yDi5zaW5ldy52MS5Sb2xlQgTiQQECEhgKCmZpZ3VyZV9pZHMYBCADKAlCBOJBAQESMgoGYm91bmRzGAUgASgLMhwuc2luZXcudjEuUGVydHVyYmF0aW9uQm91bmRzQgTiQQEBEhoKDG1heF9wcmlvcml0eRgGIAEoBUIE4kEBARI1CgtjcmVhdGVfdGltZRgHIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5UaW1lc3RhbXBCBOJBAQMSNQoLZXhwaXJlX3RpbWUYCCABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wQgTiQQEBEhIKBGV0YWcYCSABKAlCBOJBAQE6PupBOwoLc2luZXcvR3JhbnQSHXdvcmxkcy97d29ybGR9L2dyYW50cy97Z3JhbnR9KgZncmFudHMyBWdyYW50IrABChJQZXJ0dXJiYXRpb25Cb3VuZHMSJAoRbWF4X2ZvcmNlX25ld3RvbnMYASABKAFCBOJBAQFIAIgBARIeCgttYXhfbWFzc19rZxgCIAEoAUIE4kEBAUgBiAEBEh4KC21heF9yYXRlX2h6GAMgASgBQgTiQQEBSAKIAQFCFAoSX21heF9mb3JjZV9uZXd0b25zQg4KDF9tYXhfbWFzc19rZ0IOCgxfbWF4X3JhdGVfaHoiNwoQR2V0Q2FsbGVyUmVxdWVzdBIjCgV3b3JsZBgBIAEoCUIU4kEBAfpBDQoLc2luZXcvV29ybGQidgoRR2V0Q2FsbGVyUmVzcG9uc2USEQoJcHJpbmNpcGFsGAEgASgJEh0KBXJvbGVzGAIgAygOMg4uc2luZXcudjEuUm9sZRIvCgtleHBpcmVfdGltZRgDIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5UaW1lc3RhbXAirwEKEkNyZWF0ZUdyYW50UmVxdWVzdBIkCgZwYXJlbnQYASABKAlCFOJBAQL6QQ0SC3NpbmV3L0dyYW50EhYKCGdyYW50X2lkGAIgASgJQgTiQQEBEiQKBWdyYW50GAMgASgLMg8uc2luZXcudjEuR3JhbnRCBOJBAQISGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBARIbCg12YWxpZGF0ZV9vbmx5GA4gASgIQgTiQQEBIjUKE0NyZWF0ZUdyYW50UmVzcG9uc2USHgoFZ3JhbnQYASABKAsyDy5zaW5ldy52MS5HcmFudCI1Cg9HZXRHcmFudFJlcXVlc3QSIgoEbmFtZRgBIAEoCUIU4kEBAvpBDQoLc2luZXcvR3JhbnQiMgoQR2V0R3JhbnRSZXNwb25zZRIeCgVncmFudBgBIAEoCzIPLnNpbmV3LnYxLkdyYW50ImwKEUxpc3RHcmFudHNSZXF1ZXN0EiQKBnBhcmVudBgBIAEoCUIU4kEBAvpBDRILc2luZXcvR3JhbnQSFwoJcGFnZV9zaXplGAIgASgFQgTiQQEBEhgKCnBhZ2VfdG9rZW4YAyABKAlCBOJBAQEiTgoSTGlzdEdyYW50c1Jlc3BvbnNlEh8KBmdyYW50cxgBIAMoCzIPLnNpbmV3LnYxLkdyYW50EhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSKOAQoSVXBkYXRlR3JhbnRSZXF1ZXN0EiQKBWdyYW50GAEgASgLMg8uc2luZXcudjEuR3JhbnRCBOJBAQISNQoLdXBkYXRlX21hc2sYAiABKAsyGi5nb29nbGUucHJvdG9idWYuRmllbGRNYXNrQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQEiNQoTVXBkYXRlR3JhbnRSZXNwb25zZRIeCgVncmFudBgBIAEoCzIPLnNpbmV3LnYxLkdyYW50ImYKEkRlbGV0ZUdyYW50UmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9HcmFudBISCgRldGFnGAwgASgJQgTiQQEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiFQoTRGVsZXRlR3JhbnRSZXNwb25zZTLpAwoNQWNjZXNzU2VydmljZRJKCglHZXRDYWxsZXISGi5zaW5ldy52MS5HZXRDYWxsZXJSZXF1ZXN0Ghsuc2luZXcudjEuR2V0Q2FsbGVyUmVzcG9uc2UiBOjgGAYSUAoLQ3JlYXRlR3JhbnQSHC5zaW5ldy52MS5DcmVhdGVHcmFudFJlcXVlc3QaHS5zaW5ldy52MS5DcmVhdGVHcmFudFJlc3BvbnNlIgTo4BgFEkcKCEdldEdyYW50Ehkuc2luZXcudjEuR2V0R3JhbnRSZXF1ZXN0Ghouc2luZXcudjEuR2V0R3JhbnRSZXNwb25zZSIE6OAYBRJNCgpMaXN0R3JhbnRzEhsuc2luZXcudjEuTGlzdEdyYW50c1JlcXVlc3QaHC5zaW5ldy52MS5MaXN0R3JhbnRzUmVzcG9uc2UiBOjgGAUSUAoLVXBkYXRlR3JhbnQSHC5zaW5ldy52MS5VcGRhdGVHcmFudFJlcXVlc3QaHS5zaW5ldy52MS5VcGRhdGVHcmFudFJlc3BvbnNlIgTo4BgFElAKC0RlbGV0ZUdyYW50Ehwuc2luZXcudjEuRGVsZXRlR3JhbnRSZXF1ZXN0Gh0uc2luZXcudjEuRGVsZXRlR3JhbnRSZXNwb25zZSIE6OAYBWIGcHJvdG8z", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_field_mask, file_google_protobuf_timestamp, file_sinew_v1_options]);
 
 /**
  * Roles of one principal in a world.
@@ -47,9 +49,9 @@ export type Grant = Message<"sinew.v1.Grant"> & {
   /**
    * Figures that ROLE_DRIVER is for: last parts of their names, at most 64. Empty: all.
    *
-   * @generated from field: repeated string figures = 4;
+   * @generated from field: repeated string figure_ids = 4;
    */
-  figures: string[];
+  figureIds: string[];
 
   /**
    * Bounds of ROLE_PERTURBER. Absent: none but those of the calls.
@@ -78,6 +80,14 @@ export type Grant = Message<"sinew.v1.Grant"> & {
    * @generated from field: google.protobuf.Timestamp expire_time = 8;
    */
   expireTime?: Timestamp | undefined;
+
+  /**
+   * Changes whenever the grant does. In requests: the change is refused (ABORTED, `ETAG_MISMATCH`) unless it is that of
+   * the grant. Empty: not checked.
+   *
+   * @generated from field: string etag = 9;
+   */
+  etag: string;
 };
 
 /**
@@ -96,12 +106,12 @@ export type PerturbationBounds = Message<"sinew.v1.PerturbationBounds"> & {
   /**
    * Largest force, N; that of an impulse is impulse / duration. 0: no loads and forces at all. Absent: unbounded.
    *
-   * @generated from field: optional double max_force_n = 1;
+   * @generated from field: optional double max_force_newtons = 1;
    */
-  maxForceN?: number | undefined;
+  maxForceNewtons?: number | undefined;
 
   /**
-   * Largest mass of a load, kg. Absent: as heavy as `max_force_n` under 9.81 m/s².
+   * Largest mass of a load, kg. Absent: as heavy as `max_force_newtons` under 9.81 m/s².
    *
    * @generated from field: optional double max_mass_kg = 2;
    */
@@ -205,6 +215,21 @@ export type CreateGrantRequest = Message<"sinew.v1.CreateGrantRequest"> & {
    * @generated from field: sinew.v1.Grant grant = 3;
    */
   grant?: Grant | undefined;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
+
+  /**
+   * Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+   *
+   * @generated from field: bool validate_only = 14;
+   */
+  validateOnly: boolean;
 };
 
 /**
@@ -291,7 +316,7 @@ export type ListGrantsRequest = Message<"sinew.v1.ListGrantsRequest"> & {
   parent: string;
 
   /**
-   * Most grants to return, 0…1000. 0: 100.
+   * Most grants to return. 0: 100; more than 1000 are taken as 1000.
    *
    * @generated from field: int32 page_size = 2;
    */
@@ -354,11 +379,19 @@ export type UpdateGrantRequest = Message<"sinew.v1.UpdateGrantRequest"> & {
   grant?: Grant | undefined;
 
   /**
-   * Which of `roles`, `figures`, `bounds`, `max_priority`, `expire_time` to take. Must not be empty.
+   * Which of `roles`, `figure_ids`, `bounds`, `max_priority`, `expire_time` to take. Absent or empty: those that are
+   * not empty. `*`: all.
    *
    * @generated from field: google.protobuf.FieldMask update_mask = 2;
    */
   updateMask?: FieldMask | undefined;
+
+  /**
+   * Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+   *
+   * @generated from field: bool validate_only = 14;
+   */
+  validateOnly: boolean;
 };
 
 /**
@@ -401,6 +434,21 @@ export type DeleteGrantRequest = Message<"sinew.v1.DeleteGrantRequest"> & {
    * @generated from field: string name = 1;
    */
   name: string;
+
+  /**
+   * Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked.
+   *
+   * @generated from field: string etag = 12;
+   */
+  etag: string;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**

@@ -4,6 +4,8 @@
 
 import type { GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
 import { fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
+import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import type { Timestamp } from "@bufbuild/protobuf/wkt";
 import { file_google_protobuf_timestamp } from "@bufbuild/protobuf/wkt";
 import { file_sinew_v1_options } from "./options_pb.js";
@@ -15,7 +17,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/checkpoint.proto.
  */
 export const file_sinew_v1_checkpoint: GenFile = /*@__PURE__*/
-  fileDesc("ChlzaW5ldy92MS9jaGVja3BvaW50LnByb3RvEghzaW5ldy52MSKRAQoKQ2hlY2twb2ludBIMCgRuYW1lGAEgASgJEgwKBHRpY2sYAiABKAMSDgoGdGltZV9zGAMgASgBEhIKCnN0YXRlX2hhc2gYBCABKBASEgoKc2l6ZV9ieXRlcxgFIAEoAxIvCgtjcmVhdGVfdGltZRgGIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5UaW1lc3RhbXAiUgoWQ2hlY2twb2ludFdvcmxkUmVxdWVzdBIMCgRuYW1lGAEgASgJEhUKDWNoZWNrcG9pbnRfaWQYAiABKAkSEwoLcmV0dXJuX2RhdGEYAyABKAgiUQoXQ2hlY2twb2ludFdvcmxkUmVzcG9uc2USKAoKY2hlY2twb2ludBgBIAEoCzIULnNpbmV3LnYxLkNoZWNrcG9pbnQSDAoEZGF0YRgCIAEoDCI5ChRHZXRDaGVja3BvaW50UmVxdWVzdBIMCgRuYW1lGAEgASgJEhMKC3JldHVybl9kYXRhGAIgASgIIk8KFUdldENoZWNrcG9pbnRSZXNwb25zZRIoCgpjaGVja3BvaW50GAEgASgLMhQuc2luZXcudjEuQ2hlY2twb2ludBIMCgRkYXRhGAIgASgMIk8KFkxpc3RDaGVja3BvaW50c1JlcXVlc3QSDgoGcGFyZW50GAEgASgJEhEKCXBhZ2Vfc2l6ZRgCIAEoBRISCgpwYWdlX3Rva2VuGAMgASgJIl0KF0xpc3RDaGVja3BvaW50c1Jlc3BvbnNlEikKC2NoZWNrcG9pbnRzGAEgAygLMhQuc2luZXcudjEuQ2hlY2twb2ludBIXCg9uZXh0X3BhZ2VfdG9rZW4YAiABKAkiJwoXRGVsZXRlQ2hlY2twb2ludFJlcXVlc3QSDAoEbmFtZRgBIAEoCSIaChhEZWxldGVDaGVja3BvaW50UmVzcG9uc2UiUwoTUmVzdG9yZVdvcmxkUmVxdWVzdBIMCgRuYW1lGAEgASgJEhQKCmNoZWNrcG9pbnQYAiABKAlIABIOCgRkYXRhGAMgASgMSABCCAoGc291cmNlIjYKFFJlc3RvcmVXb3JsZFJlc3BvbnNlEh4KBXdvcmxkGAEgASgLMg8uc2luZXcudjEuV29ybGQidQoQRm9ya1dvcmxkUmVxdWVzdBIUCgpjaGVja3BvaW50GAEgASgJSAASDgoEZGF0YRgCIAEoDEgAEg8KBXdvcmxkGAMgASgJSAASEAoId29ybGRfaWQYBCABKAkSDgoGcGF1c2VkGAUgASgIQggKBnNvdXJjZSIzChFGb3JrV29ybGRSZXNwb25zZRIeCgV3b3JsZBgBIAEoCzIPLnNpbmV3LnYxLldvcmxkMqkEChFDaGVja3BvaW50U2VydmljZRJcCg9DaGVja3BvaW50V29ybGQSIC5zaW5ldy52MS5DaGVja3BvaW50V29ybGRSZXF1ZXN0GiEuc2luZXcudjEuQ2hlY2twb2ludFdvcmxkUmVzcG9uc2UiBOjgGAQSVgoNR2V0Q2hlY2twb2ludBIeLnNpbmV3LnYxLkdldENoZWNrcG9pbnRSZXF1ZXN0Gh8uc2luZXcudjEuR2V0Q2hlY2twb2ludFJlc3BvbnNlIgTo4BgEElwKD0xpc3RDaGVja3BvaW50cxIgLnNpbmV3LnYxLkxpc3RDaGVja3BvaW50c1JlcXVlc3QaIS5zaW5ldy52MS5MaXN0Q2hlY2twb2ludHNSZXNwb25zZSIE6OAYARJfChBEZWxldGVDaGVja3BvaW50EiEuc2luZXcudjEuRGVsZXRlQ2hlY2twb2ludFJlcXVlc3QaIi5zaW5ldy52MS5EZWxldGVDaGVja3BvaW50UmVzcG9uc2UiBOjgGAQSUwoMUmVzdG9yZVdvcmxkEh0uc2luZXcudjEuUmVzdG9yZVdvcmxkUmVxdWVzdBoeLnNpbmV3LnYxLlJlc3RvcmVXb3JsZFJlc3BvbnNlIgTo4BgEEkoKCUZvcmtXb3JsZBIaLnNpbmV3LnYxLkZvcmtXb3JsZFJlcXVlc3QaGy5zaW5ldy52MS5Gb3JrV29ybGRSZXNwb25zZSIE6OAYB2IGcHJvdG8z", [file_google_protobuf_timestamp, file_sinew_v1_options, file_sinew_v1_world]);
+  fileDesc("ChlzaW5ldy92MS9jaGVja3BvaW50LnByb3RvEghzaW5ldy52MSKOAgoKQ2hlY2twb2ludBISCgRuYW1lGAEgASgJQgTiQQEIEhIKBHRpY2sYAiABKANCBOJBAQMSFAoGdGltZV9zGAMgASgBQgTiQQEDEhgKCnN0YXRlX2hhc2gYBCABKBBCBOJBAQMSGAoKc2l6ZV9ieXRlcxgFIAEoA0IE4kEBAxI1CgtjcmVhdGVfdGltZRgGIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5UaW1lc3RhbXBCBOJBAQM6V+pBVAoQc2luZXcvQ2hlY2twb2ludBInd29ybGRzL3t3b3JsZH0vY2hlY2twb2ludHMve2NoZWNrcG9pbnR9KgtjaGVja3BvaW50czIKY2hlY2twb2ludCKOAQoWQ2hlY2twb2ludFdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIbCg1jaGVja3BvaW50X2lkGAIgASgJQgTiQQEBEhkKC3JldHVybl9kYXRhGAMgASgIQgTiQQEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiUQoXQ2hlY2twb2ludFdvcmxkUmVzcG9uc2USKAoKY2hlY2twb2ludBgBIAEoCzIULnNpbmV3LnYxLkNoZWNrcG9pbnQSDAoEZGF0YRgCIAEoDCJaChRHZXRDaGVja3BvaW50UmVxdWVzdBInCgRuYW1lGAEgASgJQhniQQEC+kESChBzaW5ldy9DaGVja3BvaW50EhkKC3JldHVybl9kYXRhGAIgASgIQgTiQQEBIk8KFUdldENoZWNrcG9pbnRSZXNwb25zZRIoCgpjaGVja3BvaW50GAEgASgLMhQuc2luZXcudjEuQ2hlY2twb2ludBIMCgRkYXRhGAIgASgMInYKFkxpc3RDaGVja3BvaW50c1JlcXVlc3QSKQoGcGFyZW50GAEgASgJQhniQQEC+kESEhBzaW5ldy9DaGVja3BvaW50EhcKCXBhZ2Vfc2l6ZRgCIAEoBUIE4kEBARIYCgpwYWdlX3Rva2VuGAMgASgJQgTiQQEBIl0KF0xpc3RDaGVja3BvaW50c1Jlc3BvbnNlEikKC2NoZWNrcG9pbnRzGAEgAygLMhQuc2luZXcudjEuQ2hlY2twb2ludBIXCg9uZXh0X3BhZ2VfdG9rZW4YAiABKAkiXAoXRGVsZXRlQ2hlY2twb2ludFJlcXVlc3QSJwoEbmFtZRgBIAEoCUIZ4kEBAvpBEgoQc2luZXcvQ2hlY2twb2ludBIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBIhoKGERlbGV0ZUNoZWNrcG9pbnRSZXNwb25zZSKaAQoTUmVzdG9yZVdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIrCgpjaGVja3BvaW50GAIgASgJQhX6QRIKEHNpbmV3L0NoZWNrcG9pbnRIABIOCgRkYXRhGAMgASgMSAASGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBAUIICgZzb3VyY2UiNgoUUmVzdG9yZVdvcmxkUmVzcG9uc2USHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZCLEAQoQRm9ya1dvcmxkUmVxdWVzdBIrCgpjaGVja3BvaW50GAEgASgJQhX6QRIKEHNpbmV3L0NoZWNrcG9pbnRIABIOCgRkYXRhGAIgASgMSAASIQoFd29ybGQYAyABKAlCEPpBDQoLc2luZXcvV29ybGRIABIWCgh3b3JsZF9pZBgEIAEoCUIE4kEBARIUCgZwYXVzZWQYBSABKAhCBOJBAQESGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBAUIICgZzb3VyY2UiMwoRRm9ya1dvcmxkUmVzcG9uc2USHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZDKpBAoRQ2hlY2twb2ludFNlcnZpY2USXAoPQ2hlY2twb2ludFdvcmxkEiAuc2luZXcudjEuQ2hlY2twb2ludFdvcmxkUmVxdWVzdBohLnNpbmV3LnYxLkNoZWNrcG9pbnRXb3JsZFJlc3BvbnNlIgTo4BgEElYKDUdldENoZWNrcG9pbnQSHi5zaW5ldy52MS5HZXRDaGVja3BvaW50UmVxdWVzdBofLnNpbmV3LnYxLkdldENoZWNrcG9pbnRSZXNwb25zZSIE6OAYBBJcCg9MaXN0Q2hlY2twb2ludHMSIC5zaW5ldy52MS5MaXN0Q2hlY2twb2ludHNSZXF1ZXN0GiEuc2luZXcudjEuTGlzdENoZWNrcG9pbnRzUmVzcG9uc2UiBOjgGAESXwoQRGVsZXRlQ2hlY2twb2ludBIhLnNpbmV3LnYxLkRlbGV0ZUNoZWNrcG9pbnRSZXF1ZXN0GiIuc2luZXcudjEuRGVsZXRlQ2hlY2twb2ludFJlc3BvbnNlIgTo4BgEElMKDFJlc3RvcmVXb3JsZBIdLnNpbmV3LnYxLlJlc3RvcmVXb3JsZFJlcXVlc3QaHi5zaW5ldy52MS5SZXN0b3JlV29ybGRSZXNwb25zZSIE6OAYBBJKCglGb3JrV29ybGQSGi5zaW5ldy52MS5Gb3JrV29ybGRSZXF1ZXN0Ghsuc2luZXcudjEuRm9ya1dvcmxkUmVzcG9uc2UiBOjgGAdiBnByb3RvMw", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_timestamp, file_sinew_v1_options, file_sinew_v1_world]);
 
 /**
  * The state of a world at a tick, kept in the memory of the server until it is deleted, its world is deleted, or the
@@ -100,6 +102,14 @@ export type CheckpointWorldRequest = Message<"sinew.v1.CheckpointWorldRequest"> 
    * @generated from field: bool return_data = 3;
    */
   returnData: boolean;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -207,14 +217,14 @@ export type ListCheckpointsRequest = Message<"sinew.v1.ListCheckpointsRequest"> 
   parent: string;
 
   /**
-   * Most checkpoints of the page, 1…1000. 0: 100.
+   * Most checkpoints to return. 0: 100; more than 1000 are taken as 1000.
    *
    * @generated from field: int32 page_size = 2;
    */
   pageSize: number;
 
   /**
-   * `next_page_token` of the page before. Empty: the first page.
+   * `next_page_token` of the page before. Empty: from the start.
    *
    * @generated from field: string page_token = 3;
    */
@@ -242,7 +252,7 @@ export type ListCheckpointsResponse = Message<"sinew.v1.ListCheckpointsResponse"
   checkpoints: Checkpoint[];
 
   /**
-   * For the next page. Empty: this is the last one.
+   * Token of the next page; empty at the end.
    *
    * @generated from field: string next_page_token = 2;
    */
@@ -268,6 +278,14 @@ export type DeleteCheckpointRequest = Message<"sinew.v1.DeleteCheckpointRequest"
    * @generated from field: string name = 1;
    */
   name: string;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -327,6 +345,14 @@ export type RestoreWorldRequest = Message<"sinew.v1.RestoreWorldRequest"> & {
     value: Uint8Array;
     case: "data";
   } | { case: undefined; value?: undefined };
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -407,6 +433,14 @@ export type ForkWorldRequest = Message<"sinew.v1.ForkWorldRequest"> & {
    * @generated from field: bool paused = 5;
    */
   paused: boolean;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**

@@ -4,6 +4,8 @@
 
 import type { GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
 import { fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
+import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import type { Timestamp } from "@bufbuild/protobuf/wkt";
 import { file_google_protobuf_timestamp } from "@bufbuild/protobuf/wkt";
 import { file_sinew_v1_options } from "./options_pb.js";
@@ -13,7 +15,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/control.proto.
  */
 export const file_sinew_v1_control: GenFile = /*@__PURE__*/
-  fileDesc("ChZzaW5ldy92MS9jb250cm9sLnByb3RvEghzaW5ldy52MSKuAQoMQ29udHJvbExlYXNlEg4KBmZpZ3VyZRgBIAEoCRIOCgZob2xkZXIYAiABKAkSFQoNY29udHJvbF9lcG9jaBgDIAEoAxIQCghwcmlvcml0eRgEIAEoBRIvCgtleHBpcmVfdGltZRgFIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5UaW1lc3RhbXASEAoIaW1wbGljaXQYBiABKAgSEgoKb2ZmZXJlZF90bxgHIAEoCSJiChVBY3F1aXJlQ29udHJvbFJlcXVlc3QSDgoGZmlndXJlGAEgASgJEhUKDWNvbnRyb2xfdG9rZW4YAiABKAkSEAoIcHJpb3JpdHkYAyABKAUSEAoIZ3JhY2VfbXMYBCABKAEiVgoWQWNxdWlyZUNvbnRyb2xSZXNwb25zZRIlCgVsZWFzZRgBIAEoCzIWLnNpbmV3LnYxLkNvbnRyb2xMZWFzZRIVCg1jb250cm9sX3Rva2VuGAIgASgJIj4KFVJlbGVhc2VDb250cm9sUmVxdWVzdBIOCgZmaWd1cmUYASABKAkSFQoNY29udHJvbF90b2tlbhgCIAEoCSIYChZSZWxlYXNlQ29udHJvbFJlc3BvbnNlIm8KFlRyYW5zZmVyQ29udHJvbFJlcXVlc3QSDgoGZmlndXJlGAEgASgJEhUKDWNvbnRyb2xfdG9rZW4YAiABKAkSCgoCdG8YAyABKAkSEAoIYmxlbmRfbXMYBCABKAESEAoIb2ZmZXJfbXMYBSABKAEiVQoXVHJhbnNmZXJDb250cm9sUmVzcG9uc2USJQoFbGVhc2UYASABKAsyFi5zaW5ldy52MS5Db250cm9sTGVhc2USEwoLb2ZmZXJfdG9rZW4YAiABKAkiTQoUQWNjZXB0Q29udHJvbFJlcXVlc3QSDgoGZmlndXJlGAEgASgJEhMKC29mZmVyX3Rva2VuGAIgASgJEhAKCGdyYWNlX21zGAMgASgBIlUKFUFjY2VwdENvbnRyb2xSZXNwb25zZRIlCgVsZWFzZRgBIAEoCzIWLnNpbmV3LnYxLkNvbnRyb2xMZWFzZRIVCg1jb250cm9sX3Rva2VuGAIgASgJIiMKEUdldENvbnRyb2xSZXF1ZXN0Eg4KBmZpZ3VyZRgBIAEoCSI7ChJHZXRDb250cm9sUmVzcG9uc2USJQoFbGVhc2UYASABKAsyFi5zaW5ldy52MS5Db250cm9sTGVhc2UyywMKDkNvbnRyb2xTZXJ2aWNlElkKDkFjcXVpcmVDb250cm9sEh8uc2luZXcudjEuQWNxdWlyZUNvbnRyb2xSZXF1ZXN0GiAuc2luZXcudjEuQWNxdWlyZUNvbnRyb2xSZXNwb25zZSIE6OAYAxJZCg5SZWxlYXNlQ29udHJvbBIfLnNpbmV3LnYxLlJlbGVhc2VDb250cm9sUmVxdWVzdBogLnNpbmV3LnYxLlJlbGVhc2VDb250cm9sUmVzcG9uc2UiBOjgGAMSXAoPVHJhbnNmZXJDb250cm9sEiAuc2luZXcudjEuVHJhbnNmZXJDb250cm9sUmVxdWVzdBohLnNpbmV3LnYxLlRyYW5zZmVyQ29udHJvbFJlc3BvbnNlIgTo4BgDElYKDUFjY2VwdENvbnRyb2wSHi5zaW5ldy52MS5BY2NlcHRDb250cm9sUmVxdWVzdBofLnNpbmV3LnYxLkFjY2VwdENvbnRyb2xSZXNwb25zZSIE6OAYAxJNCgpHZXRDb250cm9sEhsuc2luZXcudjEuR2V0Q29udHJvbFJlcXVlc3QaHC5zaW5ldy52MS5HZXRDb250cm9sUmVzcG9uc2UiBOjgGAFiBnByb3RvMw", [file_google_protobuf_timestamp, file_sinew_v1_options]);
+  fileDesc("ChZzaW5ldy92MS9jb250cm9sLnByb3RvEghzaW5ldy52MSLBAQoMQ29udHJvbExlYXNlEiEKBmZpZ3VyZRgBIAEoCUIR+kEOCgxzaW5ldy9GaWd1cmUSDgoGaG9sZGVyGAIgASgJEhUKDWNvbnRyb2xfZXBvY2gYAyABKAMSEAoIcHJpb3JpdHkYBCABKAUSLwoLZXhwaXJlX3RpbWUYBSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wEhAKCGltcGxpY2l0GAYgASgIEhIKCm9mZmVyZWRfdG8YByABKAkipQEKFUFjcXVpcmVDb250cm9sUmVxdWVzdBIlCgZmaWd1cmUYASABKAlCFeJBAQL6QQ4KDHNpbmV3L0ZpZ3VyZRIbCg1jb250cm9sX3Rva2VuGAIgASgJQgTiQQEBEhYKCHByaW9yaXR5GAMgASgFQgTiQQEBEhYKCGdyYWNlX21zGAQgASgBQgTiQQEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiVgoWQWNxdWlyZUNvbnRyb2xSZXNwb25zZRIlCgVsZWFzZRgBIAEoCzIWLnNpbmV3LnYxLkNvbnRyb2xMZWFzZRIVCg1jb250cm9sX3Rva2VuGAIgASgJInUKFVJlbGVhc2VDb250cm9sUmVxdWVzdBIlCgZmaWd1cmUYASABKAlCFeJBAQL6QQ4KDHNpbmV3L0ZpZ3VyZRIbCg1jb250cm9sX3Rva2VuGAIgASgJQgTiQQECEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiGAoWUmVsZWFzZUNvbnRyb2xSZXNwb25zZSK4AQoWVHJhbnNmZXJDb250cm9sUmVxdWVzdBIlCgZmaWd1cmUYASABKAlCFeJBAQL6QQ4KDHNpbmV3L0ZpZ3VyZRIbCg1jb250cm9sX3Rva2VuGAIgASgJQgTiQQECEhAKAnRvGAMgASgJQgTiQQEBEhYKCGJsZW5kX21zGAQgASgBQgTiQQEBEhYKCG9mZmVyX21zGAUgASgBQgTiQQEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiVQoXVHJhbnNmZXJDb250cm9sUmVzcG9uc2USJQoFbGVhc2UYASABKAsyFi5zaW5ldy52MS5Db250cm9sTGVhc2USEwoLb2ZmZXJfdG9rZW4YAiABKAkiigEKFEFjY2VwdENvbnRyb2xSZXF1ZXN0EiUKBmZpZ3VyZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlEhkKC29mZmVyX3Rva2VuGAIgASgJQgTiQQECEhYKCGdyYWNlX21zGAMgASgBQgTiQQEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiVQoVQWNjZXB0Q29udHJvbFJlc3BvbnNlEiUKBWxlYXNlGAEgASgLMhYuc2luZXcudjEuQ29udHJvbExlYXNlEhUKDWNvbnRyb2xfdG9rZW4YAiABKAkiOgoRR2V0Q29udHJvbFJlcXVlc3QSJQoGZmlndXJlGAEgASgJQhXiQQEC+kEOCgxzaW5ldy9GaWd1cmUiOwoSR2V0Q29udHJvbFJlc3BvbnNlEiUKBWxlYXNlGAEgASgLMhYuc2luZXcudjEuQ29udHJvbExlYXNlMssDCg5Db250cm9sU2VydmljZRJZCg5BY3F1aXJlQ29udHJvbBIfLnNpbmV3LnYxLkFjcXVpcmVDb250cm9sUmVxdWVzdBogLnNpbmV3LnYxLkFjcXVpcmVDb250cm9sUmVzcG9uc2UiBOjgGAMSWQoOUmVsZWFzZUNvbnRyb2wSHy5zaW5ldy52MS5SZWxlYXNlQ29udHJvbFJlcXVlc3QaIC5zaW5ldy52MS5SZWxlYXNlQ29udHJvbFJlc3BvbnNlIgTo4BgDElwKD1RyYW5zZmVyQ29udHJvbBIgLnNpbmV3LnYxLlRyYW5zZmVyQ29udHJvbFJlcXVlc3QaIS5zaW5ldy52MS5UcmFuc2ZlckNvbnRyb2xSZXNwb25zZSIE6OAYAxJWCg1BY2NlcHRDb250cm9sEh4uc2luZXcudjEuQWNjZXB0Q29udHJvbFJlcXVlc3QaHy5zaW5ldy52MS5BY2NlcHRDb250cm9sUmVzcG9uc2UiBOjgGAMSTQoKR2V0Q29udHJvbBIbLnNpbmV3LnYxLkdldENvbnRyb2xSZXF1ZXN0Ghwuc2luZXcudjEuR2V0Q29udHJvbFJlc3BvbnNlIgTo4BgBYgZwcm90bzM", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_timestamp, file_sinew_v1_options]);
 
 /**
  * The lease of a figure.
@@ -111,6 +113,14 @@ export type AcquireControlRequest = Message<"sinew.v1.AcquireControlRequest"> & 
    * @generated from field: double grace_ms = 4;
    */
   graceMs: number;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -167,6 +177,14 @@ export type ReleaseControlRequest = Message<"sinew.v1.ReleaseControlRequest"> & 
    * @generated from field: string control_token = 2;
    */
   controlToken: string;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -231,6 +249,14 @@ export type TransferControlRequest = Message<"sinew.v1.TransferControlRequest"> 
    * @generated from field: double offer_ms = 5;
    */
   offerMs: number;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -294,6 +320,14 @@ export type AcceptControlRequest = Message<"sinew.v1.AcceptControlRequest"> & {
    * @generated from field: double grace_ms = 3;
    */
   graceMs: number;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**

@@ -4,6 +4,8 @@
 
 import type { GenEnum, GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
 import { enumDesc, fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
+import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import type { FieldMask } from "@bufbuild/protobuf/wkt";
 import { file_google_protobuf_field_mask } from "@bufbuild/protobuf/wkt";
 import type { BodyProfile } from "./body_pb.js";
@@ -17,7 +19,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/figure.proto.
  */
 export const file_sinew_v1_figure: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9maWd1cmUucHJvdG8SCHNpbmV3LnYxItIDCgxQYXBlck9wdGlvbnMSJQoGcHJlc2V0GAEgASgOMhUuc2luZXcudjEuUGFwZXJQcmVzZXQSEgoFYWxwaGEYAiABKAFIAIgBARIWCglob3Jpem9uX3MYAyABKAFIAYgBARIlCgZtZXRyaWMYBCABKA4yFS5zaW5ldy52MS5QYXBlck1ldHJpYxIpCghwcmlvcml0eRgFIAEoDjIXLnNpbmV3LnYxLlBhcGVyUHJpb3JpdHkSIwoFc2hhcmUYBiABKA4yFC5zaW5ldy52MS5QYXBlclNoYXJlEhUKCHRvX2xpbWl0GAcgASgISAKIAQESEQoEdGlsdBgIIAEoCEgDiAEBEhkKDHptcF9mZWFzaWJsZRgJIAEoCEgEiAEBEhgKC3RyYWNrX2hhbmRzGAogASgISAWIAQESFgoJdHJhY2tfY29tGAsgASgISAaIAQESFgoJaGFuZF9vdmVyGAwgASgISAeIAQFCCAoGX2FscGhhQgwKCl9ob3Jpem9uX3NCCwoJX3RvX2xpbWl0QgcKBV90aWx0Qg8KDV96bXBfZmVhc2libGVCDgoMX3RyYWNrX2hhbmRzQgwKCl90cmFja19jb21CDAoKX2hhbmRfb3ZlciJ1Cg1TdHJlbmd0aFNjYWxlEgsKA2FsbBgBIAEoARIjCgRkb2ZzGAIgAygLMhUuc2luZXcudjEuRG9mU3RyZW5ndGgSEgoKcGVyY2VudGlsZRgDIAEoARITCgZlZmZvcnQYBCABKAFIAIgBAUIJCgdfZWZmb3J0IioKC0RvZlN0cmVuZ3RoEgsKA2RvZhgBIAEoCRIOCgZmYWN0b3IYAiABKAEiUwoLQ2FycmllZExvYWQSDwoHc2VnbWVudBgBIAEoBRIiCgdwb2ludF9tGAIgASgLMhEuc2luZXcudjEuVmVjdG9yMxIPCgdtYXNzX2tnGAMgASgBIv8DCgZGaWd1cmUSDAoEbmFtZRgBIAEoCRIUCgxkaXNwbGF5X25hbWUYAiABKAkSDAoEYm9keRgDIAEoCRImCgdwcm9maWxlGAQgASgLMhUuc2luZXcudjEuQm9keVByb2ZpbGUSKQoIc3RyZW5ndGgYBSABKAsyFy5zaW5ldy52MS5TdHJlbmd0aFNjYWxlEigKCmNvbnRyb2xsZXIYBiABKA4yFC5zaW5ldy52MS5Db250cm9sbGVyEiIKB3N0ZXBwZXIYByABKA4yES5zaW5ldy52MS5TdGVwcGVyEiYKCXBsYWNlbWVudBgIIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudBIMCgRjbGlwGAkgASgJEhEKCWRyaXZlcl9pZBgKIAEoCRIUCgxmaWd1cmVfaW5kZXgYCyABKAUSGgoSZmF0aWd1ZV90aW1lX3NjYWxlGA4gASgBEg4KBmFzc2lzdBgPIAEoARIlCgVwYXBlchgQIAEoCzIWLnNpbmV3LnYxLlBhcGVyT3B0aW9ucxIpCgtjb25zdHJhaW50cxgRIAMoCzIULnNpbmV3LnYxLkNvbnN0cmFpbnQSHQoQcHJvdGVjdGl2ZV9zdGVwcxgSIAEoCEgAiAEBEhEKCW5leHRfY2xpcBgTIAEoCUITChFfcHJvdGVjdGl2ZV9zdGVwcyKwAgoKQ29uc3RyYWludBIRCgdzZWdtZW50GAEgASgJSAASGAoOY2VudGVyX29mX21hc3MYAiABKAhIABIiCgdwb2ludF9tGAMgASgLMhEuc2luZXcudjEuVmVjdG9yMxIlCgpwb3NpdGlvbl9tGAQgASgLMhEuc2luZXcudjEuVmVjdG9yMxIoCg1wb3NpdGlvbl9heGVzGAUgASgLMhEuc2luZXcudjEuVmVjdG9yMxImCghyb3RhdGlvbhgGIAEoCzIULnNpbmV3LnYxLlF1YXRlcm5pb24SEwoGd2VpZ2h0GAcgASgBSAGIAQESEwoGZWFzZV9zGAggASgBSAKIAQESEgoKZHVyYXRpb25fcxgJIAEoAUIECgJvbkIJCgdfd2VpZ2h0QgkKB19lYXNlX3MiWgoTQ3JlYXRlRmlndXJlUmVxdWVzdBIOCgZwYXJlbnQYASABKAkSEQoJZmlndXJlX2lkGAIgASgJEiAKBmZpZ3VyZRgDIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSI4ChRDcmVhdGVGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUiIAoQR2V0RmlndXJlUmVxdWVzdBIMCgRuYW1lGAEgASgJIjUKEUdldEZpZ3VyZVJlc3BvbnNlEiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSJLChJMaXN0RmlndXJlc1JlcXVlc3QSDgoGcGFyZW50GAEgASgJEhEKCXBhZ2Vfc2l6ZRgCIAEoBRISCgpwYWdlX3Rva2VuGAMgASgJIlEKE0xpc3RGaWd1cmVzUmVzcG9uc2USIQoHZmlndXJlcxgBIAMoCzIQLnNpbmV3LnYxLkZpZ3VyZRIXCg9uZXh0X3BhZ2VfdG9rZW4YAiABKAkifwoTVXBkYXRlRmlndXJlUmVxdWVzdBIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUSLwoLdXBkYXRlX21hc2sYAiABKAsyGi5nb29nbGUucHJvdG9idWYuRmllbGRNYXNrEhUKDWNvbnRyb2xfdG9rZW4YDyABKAkiOAoUVXBkYXRlRmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIiMKE0RlbGV0ZUZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCSIWChREZWxldGVGaWd1cmVSZXNwb25zZSJhChJSZXNldEZpZ3VyZVJlcXVlc3QSDAoEbmFtZRgBIAEoCRImCglwbGFjZW1lbnQYAiABKAsyEy5zaW5ldy52MS5QbGFjZW1lbnQSFQoNY29udHJvbF90b2tlbhgPIAEoCSI3ChNSZXNldEZpZ3VyZVJlc3BvbnNlEiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSpsCgpDb250cm9sbGVyEhoKFkNPTlRST0xMRVJfVU5TUEVDSUZJRUQQABIUChBDT05UUk9MTEVSX1BBUEVSEAESFQoRQ09OVFJPTExFUl9NT0RFUk4QAhIVChFDT05UUk9MTEVSX01PVE9SUxADKk0KB1N0ZXBwZXISFwoTU1RFUFBFUl9VTlNQRUNJRklFRBAAEhIKDlNURVBQRVJfVE9SUVVFEAESFQoRU1RFUFBFUl9LSU5FTUFUSUMQAipgCgtQYXBlclByZXNldBIcChhQQVBFUl9QUkVTRVRfVU5TUEVDSUZJRUQQABIcChhQQVBFUl9QUkVTRVRfU0FGRUdVQVJERUQQARIVChFQQVBFUl9QUkVTRVRfMjAwMBACKnkKC1BhcGVyTWV0cmljEhwKGFBBUEVSX01FVFJJQ19VTlNQRUNJRklFRBAAEhkKFVBBUEVSX01FVFJJQ19JREVOVElUWRABEhgKFFBBUEVSX01FVFJJQ19JTkVSVElBEAISFwoTUEFQRVJfTUVUUklDX1RPUlFVRRADKmYKDVBhcGVyUHJpb3JpdHkSHgoaUEFQRVJfUFJJT1JJVFlfVU5TUEVDSUZJRUQQABIaChZQQVBFUl9QUklPUklUWV9QUklOVEVEEAESGQoVUEFQRVJfUFJJT1JJVFlfTkVTVEVEEAIqWgoKUGFwZXJTaGFyZRIbChdQQVBFUl9TSEFSRV9VTlNQRUNJRklFRBAAEhUKEVBBUEVSX1NIQVJFX1JBVElPEAESGAoUUEFQRVJfU0hBUkVfQkFMQU5DRUQQAjL+AwoNRmlndXJlU2VydmljZRJTCgxDcmVhdGVGaWd1cmUSHS5zaW5ldy52MS5DcmVhdGVGaWd1cmVSZXF1ZXN0Gh4uc2luZXcudjEuQ3JlYXRlRmlndXJlUmVzcG9uc2UiBOjgGAQSSgoJR2V0RmlndXJlEhouc2luZXcudjEuR2V0RmlndXJlUmVxdWVzdBobLnNpbmV3LnYxLkdldEZpZ3VyZVJlc3BvbnNlIgTo4BgBElAKC0xpc3RGaWd1cmVzEhwuc2luZXcudjEuTGlzdEZpZ3VyZXNSZXF1ZXN0Gh0uc2luZXcudjEuTGlzdEZpZ3VyZXNSZXNwb25zZSIE6OAYARJTCgxVcGRhdGVGaWd1cmUSHS5zaW5ldy52MS5VcGRhdGVGaWd1cmVSZXF1ZXN0Gh4uc2luZXcudjEuVXBkYXRlRmlndXJlUmVzcG9uc2UiBOjgGAMSUwoMRGVsZXRlRmlndXJlEh0uc2luZXcudjEuRGVsZXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLkRlbGV0ZUZpZ3VyZVJlc3BvbnNlIgTo4BgEElAKC1Jlc2V0RmlndXJlEhwuc2luZXcudjEuUmVzZXRGaWd1cmVSZXF1ZXN0Gh0uc2luZXcudjEuUmVzZXRGaWd1cmVSZXNwb25zZSIE6OAYA2IGcHJvdG8z", [file_google_protobuf_field_mask, file_sinew_v1_body, file_sinew_v1_options, file_sinew_v1_types]);
+  fileDesc("ChVzaW5ldy92MS9maWd1cmUucHJvdG8SCHNpbmV3LnYxIpoECgxQYXBlck9wdGlvbnMSKwoGcHJlc2V0GAEgASgOMhUuc2luZXcudjEuUGFwZXJQcmVzZXRCBOJBAQESGAoFYWxwaGEYAiABKAFCBOJBAQFIAIgBARIcCglob3Jpem9uX3MYAyABKAFCBOJBAQFIAYgBARIrCgZtZXRyaWMYBCABKA4yFS5zaW5ldy52MS5QYXBlck1ldHJpY0IE4kEBARIvCghwcmlvcml0eRgFIAEoDjIXLnNpbmV3LnYxLlBhcGVyUHJpb3JpdHlCBOJBAQESKQoFc2hhcmUYBiABKA4yFC5zaW5ldy52MS5QYXBlclNoYXJlQgTiQQEBEhsKCHRvX2xpbWl0GAcgASgIQgTiQQEBSAKIAQESFwoEdGlsdBgIIAEoCEIE4kEBAUgDiAEBEh8KDHptcF9mZWFzaWJsZRgJIAEoCEIE4kEBAUgEiAEBEh4KC3RyYWNrX2hhbmRzGAogASgIQgTiQQEBSAWIAQESHAoJdHJhY2tfY29tGAsgASgIQgTiQQEBSAaIAQESHAoJaGFuZF9vdmVyGAwgASgIQgTiQQEBSAeIAQFCCAoGX2FscGhhQgwKCl9ob3Jpem9uX3NCCwoJX3RvX2xpbWl0QgcKBV90aWx0Qg8KDV96bXBfZmVhc2libGVCDgoMX3RyYWNrX2hhbmRzQgwKCl90cmFja19jb21CDAoKX2hhbmRfb3ZlciKNAQoNU3RyZW5ndGhTY2FsZRIRCgNhbGwYASABKAFCBOJBAQESKQoEZG9mcxgCIAMoCzIVLnNpbmV3LnYxLkRvZlN0cmVuZ3RoQgTiQQEBEhgKCnBlcmNlbnRpbGUYAyABKAFCBOJBAQESGQoGZWZmb3J0GAQgASgBQgTiQQEBSACIAQFCCQoHX2VmZm9ydCI2CgtEb2ZTdHJlbmd0aBIRCgNkb2YYASABKAlCBOJBAQISFAoGZmFjdG9yGAIgASgBQgTiQQECIlMKC0NhcnJpZWRMb2FkEg8KB3NlZ21lbnQYASABKAUSIgoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSDwoHbWFzc19rZxgDIAEoASKcBQoGRmlndXJlEhIKBG5hbWUYASABKAlCBOJBAQgSGgoMZGlzcGxheV9uYW1lGAIgASgJQgTiQQEBEiIKBGJvZHkYAyABKAlCFOJBAgEF+kEMCgpzaW5ldy9Cb2R5Ei0KB3Byb2ZpbGUYBCABKAsyFS5zaW5ldy52MS5Cb2R5UHJvZmlsZUIF4kECAQUSLwoIc3RyZW5ndGgYBSABKAsyFy5zaW5ldy52MS5TdHJlbmd0aFNjYWxlQgTiQQEBEi4KCmNvbnRyb2xsZXIYBiABKA4yFC5zaW5ldy52MS5Db250cm9sbGVyQgTiQQEBEikKB3N0ZXBwZXIYByABKA4yES5zaW5ldy52MS5TdGVwcGVyQgXiQQIBBRIsCglwbGFjZW1lbnQYCCABKAsyEy5zaW5ldy52MS5QbGFjZW1lbnRCBOJBAQESIAoSZmF0aWd1ZV90aW1lX3NjYWxlGAogASgBQgTiQQEBEhQKBmFzc2lzdBgLIAEoAUIE4kEBARIrCgVwYXBlchgMIAEoCzIWLnNpbmV3LnYxLlBhcGVyT3B0aW9uc0IE4kEBARIvCgtjb25zdHJhaW50cxgNIAMoCzIULnNpbmV3LnYxLkNvbnN0cmFpbnRCBOJBAQESIwoQcHJvdGVjdGl2ZV9zdGVwcxgOIAEoCEIE4kEBAUgAiAEBEiwKBnN0YXR1cxgJIAEoCzIWLnNpbmV3LnYxLkZpZ3VyZVN0YXR1c0IE4kEBAxISCgRldGFnGA8gASgJQgTiQQEBOkPqQUAKDHNpbmV3L0ZpZ3VyZRIfd29ybGRzL3t3b3JsZH0vZmlndXJlcy97ZmlndXJlfSoHZmlndXJlczIGZmlndXJlQhMKEV9wcm90ZWN0aXZlX3N0ZXBzInoKDEZpZ3VyZVN0YXR1cxIdCgRjbGlwGAEgASgJQg/6QQwKCnNpbmV3L0NsaXASIgoJbmV4dF9jbGlwGAIgASgJQg/6QQwKCnNpbmV3L0NsaXASEQoJZHJpdmVyX2lkGAMgASgJEhQKDGZpZ3VyZV9pbmRleBgEIAEoBSLaAgoKQ29uc3RyYWludBIRCgdzZWdtZW50GAEgASgJSAASGAoOY2VudGVyX29mX21hc3MYAiABKAhIABIoCgdwb2ludF9tGAMgASgLMhEuc2luZXcudjEuVmVjdG9yM0IE4kEBARIrCgpwb3NpdGlvbl9tGAQgASgLMhEuc2luZXcudjEuVmVjdG9yM0IE4kEBARIuCg1wb3NpdGlvbl9heGVzGAUgASgLMhEuc2luZXcudjEuVmVjdG9yM0IE4kEBARIsCghyb3RhdGlvbhgGIAEoCzIULnNpbmV3LnYxLlF1YXRlcm5pb25CBOJBAQESGQoGd2VpZ2h0GAcgASgBQgTiQQEBSAGIAQESGQoGZWFzZV9zGAggASgBQgTiQQEBSAKIAQESGAoKZHVyYXRpb25fcxgJIAEoAUIE4kEBAUIECgJvbkIJCgdfd2VpZ2h0QgkKB19lYXNlX3MitAEKE0NyZWF0ZUZpZ3VyZVJlcXVlc3QSJQoGcGFyZW50GAEgASgJQhXiQQEC+kEOEgxzaW5ldy9GaWd1cmUSFwoJZmlndXJlX2lkGAIgASgJQgTiQQEBEiYKBmZpZ3VyZRgDIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZUIE4kEBARIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQEiOAoUQ3JlYXRlRmlndXJlUmVzcG9uc2USIAoGZmlndXJlGAEgASgLMhAuc2luZXcudjEuRmlndXJlIjcKEEdldEZpZ3VyZVJlcXVlc3QSIwoEbmFtZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlIjUKEUdldEZpZ3VyZVJlc3BvbnNlEiAKBmZpZ3VyZRgBIAEoCzIQLnNpbmV3LnYxLkZpZ3VyZSJuChJMaXN0RmlndXJlc1JlcXVlc3QSJQoGcGFyZW50GAEgASgJQhXiQQEC+kEOEgxzaW5ldy9GaWd1cmUSFwoJcGFnZV9zaXplGAIgASgFQgTiQQEBEhgKCnBhZ2VfdG9rZW4YAyABKAlCBOJBAQEiUQoTTGlzdEZpZ3VyZXNSZXNwb25zZRIhCgdmaWd1cmVzGAEgAygLMhAuc2luZXcudjEuRmlndXJlEhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSKuAQoTVXBkYXRlRmlndXJlUmVxdWVzdBImCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmVCBOJBAQISNQoLdXBkYXRlX21hc2sYAiABKAsyGi5nb29nbGUucHJvdG9idWYuRmllbGRNYXNrQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQESGwoNY29udHJvbF90b2tlbhgPIAEoCUIE4kEBASI4ChRVcGRhdGVGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUiaAoTRGVsZXRlRmlndXJlUmVxdWVzdBIjCgRuYW1lGAEgASgJQhXiQQEC+kEOCgxzaW5ldy9GaWd1cmUSEgoEZXRhZxgMIAEoCUIE4kEBARIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBIhYKFERlbGV0ZUZpZ3VyZVJlc3BvbnNlIp4BChJSZXNldEZpZ3VyZVJlcXVlc3QSIwoEbmFtZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlEiwKCXBsYWNlbWVudBgCIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudEIE4kEBARIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBEhsKDWNvbnRyb2xfdG9rZW4YDyABKAlCBOJBAQEiNwoTUmVzZXRGaWd1cmVSZXNwb25zZRIgCgZmaWd1cmUYASABKAsyEC5zaW5ldy52MS5GaWd1cmUqbAoKQ29udHJvbGxlchIaChZDT05UUk9MTEVSX1VOU1BFQ0lGSUVEEAASFAoQQ09OVFJPTExFUl9QQVBFUhABEhUKEUNPTlRST0xMRVJfTU9ERVJOEAISFQoRQ09OVFJPTExFUl9NT1RPUlMQAypNCgdTdGVwcGVyEhcKE1NURVBQRVJfVU5TUEVDSUZJRUQQABISCg5TVEVQUEVSX1RPUlFVRRABEhUKEVNURVBQRVJfS0lORU1BVElDEAIqYAoLUGFwZXJQcmVzZXQSHAoYUEFQRVJfUFJFU0VUX1VOU1BFQ0lGSUVEEAASHAoYUEFQRVJfUFJFU0VUX1NBRkVHVUFSREVEEAESFQoRUEFQRVJfUFJFU0VUXzIwMDAQAip5CgtQYXBlck1ldHJpYxIcChhQQVBFUl9NRVRSSUNfVU5TUEVDSUZJRUQQABIZChVQQVBFUl9NRVRSSUNfSURFTlRJVFkQARIYChRQQVBFUl9NRVRSSUNfSU5FUlRJQRACEhcKE1BBUEVSX01FVFJJQ19UT1JRVUUQAypmCg1QYXBlclByaW9yaXR5Eh4KGlBBUEVSX1BSSU9SSVRZX1VOU1BFQ0lGSUVEEAASGgoWUEFQRVJfUFJJT1JJVFlfUFJJTlRFRBABEhkKFVBBUEVSX1BSSU9SSVRZX05FU1RFRBACKloKClBhcGVyU2hhcmUSGwoXUEFQRVJfU0hBUkVfVU5TUEVDSUZJRUQQABIVChFQQVBFUl9TSEFSRV9SQVRJTxABEhgKFFBBUEVSX1NIQVJFX0JBTEFOQ0VEEAIy/gMKDUZpZ3VyZVNlcnZpY2USUwoMQ3JlYXRlRmlndXJlEh0uc2luZXcudjEuQ3JlYXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLkNyZWF0ZUZpZ3VyZVJlc3BvbnNlIgTo4BgEEkoKCUdldEZpZ3VyZRIaLnNpbmV3LnYxLkdldEZpZ3VyZVJlcXVlc3QaGy5zaW5ldy52MS5HZXRGaWd1cmVSZXNwb25zZSIE6OAYARJQCgtMaXN0RmlndXJlcxIcLnNpbmV3LnYxLkxpc3RGaWd1cmVzUmVxdWVzdBodLnNpbmV3LnYxLkxpc3RGaWd1cmVzUmVzcG9uc2UiBOjgGAESUwoMVXBkYXRlRmlndXJlEh0uc2luZXcudjEuVXBkYXRlRmlndXJlUmVxdWVzdBoeLnNpbmV3LnYxLlVwZGF0ZUZpZ3VyZVJlc3BvbnNlIgTo4BgDElMKDERlbGV0ZUZpZ3VyZRIdLnNpbmV3LnYxLkRlbGV0ZUZpZ3VyZVJlcXVlc3QaHi5zaW5ldy52MS5EZWxldGVGaWd1cmVSZXNwb25zZSIE6OAYBBJQCgtSZXNldEZpZ3VyZRIcLnNpbmV3LnYxLlJlc2V0RmlndXJlUmVxdWVzdBodLnNpbmV3LnYxLlJlc2V0RmlndXJlUmVzcG9uc2UiBOjgGANiBnByb3RvMw", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_field_mask, file_sinew_v1_body, file_sinew_v1_options, file_sinew_v1_types]);
 
 /**
  * Choices of the paper's controller, CONTROLLER_PAPER. The others ignore them.
@@ -285,30 +287,9 @@ export type Figure = Message<"sinew.v1.Figure"> & {
   placement?: Placement | undefined;
 
   /**
-   * Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand. Output only.
-   *
-   * @generated from field: string clip = 9;
-   */
-  clip: string;
-
-  /**
-   * Driver that moves it live; empty if none. Output only.
-   *
-   * @generated from field: string driver_id = 10;
-   */
-  driverId: string;
-
-  /**
-   * Index by which frames refer to it: position in the roster. Output only.
-   *
-   * @generated from field: int32 figure_index = 11;
-   */
-  figureIndex: number;
-
-  /**
    * Seconds of muscle fatigue per simulated second, 0…1000. 0: muscles never tire.
    *
-   * @generated from field: double fatigue_time_scale = 14;
+   * @generated from field: double fatigue_time_scale = 10;
    */
   fatigueTimeScale: number;
 
@@ -316,14 +297,14 @@ export type Figure = Message<"sinew.v1.Figure"> & {
    * Help towards the desired pose of the pelvis, 0…1: a bounded wrench that no body has, reported in every frame
    * (`assist`). 1 holds the pelvis on its path. 0: none.
    *
-   * @generated from field: double assist = 15;
+   * @generated from field: double assist = 11;
    */
   assist: number;
 
   /**
    * Choices of the paper's controller. Absent: its defaults.
    *
-   * @generated from field: sinew.v1.PaperOptions paper = 16;
+   * @generated from field: sinew.v1.PaperOptions paper = 12;
    */
   paper?: PaperOptions | undefined;
 
@@ -332,24 +313,31 @@ export type Figure = Message<"sinew.v1.Figure"> & {
    * was constrained before goes on from there, the others ease in, and those that are missing fade out. In responses
    * those that have ended are gone.
    *
-   * @generated from field: repeated sinew.v1.Constraint constraints = 17;
+   * @generated from field: repeated sinew.v1.Constraint constraints = 13;
    */
   constraints: Constraint[];
 
   /**
    * Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
    *
-   * @generated from field: optional bool protective_steps = 18;
+   * @generated from field: optional bool protective_steps = 14;
    */
   protectiveSteps?: boolean | undefined;
 
   /**
-   * Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits. Output
-   * only.
+   * What it does now. Output only.
    *
-   * @generated from field: string next_clip = 19;
+   * @generated from field: sinew.v1.FigureStatus status = 9;
    */
-  nextClip: string;
+  status?: FigureStatus | undefined;
+
+  /**
+   * Changes whenever the configuration does. In requests: the change is refused (ABORTED, `ETAG_MISMATCH`) unless it is
+   * that of the figure. Empty: not checked.
+   *
+   * @generated from field: string etag = 15;
+   */
+  etag: string;
 };
 
 /**
@@ -358,6 +346,48 @@ export type Figure = Message<"sinew.v1.Figure"> & {
  */
 export const FigureSchema: GenMessage<Figure> = /*@__PURE__*/
   messageDesc(file_sinew_v1_figure, 4);
+
+/**
+ * What a figure does, as opposed to how it is set.
+ *
+ * @generated from message sinew.v1.FigureStatus
+ */
+export type FigureStatus = Message<"sinew.v1.FigureStatus"> & {
+  /**
+   * Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand.
+   *
+   * @generated from field: string clip = 1;
+   */
+  clip: string;
+
+  /**
+   * Clip that begins as soon as the figure stands or has gone over to it, `clips/{clip}`; empty if none waits.
+   *
+   * @generated from field: string next_clip = 2;
+   */
+  nextClip: string;
+
+  /**
+   * Driver that moves it live; empty if none.
+   *
+   * @generated from field: string driver_id = 3;
+   */
+  driverId: string;
+
+  /**
+   * Index by which frames refer to it: position in the roster.
+   *
+   * @generated from field: int32 figure_index = 4;
+   */
+  figureIndex: number;
+};
+
+/**
+ * Describes the message sinew.v1.FigureStatus.
+ * Use `create(FigureStatusSchema)` to create a new message.
+ */
+export const FigureStatusSchema: GenMessage<FigureStatus> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_figure, 5);
 
 /**
  * Where the centre of mass or a point of a segment is wanted, and how the segment is wanted to be turned, while the
@@ -448,7 +478,7 @@ export type Constraint = Message<"sinew.v1.Constraint"> & {
  * Use `create(ConstraintSchema)` to create a new message.
  */
 export const ConstraintSchema: GenMessage<Constraint> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 5);
+  messageDesc(file_sinew_v1_figure, 6);
 
 /**
  * Adds a figure.
@@ -476,6 +506,21 @@ export type CreateFigureRequest = Message<"sinew.v1.CreateFigureRequest"> & {
    * @generated from field: sinew.v1.Figure figure = 3;
    */
   figure?: Figure | undefined;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
+
+  /**
+   * Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+   *
+   * @generated from field: bool validate_only = 14;
+   */
+  validateOnly: boolean;
 };
 
 /**
@@ -483,7 +528,7 @@ export type CreateFigureRequest = Message<"sinew.v1.CreateFigureRequest"> & {
  * Use `create(CreateFigureRequestSchema)` to create a new message.
  */
 export const CreateFigureRequestSchema: GenMessage<CreateFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 6);
+  messageDesc(file_sinew_v1_figure, 7);
 
 /**
  * The new figure.
@@ -504,7 +549,7 @@ export type CreateFigureResponse = Message<"sinew.v1.CreateFigureResponse"> & {
  * Use `create(CreateFigureResponseSchema)` to create a new message.
  */
 export const CreateFigureResponseSchema: GenMessage<CreateFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 7);
+  messageDesc(file_sinew_v1_figure, 8);
 
 /**
  * Asks for one figure.
@@ -525,7 +570,7 @@ export type GetFigureRequest = Message<"sinew.v1.GetFigureRequest"> & {
  * Use `create(GetFigureRequestSchema)` to create a new message.
  */
 export const GetFigureRequestSchema: GenMessage<GetFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 8);
+  messageDesc(file_sinew_v1_figure, 9);
 
 /**
  * One figure.
@@ -546,7 +591,7 @@ export type GetFigureResponse = Message<"sinew.v1.GetFigureResponse"> & {
  * Use `create(GetFigureResponseSchema)` to create a new message.
  */
 export const GetFigureResponseSchema: GenMessage<GetFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 9);
+  messageDesc(file_sinew_v1_figure, 10);
 
 /**
  * Asks for figures.
@@ -562,7 +607,7 @@ export type ListFiguresRequest = Message<"sinew.v1.ListFiguresRequest"> & {
   parent: string;
 
   /**
-   * Most figures to return, 0…1000. 0: 100.
+   * Most figures to return. 0: 100; more than 1000 are taken as 1000.
    *
    * @generated from field: int32 page_size = 2;
    */
@@ -581,7 +626,7 @@ export type ListFiguresRequest = Message<"sinew.v1.ListFiguresRequest"> & {
  * Use `create(ListFiguresRequestSchema)` to create a new message.
  */
 export const ListFiguresRequestSchema: GenMessage<ListFiguresRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 10);
+  messageDesc(file_sinew_v1_figure, 11);
 
 /**
  * A page of figures.
@@ -609,7 +654,7 @@ export type ListFiguresResponse = Message<"sinew.v1.ListFiguresResponse"> & {
  * Use `create(ListFiguresResponseSchema)` to create a new message.
  */
 export const ListFiguresResponseSchema: GenMessage<ListFiguresResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 11);
+  messageDesc(file_sinew_v1_figure, 12);
 
 /**
  * Changes a figure.
@@ -626,11 +671,19 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
 
   /**
    * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-   * `protective_steps` to take. Must not be empty. Fields that it does not name are ignored, whatever they hold.
+   * `protective_steps` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
+   * ignored, whatever they hold.
    *
    * @generated from field: google.protobuf.FieldMask update_mask = 2;
    */
   updateMask?: FieldMask | undefined;
+
+  /**
+   * Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+   *
+   * @generated from field: bool validate_only = 14;
+   */
+  validateOnly: boolean;
 
   /**
    * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
@@ -646,7 +699,7 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
  * Use `create(UpdateFigureRequestSchema)` to create a new message.
  */
 export const UpdateFigureRequestSchema: GenMessage<UpdateFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 12);
+  messageDesc(file_sinew_v1_figure, 13);
 
 /**
  * The changed figure.
@@ -667,7 +720,7 @@ export type UpdateFigureResponse = Message<"sinew.v1.UpdateFigureResponse"> & {
  * Use `create(UpdateFigureResponseSchema)` to create a new message.
  */
 export const UpdateFigureResponseSchema: GenMessage<UpdateFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 13);
+  messageDesc(file_sinew_v1_figure, 14);
 
 /**
  * Removes a figure.
@@ -681,6 +734,21 @@ export type DeleteFigureRequest = Message<"sinew.v1.DeleteFigureRequest"> & {
    * @generated from field: string name = 1;
    */
   name: string;
+
+  /**
+   * Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked.
+   *
+   * @generated from field: string etag = 12;
+   */
+  etag: string;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -688,7 +756,7 @@ export type DeleteFigureRequest = Message<"sinew.v1.DeleteFigureRequest"> & {
  * Use `create(DeleteFigureRequestSchema)` to create a new message.
  */
 export const DeleteFigureRequestSchema: GenMessage<DeleteFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 14);
+  messageDesc(file_sinew_v1_figure, 15);
 
 /**
  * The figure is gone.
@@ -703,7 +771,7 @@ export type DeleteFigureResponse = Message<"sinew.v1.DeleteFigureResponse"> & {
  * Use `create(DeleteFigureResponseSchema)` to create a new message.
  */
 export const DeleteFigureResponseSchema: GenMessage<DeleteFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 15);
+  messageDesc(file_sinew_v1_figure, 16);
 
 /**
  * Puts a figure back.
@@ -726,6 +794,14 @@ export type ResetFigureRequest = Message<"sinew.v1.ResetFigureRequest"> & {
   placement?: Placement | undefined;
 
   /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
+
+  /**
    * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
    * the valid one.
    *
@@ -739,7 +815,7 @@ export type ResetFigureRequest = Message<"sinew.v1.ResetFigureRequest"> & {
  * Use `create(ResetFigureRequestSchema)` to create a new message.
  */
 export const ResetFigureRequestSchema: GenMessage<ResetFigureRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 16);
+  messageDesc(file_sinew_v1_figure, 17);
 
 /**
  * The figure that was put back.
@@ -760,7 +836,7 @@ export type ResetFigureResponse = Message<"sinew.v1.ResetFigureResponse"> & {
  * Use `create(ResetFigureResponseSchema)` to create a new message.
  */
 export const ResetFigureResponseSchema: GenMessage<ResetFigureResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_figure, 17);
+  messageDesc(file_sinew_v1_figure, 18);
 
 /**
  * Controller: computes accelerations and torques.

@@ -4,6 +4,8 @@
 
 import type { GenEnum, GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
 import { enumDesc, fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
+import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import type { Timestamp } from "@bufbuild/protobuf/wkt";
 import { file_google_protobuf_timestamp } from "@bufbuild/protobuf/wkt";
 import { file_sinew_v1_options } from "./options_pb.js";
@@ -15,7 +17,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/motion.proto.
  */
 export const file_sinew_v1_motion: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9tb3Rpb24ucHJvdG8SCHNpbmV3LnYxIoQCCgRDbGlwEgwKBG5hbWUYASABKAkSFAoMZGlzcGxheV9uYW1lGAIgASgJEg8KB2J1aWx0aW4YAyABKAgSDAoEYm9keRgEIAEoCRIPCgdyYXRlX2h6GAUgASgBEhMKC2ZyYW1lX2NvdW50GAYgASgFEhIKCmR1cmF0aW9uX3MYByABKAESKAoGcmVwb3J0GAggASgLMhguc2luZXcudjEuUmV0YXJnZXRSZXBvcnQSLwoLY3JlYXRlX3RpbWUYCSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wEiQKCGZvcmVjYXN0GAogASgLMhIuc2luZXcudjEuRm9yZWNhc3QiywMKCEZvcmVjYXN0EioKB3ZlcmRpY3QYASABKA4yGS5zaW5ldy52MS5Gb3JlY2FzdFZlcmRpY3QSDgoGcmVhc29uGAIgASgJEg4KBmRlbWFuZBgDIAEoARIhChlsYWNraW5nX2ZvcmNlX3Jtc193ZWlnaHRzGAQgASgBEiIKGmxhY2tpbmdfZm9yY2VfcGVha193ZWlnaHRzGAUgASgBEiEKGWxhY2tpbmdfZm9yY2VfcGVha190aW1lX3MYBiABKAESJAocbGFja2luZ19tb21lbnRfcGVha193ZWlnaHRfbRgHIAEoARIdChVjYXB0dXJlX3BvaW50X2RyaWZ0X20YCCABKAESGwoTc3RyZW5ndGhfcGVha19yYXRpbxgJIAEoARIUCgxzdHJlbmd0aF9kb2YYCiABKAkSHAoUc3RyZW5ndGhfcGVha190aW1lX3MYCyABKAESGgoSc3RyZW5ndGhfcDk1X3JhdGlvGAwgASgBEhAKCGZsaWdodF9zGA0gASgBEhgKEGxvbmdlc3RfZmxpZ2h0X3MYDiABKAESFwoPZmxvb3JfY29udGFjdF9zGA8gASgBEhIKCmludmVydGVkX3MYECABKAEi9wEKCkJ2aE9wdGlvbnMSEwoGdW5pdF9tGAEgASgBSACIAQESDwoHdXBfYXhpcxgCIAEoCRIUCgdyYXRlX2h6GAMgASgBSAGIAQESFgoJZml0X2Zsb29yGAQgASgISAKIAQESFgoJbG9ja19mZWV0GAUgASgISAOIAQESFgoJY3V0b2ZmX2h6GAYgASgBSASIAQESFgoJd2Fsa19ydW5zGAcgASgISAWIAQFCCQoHX3VuaXRfbUIKCghfcmF0ZV9oekIMCgpfZml0X2Zsb29yQgwKCl9sb2NrX2ZlZXRCDAoKX2N1dG9mZl9oekIMCgpfd2Fsa19ydW5zIkAKCUJ2aFNvdXJjZRIMCgRkYXRhGAEgASgMEiUKB29wdGlvbnMYAiABKAsyFC5zaW5ldy52MS5CdmhPcHRpb25zIkYKC0ZyYW1lU291cmNlEg8KB3JhdGVfaHoYASABKAESJgoGZnJhbWVzGAIgAygLMhYuc2luZXcudjEuRmlndXJlTW90aW9uIp8BChFDcmVhdGVDbGlwUmVxdWVzdBIPCgdjbGlwX2lkGAEgASgJEhQKDGRpc3BsYXlfbmFtZRgCIAEoCRIMCgRib2R5GAMgASgJEiIKA2J2aBgEIAEoCzITLnNpbmV3LnYxLkJ2aFNvdXJjZUgAEicKBmZyYW1lcxgFIAEoCzIVLnNpbmV3LnYxLkZyYW1lU291cmNlSABCCAoGc291cmNlIjIKEkNyZWF0ZUNsaXBSZXNwb25zZRIcCgRjbGlwGAEgASgLMg4uc2luZXcudjEuQ2xpcCIeCg5HZXRDbGlwUmVxdWVzdBIMCgRuYW1lGAEgASgJIi8KD0dldENsaXBSZXNwb25zZRIcCgRjbGlwGAEgASgLMg4uc2luZXcudjEuQ2xpcCI5ChBMaXN0Q2xpcHNSZXF1ZXN0EhEKCXBhZ2Vfc2l6ZRgBIAEoBRISCgpwYWdlX3Rva2VuGAIgASgJIksKEUxpc3RDbGlwc1Jlc3BvbnNlEh0KBWNsaXBzGAEgAygLMg4uc2luZXcudjEuQ2xpcBIXCg9uZXh0X3BhZ2VfdG9rZW4YAiABKAkiIQoRRGVsZXRlQ2xpcFJlcXVlc3QSDAoEbmFtZRgBIAEoCSIUChJEZWxldGVDbGlwUmVzcG9uc2UixgEKD1BsYXlDbGlwUmVxdWVzdBIOCgZmaWd1cmUYASABKAkSDAoEY2xpcBgCIAEoCRINCgVzcGVlZBgDIAEoARIMCgRsb29wGAQgASgIEhkKDHN0YXJ0X3RpbWVfcxgFIAEoAUgAiAEBEg0KBXJlc2V0GAYgASgIEiYKCXBsYWNlbWVudBgHIAEoCzITLnNpbmV3LnYxLlBsYWNlbWVudBIVCg1jb250cm9sX3Rva2VuGA8gASgJQg8KDV9zdGFydF90aW1lX3MiKAoQUGxheUNsaXBSZXNwb25zZRIUCgxzdGFydF90aW1lX3MYASABKAEiOAoPU3RvcENsaXBSZXF1ZXN0Eg4KBmZpZ3VyZRgBIAEoCRIVCg1jb250cm9sX3Rva2VuGA8gASgJIhIKEFN0b3BDbGlwUmVzcG9uc2UiRAoMQm9uZVJvdGF0aW9uEgwKBGJvbmUYASABKAkSJgoIcm90YXRpb24YAiABKAsyFC5zaW5ldy52MS5RdWF0ZXJuaW9uItoBCgxGaWd1cmVNb3Rpb24SDgoGZmlndXJlGAEgASgJEhwKBHJvb3QYAiABKAsyDi5zaW5ldy52MS5Qb3NlEhgKEGpvaW50X2FuZ2xlc19yYWQYAyADKAESLgoOYm9uZV9yb3RhdGlvbnMYBCADKAsyFi5zaW5ldy52MS5Cb25lUm90YXRpb24SLwoOcm90YXRpb25fc3BhY2UYBSABKA4yFy5zaW5ldy52MS5Sb3RhdGlvblNwYWNlEhAKCHZlbG9jaXR5GAYgAygBEg8KB3BsYW50ZWQYByADKAgiYAoLTW90aW9uRnJhbWUSEAoIc2VxdWVuY2UYASABKAMSFgoOc291cmNlX3RpbWVfbnMYAiABKBASJwoHZmlndXJlcxgDIAMoCzIWLnNpbmV3LnYxLkZpZ3VyZU1vdGlvbiLIAwoLRHJpdmVIZWFkZXISDQoFd29ybGQYASABKAkSDwoHZmlndXJlcxgCIAMoCRIRCglkcml2ZXJfaWQYAyABKAkSFwoPbm9taW5hbF9yYXRlX2h6GAQgASgBEh0KEHBsYXlvdXRfZGVsYXlfbXMYBSABKAFIAIgBARIcChRtYXhfcGxheW91dF9kZWxheV9tcxgGIAEoARIkCgh1bmRlcnJ1bhgHIAEoDjISLnNpbmV3LnYxLlVuZGVycnVuEiMKFmV4dHJhcG9sYXRpb25fbGltaXRfbXMYCCABKAFIAYgBARIaCg1ob2xkX2xpbWl0X21zGAkgASgBSAKIAQESFQoIZ3JhY2VfbXMYCiABKAFIA4gBARINCgVyZXNldBgLIAEoCBIiChVwcmVwYXJhdGlvbl93aW5kb3dfbXMYDCABKAFIBIgBARIWCg5jb250cm9sX3Rva2VucxgPIAMoCUITChFfcGxheW91dF9kZWxheV9tc0IZChdfZXh0cmFwb2xhdGlvbl9saW1pdF9tc0IQCg5faG9sZF9saW1pdF9tc0ILCglfZ3JhY2VfbXNCGAoWX3ByZXBhcmF0aW9uX3dpbmRvd19tcyI0CgtNb3Rpb25CYXRjaBIlCgZmcmFtZXMYASADKAsyFS5zaW5ldy52MS5Nb3Rpb25GcmFtZSJxChNEcml2ZUZpZ3VyZXNSZXF1ZXN0EicKBmhlYWRlchgBIAEoCzIVLnNpbmV3LnYxLkRyaXZlSGVhZGVySAASJgoFYmF0Y2gYAiABKAsyFS5zaW5ldy52MS5Nb3Rpb25CYXRjaEgAQgkKB21lc3NhZ2UiQQoURHJpdmVGaWd1cmVzUmVzcG9uc2USKQoIZmVlZGJhY2sYASABKAsyFy5zaW5ldy52MS5Ecml2ZUZlZWRiYWNrImAKEVB1c2hNb3Rpb25SZXF1ZXN0EiUKBmhlYWRlchgBIAEoCzIVLnNpbmV3LnYxLkRyaXZlSGVhZGVyEiQKBWJhdGNoGAIgASgLMhUuc2luZXcudjEuTW90aW9uQmF0Y2giPwoSUHVzaE1vdGlvblJlc3BvbnNlEikKCGZlZWRiYWNrGAEgASgLMhcuc2luZXcudjEuRHJpdmVGZWVkYmFjayKTAQoNRHJpdmVGZWVkYmFjaxIRCglkcml2ZXJfaWQYASABKAkSDAoEdGljaxgCIAEoAxIZChFyZWNlaXZlZF9zZXF1ZW5jZRgDIAEoAxIbChNyZWZ1c2VkX2JhdGNoX2NvdW50GAQgASgDEikKB2ZpZ3VyZXMYBSADKAsyGC5zaW5ldy52MS5GaWd1cmVGZWVkYmFjayLBAwoORmlndXJlRmVlZGJhY2sSDgoGZmlndXJlGAEgASgJEhgKEGFwcGxpZWRfc2VxdWVuY2UYAiABKAMSHgoWYXBwbGllZF9zb3VyY2VfdGltZV9ucxgDIAEoEBITCgtidWZmZXJlZF9tcxgEIAEoARIYChBwbGF5b3V0X2RlbGF5X21zGAUgASgBEhEKCWppdHRlcl9tcxgGIAEoARIgCgZzdXBwbHkYByABKA4yEC5zaW5ldy52MS5TdXBwbHkSFQoNcHJlc2VudF9jb3VudBgIIAEoAxIaChJpbnRlcnBvbGF0ZWRfY291bnQYCSABKAMSGgoSZXh0cmFwb2xhdGVkX2NvdW50GAogASgDEhIKCmhlbGRfY291bnQYCyABKAMSFQoNcmVsYXhlZF9jb3VudBgMIAEoAxISCgpsYXRlX2NvdW50GA0gASgDEhMKC3N0YWxlX2NvdW50GA4gASgDEhYKDm92ZXJmbG93X2NvdW50GA8gASgDEh0KFXByZXBhcmF0aW9uX3dpbmRvd19tcxgQIAEoARIUCgxyZXN5bmNfY291bnQYESABKAMSEQoJYmVoaW5kX21zGBIgASgBKo8BCg9Gb3JlY2FzdFZlcmRpY3QSIAocRk9SRUNBU1RfVkVSRElDVF9VTlNQRUNJRklFRBAAEhwKGEZPUkVDQVNUX1ZFUkRJQ1RfRk9MTE9XUxABEh8KG0ZPUkVDQVNUX1ZFUkRJQ1RfTkVFRFNfSEVMUBACEhsKF0ZPUkVDQVNUX1ZFUkRJQ1RfQ0FOTk9UEAMqZAoNUm90YXRpb25TcGFjZRIeChpST1RBVElPTl9TUEFDRV9VTlNQRUNJRklFRBAAEhkKFVJPVEFUSU9OX1NQQUNFX1BBUkVOVBABEhgKFFJPVEFUSU9OX1NQQUNFX1dPUkxEEAIqUQoIVW5kZXJydW4SGAoUVU5ERVJSVU5fVU5TUEVDSUZJRUQQABIYChRVTkRFUlJVTl9FWFRSQVBPTEFURRABEhEKDVVOREVSUlVOX0hPTEQQAiqfAQoGU3VwcGx5EhYKElNVUFBMWV9VTlNQRUNJRklFRBAAEhIKDlNVUFBMWV9QUkVTRU5UEAESFwoTU1VQUExZX0lOVEVSUE9MQVRFRBACEhcKE1NVUFBMWV9FWFRSQVBPTEFURUQQAxIPCgtTVVBQTFlfSEVMRBAEEhIKDlNVUFBMWV9SRUxBWEVEEAUSEgoOU1VQUExZX1dBSVRJTkcQBjL5BAoNTW90aW9uU2VydmljZRJNCgpDcmVhdGVDbGlwEhsuc2luZXcudjEuQ3JlYXRlQ2xpcFJlcXVlc3QaHC5zaW5ldy52MS5DcmVhdGVDbGlwUmVzcG9uc2UiBOjgGAcSRAoHR2V0Q2xpcBIYLnNpbmV3LnYxLkdldENsaXBSZXF1ZXN0Ghkuc2luZXcudjEuR2V0Q2xpcFJlc3BvbnNlIgTo4BgGEkoKCUxpc3RDbGlwcxIaLnNpbmV3LnYxLkxpc3RDbGlwc1JlcXVlc3QaGy5zaW5ldy52MS5MaXN0Q2xpcHNSZXNwb25zZSIE6OAYBhJNCgpEZWxldGVDbGlwEhsuc2luZXcudjEuRGVsZXRlQ2xpcFJlcXVlc3QaHC5zaW5ldy52MS5EZWxldGVDbGlwUmVzcG9uc2UiBOjgGAcSRwoIUGxheUNsaXASGS5zaW5ldy52MS5QbGF5Q2xpcFJlcXVlc3QaGi5zaW5ldy52MS5QbGF5Q2xpcFJlc3BvbnNlIgTo4BgDEkcKCFN0b3BDbGlwEhkuc2luZXcudjEuU3RvcENsaXBSZXF1ZXN0Ghouc2luZXcudjEuU3RvcENsaXBSZXNwb25zZSIE6OAYAxJNCgpQdXNoTW90aW9uEhsuc2luZXcudjEuUHVzaE1vdGlvblJlcXVlc3QaHC5zaW5ldy52MS5QdXNoTW90aW9uUmVzcG9uc2UiBOjgGAMSVwoMRHJpdmVGaWd1cmVzEh0uc2luZXcudjEuRHJpdmVGaWd1cmVzUmVxdWVzdBoeLnNpbmV3LnYxLkRyaXZlRmlndXJlc1Jlc3BvbnNlIgTo4BgDKAEwAWIGcHJvdG8z", [file_google_protobuf_timestamp, file_sinew_v1_options, file_sinew_v1_types]);
+  fileDesc("ChVzaW5ldy92MS9tb3Rpb24ucHJvdG8SCHNpbmV3LnYxIuwCCgRDbGlwEhIKBG5hbWUYASABKAlCBOJBAQgSGgoMZGlzcGxheV9uYW1lGAIgASgJQgTiQQEDEhUKB2J1aWx0aW4YAyABKAhCBOJBAQMSEgoEYm9keRgEIAEoCUIE4kEBAxIVCgdyYXRlX2h6GAUgASgBQgTiQQEDEhkKC2ZyYW1lX2NvdW50GAYgASgFQgTiQQEDEhgKCmR1cmF0aW9uX3MYByABKAFCBOJBAQMSLgoGcmVwb3J0GAggASgLMhguc2luZXcudjEuUmV0YXJnZXRSZXBvcnRCBOJBAQMSNQoLY3JlYXRlX3RpbWUYCSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wQgTiQQEDEioKCGZvcmVjYXN0GAogASgLMhIuc2luZXcudjEuRm9yZWNhc3RCBOJBAQM6KupBJwoKc2luZXcvQ2xpcBIMY2xpcHMve2NsaXB9KgVjbGlwczIEY2xpcCLLAwoIRm9yZWNhc3QSKgoHdmVyZGljdBgBIAEoDjIZLnNpbmV3LnYxLkZvcmVjYXN0VmVyZGljdBIOCgZyZWFzb24YAiABKAkSDgoGZGVtYW5kGAMgASgBEiEKGWxhY2tpbmdfZm9yY2Vfcm1zX3dlaWdodHMYBCABKAESIgoabGFja2luZ19mb3JjZV9wZWFrX3dlaWdodHMYBSABKAESIQoZbGFja2luZ19mb3JjZV9wZWFrX3RpbWVfcxgGIAEoARIkChxsYWNraW5nX21vbWVudF9wZWFrX3dlaWdodF9tGAcgASgBEh0KFWNhcHR1cmVfcG9pbnRfZHJpZnRfbRgIIAEoARIbChNzdHJlbmd0aF9wZWFrX3JhdGlvGAkgASgBEhQKDHN0cmVuZ3RoX2RvZhgKIAEoCRIcChRzdHJlbmd0aF9wZWFrX3RpbWVfcxgLIAEoARIaChJzdHJlbmd0aF9wOTVfcmF0aW8YDCABKAESEAoIZmxpZ2h0X3MYDSABKAESGAoQbG9uZ2VzdF9mbGlnaHRfcxgOIAEoARIXCg9mbG9vcl9jb250YWN0X3MYDyABKAESEgoKaW52ZXJ0ZWRfcxgQIAEoASKhAgoKQnZoT3B0aW9ucxIZCgZ1bml0X20YASABKAFCBOJBAQFIAIgBARIVCgd1cF9heGlzGAIgASgJQgTiQQEBEhoKB3JhdGVfaHoYAyABKAFCBOJBAQFIAYgBARIcCglmaXRfZmxvb3IYBCABKAhCBOJBAQFIAogBARIcCglsb2NrX2ZlZXQYBSABKAhCBOJBAQFIA4gBARIcCgljdXRvZmZfaHoYBiABKAFCBOJBAQFIBIgBARIcCgl3YWxrX3J1bnMYByABKAhCBOJBAQFIBYgBAUIJCgdfdW5pdF9tQgoKCF9yYXRlX2h6QgwKCl9maXRfZmxvb3JCDAoKX2xvY2tfZmVldEIMCgpfY3V0b2ZmX2h6QgwKCl93YWxrX3J1bnMiTAoJQnZoU291cmNlEhIKBGRhdGEYASABKAxCBOJBAQISKwoHb3B0aW9ucxgCIAEoCzIULnNpbmV3LnYxLkJ2aE9wdGlvbnNCBOJBAQEiUgoLRnJhbWVTb3VyY2USFQoHcmF0ZV9oehgBIAEoAUIE4kEBAhIsCgZmcmFtZXMYAiADKAsyFi5zaW5ldy52MS5GaWd1cmVNb3Rpb25CBOJBAQIi9wEKEUNyZWF0ZUNsaXBSZXF1ZXN0EhUKB2NsaXBfaWQYASABKAlCBOJBAQESGgoMZGlzcGxheV9uYW1lGAIgASgJQgTiQQEBEiEKBGJvZHkYAyABKAlCE+JBAQH6QQwKCnNpbmV3L0JvZHkSIgoDYnZoGAQgASgLMhMuc2luZXcudjEuQnZoU291cmNlSAASJwoGZnJhbWVzGAUgASgLMhUuc2luZXcudjEuRnJhbWVTb3VyY2VIABIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQFCCAoGc291cmNlIjIKEkNyZWF0ZUNsaXBSZXNwb25zZRIcCgRjbGlwGAEgASgLMg4uc2luZXcudjEuQ2xpcCJRChdTdHJlYW1DcmVhdGVDbGlwUmVxdWVzdBI2CgtjcmVhdGVfY2xpcBgBIAEoCzIbLnNpbmV3LnYxLkNyZWF0ZUNsaXBSZXF1ZXN0QgTiQQECIm4KGFN0cmVhbUNyZWF0ZUNsaXBSZXNwb25zZRISCghwcm9ncmVzcxgBIAEoAUgAEjMKC2NyZWF0ZV9jbGlwGAIgASgLMhwuc2luZXcudjEuQ3JlYXRlQ2xpcFJlc3BvbnNlSABCCQoHbWVzc2FnZSIzCg5HZXRDbGlwUmVxdWVzdBIhCgRuYW1lGAEgASgJQhPiQQEC+kEMCgpzaW5ldy9DbGlwIi8KD0dldENsaXBSZXNwb25zZRIcCgRjbGlwGAEgASgLMg4uc2luZXcudjEuQ2xpcCJFChBMaXN0Q2xpcHNSZXF1ZXN0EhcKCXBhZ2Vfc2l6ZRgBIAEoBUIE4kEBARIYCgpwYWdlX3Rva2VuGAIgASgJQgTiQQEBIksKEUxpc3RDbGlwc1Jlc3BvbnNlEh0KBWNsaXBzGAEgAygLMg4uc2luZXcudjEuQ2xpcBIXCg9uZXh0X3BhZ2VfdG9rZW4YAiABKAkiUAoRRGVsZXRlQ2xpcFJlcXVlc3QSIQoEbmFtZRgBIAEoCUIT4kEBAvpBDAoKc2luZXcvQ2xpcBIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBIhQKEkRlbGV0ZUNsaXBSZXNwb25zZSKwAgoPUGxheUNsaXBSZXF1ZXN0EiUKBmZpZ3VyZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlEiEKBGNsaXAYAiABKAlCE+JBAQL6QQwKCnNpbmV3L0NsaXASEwoFc3BlZWQYAyABKAFCBOJBAQESEgoEbG9vcBgEIAEoCEIE4kEBARIfCgxzdGFydF90aW1lX3MYBSABKAFCBOJBAQFIAIgBARITCgVyZXNldBgGIAEoCEIE4kEBARIsCglwbGFjZW1lbnQYByABKAsyEy5zaW5ldy52MS5QbGFjZW1lbnRCBOJBAQESGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBARIbCg1jb250cm9sX3Rva2VuGA8gASgJQgTiQQEBQg8KDV9zdGFydF90aW1lX3MiKAoQUGxheUNsaXBSZXNwb25zZRIUCgxzdGFydF90aW1lX3MYASABKAEibwoPU3RvcENsaXBSZXF1ZXN0EiUKBmZpZ3VyZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQESGwoNY29udHJvbF90b2tlbhgPIAEoCUIE4kEBASISChBTdG9wQ2xpcFJlc3BvbnNlIlAKDEJvbmVSb3RhdGlvbhISCgRib25lGAEgASgJQgTiQQECEiwKCHJvdGF0aW9uGAIgASgLMhQuc2luZXcudjEuUXVhdGVybmlvbkIE4kEBAiKHAgoMRmlndXJlTW90aW9uEhcKCWZpZ3VyZV9pZBgBIAEoCUIE4kEBARIiCgRyb290GAIgASgLMg4uc2luZXcudjEuUG9zZUIE4kEBARIeChBqb2ludF9hbmdsZXNfcmFkGAMgAygBQgTiQQEBEjQKDmJvbmVfcm90YXRpb25zGAQgAygLMhYuc2luZXcudjEuQm9uZVJvdGF0aW9uQgTiQQEBEjUKDnJvdGF0aW9uX3NwYWNlGAUgASgOMhcuc2luZXcudjEuUm90YXRpb25TcGFjZUIE4kEBARIWCgh2ZWxvY2l0eRgGIAMoAUIE4kEBARIVCgdwbGFudGVkGAcgAygIQgTiQQEBInIKC01vdGlvbkZyYW1lEhYKCHNlcXVlbmNlGAEgASgDQgTiQQEBEhwKDnNvdXJjZV90aW1lX25zGAIgASgQQgTiQQEBEi0KB2ZpZ3VyZXMYAyADKAsyFi5zaW5ldy52MS5GaWd1cmVNb3Rpb25CBOJBAQIiqQQKC0RyaXZlSGVhZGVyEiMKBXdvcmxkGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIYCgpmaWd1cmVfaWRzGAIgAygJQgTiQQECEhcKCWRyaXZlcl9pZBgDIAEoCUIE4kEBARIdCg9ub21pbmFsX3JhdGVfaHoYBCABKAFCBOJBAQESIwoQcGxheW91dF9kZWxheV9tcxgFIAEoAUIE4kEBAUgAiAEBEiIKFG1heF9wbGF5b3V0X2RlbGF5X21zGAYgASgBQgTiQQEBEioKCHVuZGVycnVuGAcgASgOMhIuc2luZXcudjEuVW5kZXJydW5CBOJBAQESKQoWZXh0cmFwb2xhdGlvbl9saW1pdF9tcxgIIAEoAUIE4kEBAUgBiAEBEiAKDWhvbGRfbGltaXRfbXMYCSABKAFCBOJBAQFIAogBARIbCghncmFjZV9tcxgKIAEoAUIE4kEBAUgDiAEBEhMKBXJlc2V0GAsgASgIQgTiQQEBEigKFXByZXBhcmF0aW9uX3dpbmRvd19tcxgMIAEoAUIE4kEBAUgEiAEBEhwKDmNvbnRyb2xfdG9rZW5zGA8gAygJQgTiQQEBQhMKEV9wbGF5b3V0X2RlbGF5X21zQhkKF19leHRyYXBvbGF0aW9uX2xpbWl0X21zQhAKDl9ob2xkX2xpbWl0X21zQgsKCV9ncmFjZV9tc0IYChZfcHJlcGFyYXRpb25fd2luZG93X21zIjoKC01vdGlvbkJhdGNoEisKBmZyYW1lcxgBIAMoCzIVLnNpbmV3LnYxLk1vdGlvbkZyYW1lQgTiQQECInEKE0RyaXZlRmlndXJlc1JlcXVlc3QSJwoGaGVhZGVyGAEgASgLMhUuc2luZXcudjEuRHJpdmVIZWFkZXJIABImCgViYXRjaBgCIAEoCzIVLnNpbmV3LnYxLk1vdGlvbkJhdGNoSABCCQoHbWVzc2FnZSJBChREcml2ZUZpZ3VyZXNSZXNwb25zZRIpCghmZWVkYmFjaxgBIAEoCzIXLnNpbmV3LnYxLkRyaXZlRmVlZGJhY2sibAoRUHVzaE1vdGlvblJlcXVlc3QSKwoGaGVhZGVyGAEgASgLMhUuc2luZXcudjEuRHJpdmVIZWFkZXJCBOJBAQISKgoFYmF0Y2gYAiABKAsyFS5zaW5ldy52MS5Nb3Rpb25CYXRjaEIE4kEBAiI/ChJQdXNoTW90aW9uUmVzcG9uc2USKQoIZmVlZGJhY2sYASABKAsyFy5zaW5ldy52MS5Ecml2ZUZlZWRiYWNrIpMBCg1Ecml2ZUZlZWRiYWNrEhEKCWRyaXZlcl9pZBgBIAEoCRIMCgR0aWNrGAIgASgDEhkKEXJlY2VpdmVkX3NlcXVlbmNlGAMgASgDEhsKE3JlZnVzZWRfYmF0Y2hfY291bnQYBCABKAMSKQoHZmlndXJlcxgFIAMoCzIYLnNpbmV3LnYxLkZpZ3VyZUZlZWRiYWNrIsQDCg5GaWd1cmVGZWVkYmFjaxIRCglmaWd1cmVfaWQYASABKAkSGAoQYXBwbGllZF9zZXF1ZW5jZRgCIAEoAxIeChZhcHBsaWVkX3NvdXJjZV90aW1lX25zGAMgASgQEhMKC2J1ZmZlcmVkX21zGAQgASgBEhgKEHBsYXlvdXRfZGVsYXlfbXMYBSABKAESEQoJaml0dGVyX21zGAYgASgBEiAKBnN1cHBseRgHIAEoDjIQLnNpbmV3LnYxLlN1cHBseRIVCg1wcmVzZW50X2NvdW50GAggASgDEhoKEmludGVycG9sYXRlZF9jb3VudBgJIAEoAxIaChJleHRyYXBvbGF0ZWRfY291bnQYCiABKAMSEgoKaGVsZF9jb3VudBgLIAEoAxIVCg1yZWxheGVkX2NvdW50GAwgASgDEhIKCmxhdGVfY291bnQYDSABKAMSEwoLc3RhbGVfY291bnQYDiABKAMSFgoOb3ZlcmZsb3dfY291bnQYDyABKAMSHQoVcHJlcGFyYXRpb25fd2luZG93X21zGBAgASgBEhQKDHJlc3luY19jb3VudBgRIAEoAxIRCgliZWhpbmRfbXMYEiABKAEqjwEKD0ZvcmVjYXN0VmVyZGljdBIgChxGT1JFQ0FTVF9WRVJESUNUX1VOU1BFQ0lGSUVEEAASHAoYRk9SRUNBU1RfVkVSRElDVF9GT0xMT1dTEAESHwobRk9SRUNBU1RfVkVSRElDVF9ORUVEU19IRUxQEAISGwoXRk9SRUNBU1RfVkVSRElDVF9DQU5OT1QQAypkCg1Sb3RhdGlvblNwYWNlEh4KGlJPVEFUSU9OX1NQQUNFX1VOU1BFQ0lGSUVEEAASGQoVUk9UQVRJT05fU1BBQ0VfUEFSRU5UEAESGAoUUk9UQVRJT05fU1BBQ0VfV09STEQQAipRCghVbmRlcnJ1bhIYChRVTkRFUlJVTl9VTlNQRUNJRklFRBAAEhgKFFVOREVSUlVOX0VYVFJBUE9MQVRFEAESEQoNVU5ERVJSVU5fSE9MRBACKp8BCgZTdXBwbHkSFgoSU1VQUExZX1VOU1BFQ0lGSUVEEAASEgoOU1VQUExZX1BSRVNFTlQQARIXChNTVVBQTFlfSU5URVJQT0xBVEVEEAISFwoTU1VQUExZX0VYVFJBUE9MQVRFRBADEg8KC1NVUFBMWV9IRUxEEAQSEgoOU1VQUExZX1JFTEFYRUQQBRISCg5TVVBQTFlfV0FJVElORxAGMtwFCg1Nb3Rpb25TZXJ2aWNlEk0KCkNyZWF0ZUNsaXASGy5zaW5ldy52MS5DcmVhdGVDbGlwUmVxdWVzdBocLnNpbmV3LnYxLkNyZWF0ZUNsaXBSZXNwb25zZSIE6OAYBxJhChBTdHJlYW1DcmVhdGVDbGlwEiEuc2luZXcudjEuU3RyZWFtQ3JlYXRlQ2xpcFJlcXVlc3QaIi5zaW5ldy52MS5TdHJlYW1DcmVhdGVDbGlwUmVzcG9uc2UiBOjgGAcwARJECgdHZXRDbGlwEhguc2luZXcudjEuR2V0Q2xpcFJlcXVlc3QaGS5zaW5ldy52MS5HZXRDbGlwUmVzcG9uc2UiBOjgGAYSSgoJTGlzdENsaXBzEhouc2luZXcudjEuTGlzdENsaXBzUmVxdWVzdBobLnNpbmV3LnYxLkxpc3RDbGlwc1Jlc3BvbnNlIgTo4BgGEk0KCkRlbGV0ZUNsaXASGy5zaW5ldy52MS5EZWxldGVDbGlwUmVxdWVzdBocLnNpbmV3LnYxLkRlbGV0ZUNsaXBSZXNwb25zZSIE6OAYBxJHCghQbGF5Q2xpcBIZLnNpbmV3LnYxLlBsYXlDbGlwUmVxdWVzdBoaLnNpbmV3LnYxLlBsYXlDbGlwUmVzcG9uc2UiBOjgGAMSRwoIU3RvcENsaXASGS5zaW5ldy52MS5TdG9wQ2xpcFJlcXVlc3QaGi5zaW5ldy52MS5TdG9wQ2xpcFJlc3BvbnNlIgTo4BgDEk0KClB1c2hNb3Rpb24SGy5zaW5ldy52MS5QdXNoTW90aW9uUmVxdWVzdBocLnNpbmV3LnYxLlB1c2hNb3Rpb25SZXNwb25zZSIE6OAYAxJXCgxEcml2ZUZpZ3VyZXMSHS5zaW5ldy52MS5Ecml2ZUZpZ3VyZXNSZXF1ZXN0Gh4uc2luZXcudjEuRHJpdmVGaWd1cmVzUmVzcG9uc2UiBOjgGAMoATABYgZwcm90bzM", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_timestamp, file_sinew_v1_options, file_sinew_v1_types]);
 
 /**
  * A stored desired motion.
@@ -337,7 +339,7 @@ export type FrameSource = Message<"sinew.v1.FrameSource"> & {
   rateHz: number;
 
   /**
-   * At least two. `figure`, velocities, sequence and source time are ignored.
+   * At least two. `figure_id`, velocities, sequence and source time are ignored.
    *
    * @generated from field: repeated sinew.v1.FigureMotion frames = 2;
    */
@@ -400,6 +402,21 @@ export type CreateClipRequest = Message<"sinew.v1.CreateClipRequest"> & {
     value: FrameSource;
     case: "frames";
   } | { case: undefined; value?: undefined };
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
+
+  /**
+   * Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+   *
+   * @generated from field: bool validate_only = 14;
+   */
+  validateOnly: boolean;
 };
 
 /**
@@ -431,6 +448,64 @@ export const CreateClipResponseSchema: GenMessage<CreateClipResponse> = /*@__PUR
   messageDesc(file_sinew_v1_motion, 6);
 
 /**
+ * Asks to store a clip and to be told how far it is.
+ *
+ * @generated from message sinew.v1.StreamCreateClipRequest
+ */
+export type StreamCreateClipRequest = Message<"sinew.v1.StreamCreateClipRequest"> & {
+  /**
+   * The clip. Its `request_id` is ignored: a stream is not repeated. Required.
+   *
+   * @generated from field: sinew.v1.CreateClipRequest create_clip = 1;
+   */
+  createClip?: CreateClipRequest | undefined;
+};
+
+/**
+ * Describes the message sinew.v1.StreamCreateClipRequest.
+ * Use `create(StreamCreateClipRequestSchema)` to create a new message.
+ */
+export const StreamCreateClipRequestSchema: GenMessage<StreamCreateClipRequest> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_motion, 7);
+
+/**
+ * How far it is, and in the end the clip.
+ *
+ * @generated from message sinew.v1.StreamCreateClipResponse
+ */
+export type StreamCreateClipResponse = Message<"sinew.v1.StreamCreateClipResponse"> & {
+  /**
+   * What is sent.
+   *
+   * @generated from oneof sinew.v1.StreamCreateClipResponse.message
+   */
+  message: {
+    /**
+     * Share of the work that is done, 0…1.
+     *
+     * @generated from field: double progress = 1;
+     */
+    value: number;
+    case: "progress";
+  } | {
+    /**
+     * The stored clip; the last message.
+     *
+     * @generated from field: sinew.v1.CreateClipResponse create_clip = 2;
+     */
+    value: CreateClipResponse;
+    case: "createClip";
+  } | { case: undefined; value?: undefined };
+};
+
+/**
+ * Describes the message sinew.v1.StreamCreateClipResponse.
+ * Use `create(StreamCreateClipResponseSchema)` to create a new message.
+ */
+export const StreamCreateClipResponseSchema: GenMessage<StreamCreateClipResponse> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_motion, 8);
+
+/**
  * Asks for one clip.
  *
  * @generated from message sinew.v1.GetClipRequest
@@ -449,7 +524,7 @@ export type GetClipRequest = Message<"sinew.v1.GetClipRequest"> & {
  * Use `create(GetClipRequestSchema)` to create a new message.
  */
 export const GetClipRequestSchema: GenMessage<GetClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 7);
+  messageDesc(file_sinew_v1_motion, 9);
 
 /**
  * One clip.
@@ -470,7 +545,7 @@ export type GetClipResponse = Message<"sinew.v1.GetClipResponse"> & {
  * Use `create(GetClipResponseSchema)` to create a new message.
  */
 export const GetClipResponseSchema: GenMessage<GetClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 8);
+  messageDesc(file_sinew_v1_motion, 10);
 
 /**
  * Asks for clips.
@@ -479,7 +554,7 @@ export const GetClipResponseSchema: GenMessage<GetClipResponse> = /*@__PURE__*/
  */
 export type ListClipsRequest = Message<"sinew.v1.ListClipsRequest"> & {
   /**
-   * Most clips to return, 0…1000. 0: 100.
+   * Most clips to return. 0: 100; more than 1000 are taken as 1000.
    *
    * @generated from field: int32 page_size = 1;
    */
@@ -498,7 +573,7 @@ export type ListClipsRequest = Message<"sinew.v1.ListClipsRequest"> & {
  * Use `create(ListClipsRequestSchema)` to create a new message.
  */
 export const ListClipsRequestSchema: GenMessage<ListClipsRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 9);
+  messageDesc(file_sinew_v1_motion, 11);
 
 /**
  * A page of clips.
@@ -526,7 +601,7 @@ export type ListClipsResponse = Message<"sinew.v1.ListClipsResponse"> & {
  * Use `create(ListClipsResponseSchema)` to create a new message.
  */
 export const ListClipsResponseSchema: GenMessage<ListClipsResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 10);
+  messageDesc(file_sinew_v1_motion, 12);
 
 /**
  * Forgets a clip.
@@ -540,6 +615,14 @@ export type DeleteClipRequest = Message<"sinew.v1.DeleteClipRequest"> & {
    * @generated from field: string name = 1;
    */
   name: string;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -547,7 +630,7 @@ export type DeleteClipRequest = Message<"sinew.v1.DeleteClipRequest"> & {
  * Use `create(DeleteClipRequestSchema)` to create a new message.
  */
 export const DeleteClipRequestSchema: GenMessage<DeleteClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 11);
+  messageDesc(file_sinew_v1_motion, 13);
 
 /**
  * The clip is gone.
@@ -562,7 +645,7 @@ export type DeleteClipResponse = Message<"sinew.v1.DeleteClipResponse"> & {
  * Use `create(DeleteClipResponseSchema)` to create a new message.
  */
 export const DeleteClipResponseSchema: GenMessage<DeleteClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 12);
+  messageDesc(file_sinew_v1_motion, 14);
 
 /**
  * Lets a figure play a clip.
@@ -624,6 +707,14 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
   placement?: Placement | undefined;
 
   /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
+
+  /**
    * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
    * the valid one.
    *
@@ -637,7 +728,7 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
  * Use `create(PlayClipRequestSchema)` to create a new message.
  */
 export const PlayClipRequestSchema: GenMessage<PlayClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 13);
+  messageDesc(file_sinew_v1_motion, 15);
 
 /**
  * The clip plays, or waits until the figure stands.
@@ -661,7 +752,7 @@ export type PlayClipResponse = Message<"sinew.v1.PlayClipResponse"> & {
  * Use `create(PlayClipResponseSchema)` to create a new message.
  */
 export const PlayClipResponseSchema: GenMessage<PlayClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 14);
+  messageDesc(file_sinew_v1_motion, 16);
 
 /**
  * Ends a clip.
@@ -677,6 +768,14 @@ export type StopClipRequest = Message<"sinew.v1.StopClipRequest"> & {
   figure: string;
 
   /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
+
+  /**
    * Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
    * the valid one.
    *
@@ -690,7 +789,7 @@ export type StopClipRequest = Message<"sinew.v1.StopClipRequest"> & {
  * Use `create(StopClipRequestSchema)` to create a new message.
  */
 export const StopClipRequestSchema: GenMessage<StopClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 15);
+  messageDesc(file_sinew_v1_motion, 17);
 
 /**
  * The figure stands, or comes to a stand.
@@ -705,7 +804,7 @@ export type StopClipResponse = Message<"sinew.v1.StopClipResponse"> & {
  * Use `create(StopClipResponseSchema)` to create a new message.
  */
 export const StopClipResponseSchema: GenMessage<StopClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 16);
+  messageDesc(file_sinew_v1_motion, 18);
 
 /**
  * Rotation of one bone.
@@ -733,7 +832,7 @@ export type BoneRotation = Message<"sinew.v1.BoneRotation"> & {
  * Use `create(BoneRotationSchema)` to create a new message.
  */
 export const BoneRotationSchema: GenMessage<BoneRotation> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 17);
+  messageDesc(file_sinew_v1_motion, 19);
 
 /**
  * Desired motion of one figure at one instant: joint angles or bone rotations, not both.
@@ -744,9 +843,9 @@ export type FigureMotion = Message<"sinew.v1.FigureMotion"> & {
   /**
    * Figure: last part of its name. May be empty if the header names exactly one.
    *
-   * @generated from field: string figure = 1;
+   * @generated from field: string figure_id = 1;
    */
-  figure: string;
+  figureId: string;
 
   /**
    * Pelvis in the world. Absent: the pelvis stays where it is asked to be now.
@@ -796,7 +895,7 @@ export type FigureMotion = Message<"sinew.v1.FigureMotion"> & {
  * Use `create(FigureMotionSchema)` to create a new message.
  */
 export const FigureMotionSchema: GenMessage<FigureMotion> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 18);
+  messageDesc(file_sinew_v1_motion, 20);
 
 /**
  * Desired motion at one instant.
@@ -832,7 +931,7 @@ export type MotionFrame = Message<"sinew.v1.MotionFrame"> & {
  * Use `create(MotionFrameSchema)` to create a new message.
  */
 export const MotionFrameSchema: GenMessage<MotionFrame> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 19);
+  messageDesc(file_sinew_v1_motion, 21);
 
 /**
  * How figures are driven.
@@ -850,9 +949,9 @@ export type DriveHeader = Message<"sinew.v1.DriveHeader"> & {
   /**
    * Figures that are driven: last parts of their names. At least one.
    *
-   * @generated from field: repeated string figures = 2;
+   * @generated from field: repeated string figure_ids = 2;
    */
-  figures: string[];
+  figureIds: string[];
 
   /**
    * Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
@@ -944,7 +1043,7 @@ export type DriveHeader = Message<"sinew.v1.DriveHeader"> & {
  * Use `create(DriveHeaderSchema)` to create a new message.
  */
 export const DriveHeaderSchema: GenMessage<DriveHeader> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 20);
+  messageDesc(file_sinew_v1_motion, 22);
 
 /**
  * Batch of desired motion.
@@ -965,7 +1064,7 @@ export type MotionBatch = Message<"sinew.v1.MotionBatch"> & {
  * Use `create(MotionBatchSchema)` to create a new message.
  */
 export const MotionBatchSchema: GenMessage<MotionBatch> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 21);
+  messageDesc(file_sinew_v1_motion, 23);
 
 /**
  * What a driver sends.
@@ -1002,7 +1101,7 @@ export type DriveFiguresRequest = Message<"sinew.v1.DriveFiguresRequest"> & {
  * Use `create(DriveFiguresRequestSchema)` to create a new message.
  */
 export const DriveFiguresRequestSchema: GenMessage<DriveFiguresRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 22);
+  messageDesc(file_sinew_v1_motion, 24);
 
 /**
  * What a driver is told.
@@ -1023,7 +1122,7 @@ export type DriveFiguresResponse = Message<"sinew.v1.DriveFiguresResponse"> & {
  * Use `create(DriveFiguresResponseSchema)` to create a new message.
  */
 export const DriveFiguresResponseSchema: GenMessage<DriveFiguresResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 23);
+  messageDesc(file_sinew_v1_motion, 25);
 
 /**
  * A batch of live desired motion.
@@ -1051,7 +1150,7 @@ export type PushMotionRequest = Message<"sinew.v1.PushMotionRequest"> & {
  * Use `create(PushMotionRequestSchema)` to create a new message.
  */
 export const PushMotionRequestSchema: GenMessage<PushMotionRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 24);
+  messageDesc(file_sinew_v1_motion, 26);
 
 /**
  * The batch was taken. It acts from the next tick on; the call does not wait for it.
@@ -1072,7 +1171,7 @@ export type PushMotionResponse = Message<"sinew.v1.PushMotionResponse"> & {
  * Use `create(PushMotionResponseSchema)` to create a new message.
  */
 export const PushMotionResponseSchema: GenMessage<PushMotionResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 25);
+  messageDesc(file_sinew_v1_motion, 27);
 
 /**
  * State of a drive.
@@ -1122,7 +1221,7 @@ export type DriveFeedback = Message<"sinew.v1.DriveFeedback"> & {
  * Use `create(DriveFeedbackSchema)` to create a new message.
  */
 export const DriveFeedbackSchema: GenMessage<DriveFeedback> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 26);
+  messageDesc(file_sinew_v1_motion, 28);
 
 /**
  * State of the jitter buffer of one figure.
@@ -1133,9 +1232,9 @@ export type FigureFeedback = Message<"sinew.v1.FigureFeedback"> & {
   /**
    * Last part of the figure's name.
    *
-   * @generated from field: string figure = 1;
+   * @generated from field: string figure_id = 1;
    */
-  figure: string;
+  figureId: string;
 
   /**
    * Sequence of the newest frame that acts now; -1 if none yet.
@@ -1265,7 +1364,7 @@ export type FigureFeedback = Message<"sinew.v1.FigureFeedback"> & {
  * Use `create(FigureFeedbackSchema)` to create a new message.
  */
 export const FigureFeedbackSchema: GenMessage<FigureFeedback> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 27);
+  messageDesc(file_sinew_v1_motion, 29);
 
 /**
  * Forecast of how a figure follows a clip.
@@ -1455,6 +1554,16 @@ export const MotionService: GenService<{
     output: typeof CreateClipResponseSchema;
   },
   /**
+   * As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up.
+   *
+   * @generated from rpc sinew.v1.MotionService.StreamCreateClip
+   */
+  streamCreateClip: {
+    methodKind: "server_streaming";
+    input: typeof StreamCreateClipRequestSchema;
+    output: typeof StreamCreateClipResponseSchema;
+  },
+  /**
    * One clip.
    *
    * @generated from rpc sinew.v1.MotionService.GetClip
@@ -1487,8 +1596,8 @@ export const MotionService: GenService<{
   /**
    * Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
    * it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
-   * `Figure.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION (`FIGURE_CONTROLLED`)
-   * while someone drives it live.
+   * `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
+   * (`FIGURE_CONTROLLED`) while someone drives it live.
    *
    * @generated from rpc sinew.v1.MotionService.PlayClip
    */

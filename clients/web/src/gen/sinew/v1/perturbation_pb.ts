@@ -4,6 +4,8 @@
 
 import type { GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
 import { fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
+import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import { file_sinew_v1_options } from "./options_pb.js";
 import type { Vector3 } from "./types_pb.js";
 import { file_sinew_v1_types } from "./types_pb.js";
@@ -13,7 +15,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/perturbation.proto.
  */
 export const file_sinew_v1_perturbation: GenFile = /*@__PURE__*/
-  fileDesc("ChtzaW5ldy92MS9wZXJ0dXJiYXRpb24ucHJvdG8SCHNpbmV3LnYxItwBCgRMb2FkEg8KB3NlZ21lbnQYASABKAkSIgoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSDwoHbWFzc19rZxgDIAEoARISCgpkdXJhdGlvbl9zGAQgASgBEicKDHZlbG9jaXR5X21wcxgFIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSFgoOc2Vjb25kX3NlZ21lbnQYBiABKAkSKQoOc2Vjb25kX3BvaW50X20YByABKAsyES5zaW5ldy52MS5WZWN0b3IzEg4KBmdyaXBfbhgIIAEoASJ5CgdJbXB1bHNlEg8KB3NlZ21lbnQYASABKAkSIgoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSJQoKaW1wdWxzZV9ucxgDIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMSEgoKZHVyYXRpb25fcxgEIAEoASJ0CgVGb3JjZRIPCgdzZWdtZW50GAEgASgJEiIKB3BvaW50X20YAiABKAsyES5zaW5ldy52MS5WZWN0b3IzEiIKB2ZvcmNlX24YAyABKAsyES5zaW5ldy52MS5WZWN0b3IzEhIKCmR1cmF0aW9uX3MYBCABKAEiqgEKDFBlcnR1cmJhdGlvbhIOCgZmaWd1cmUYASABKAkSEQoEdGljaxgCIAEoA0gBiAEBEh4KBGxvYWQYAyABKAsyDi5zaW5ldy52MS5Mb2FkSAASJAoHaW1wdWxzZRgEIAEoCzIRLnNpbmV3LnYxLkltcHVsc2VIABIgCgVmb3JjZRgFIAEoCzIPLnNpbmV3LnYxLkZvcmNlSABCBgoEa2luZEIHCgVfdGljayJ+ChlBcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0Eg0KBXdvcmxkGAEgASgJEhEKCWNsaWVudF9pZBgCIAEoCRIQCghzZXF1ZW5jZRgDIAEoAxItCg1wZXJ0dXJiYXRpb25zGAQgAygLMhYuc2luZXcudjEuUGVydHVyYmF0aW9uIioKGkFwcGx5UGVydHVyYmF0aW9uc1Jlc3BvbnNlEgwKBHRpY2sYASABKAMiKwoZQ2xlYXJQZXJ0dXJiYXRpb25zUmVxdWVzdBIOCgZmaWd1cmUYASABKAkiKgoaQ2xlYXJQZXJ0dXJiYXRpb25zUmVzcG9uc2USDAoEdGljaxgBIAEoAzLjAQoTUGVydHVyYmF0aW9uU2VydmljZRJlChJBcHBseVBlcnR1cmJhdGlvbnMSIy5zaW5ldy52MS5BcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0GiQuc2luZXcudjEuQXBwbHlQZXJ0dXJiYXRpb25zUmVzcG9uc2UiBOjgGAISZQoSQ2xlYXJQZXJ0dXJiYXRpb25zEiMuc2luZXcudjEuQ2xlYXJQZXJ0dXJiYXRpb25zUmVxdWVzdBokLnNpbmV3LnYxLkNsZWFyUGVydHVyYmF0aW9uc1Jlc3BvbnNlIgTo4BgCYgZwcm90bzM", [file_sinew_v1_options, file_sinew_v1_types]);
+  fileDesc("ChtzaW5ldy92MS9wZXJ0dXJiYXRpb24ucHJvdG8SCHNpbmV3LnYxIpICCgRMb2FkEhUKB3NlZ21lbnQYASABKAlCBOJBAQISKAoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQESFQoHbWFzc19rZxgDIAEoAUIE4kEBAhIYCgpkdXJhdGlvbl9zGAQgASgBQgTiQQEBEi0KDHZlbG9jaXR5X21wcxgFIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQESHAoOc2Vjb25kX3NlZ21lbnQYBiABKAlCBOJBAQESLwoOc2Vjb25kX3BvaW50X20YByABKAsyES5zaW5ldy52MS5WZWN0b3IzQgTiQQEBEhoKDGdyaXBfbmV3dG9ucxgIIAEoAUIE4kEBASKdAQoHSW1wdWxzZRIVCgdzZWdtZW50GAEgASgJQgTiQQECEigKB3BvaW50X20YAiABKAsyES5zaW5ldy52MS5WZWN0b3IzQgTiQQEBEjcKFmltcHVsc2VfbmV3dG9uX3NlY29uZHMYAyABKAsyES5zaW5ldy52MS5WZWN0b3IzQgTiQQECEhgKCmR1cmF0aW9uX3MYBCABKAFCBOJBAQEikgEKBUZvcmNlEhUKB3NlZ21lbnQYASABKAlCBOJBAQISKAoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQESLgoNZm9yY2VfbmV3dG9ucxgDIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQISGAoKZHVyYXRpb25fcxgEIAEoAUIE4kEBASK5AQoMUGVydHVyYmF0aW9uEhcKCWZpZ3VyZV9pZBgBIAEoCUIE4kEBAhIXCgR0aWNrGAIgASgDQgTiQQEBSAGIAQESHgoEbG9hZBgDIAEoCzIOLnNpbmV3LnYxLkxvYWRIABIkCgdpbXB1bHNlGAQgASgLMhEuc2luZXcudjEuSW1wdWxzZUgAEiAKBWZvcmNlGAUgASgLMg8uc2luZXcudjEuRm9yY2VIAEIGCgRraW5kQgcKBV90aWNrIt0BChlBcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0EiMKBXdvcmxkGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIXCgljbGllbnRfaWQYAiABKAlCBOJBAQESFgoIc2VxdWVuY2UYAyABKANCBOJBAQESMwoNcGVydHVyYmF0aW9ucxgEIAMoCzIWLnNpbmV3LnYxLlBlcnR1cmJhdGlvbkIE4kEBAhIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQEiKgoaQXBwbHlQZXJ0dXJiYXRpb25zUmVzcG9uc2USDAoEdGljaxgBIAEoAyJcChlDbGVhclBlcnR1cmJhdGlvbnNSZXF1ZXN0EiUKBmZpZ3VyZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiKgoaQ2xlYXJQZXJ0dXJiYXRpb25zUmVzcG9uc2USDAoEdGljaxgBIAEoAzLjAQoTUGVydHVyYmF0aW9uU2VydmljZRJlChJBcHBseVBlcnR1cmJhdGlvbnMSIy5zaW5ldy52MS5BcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0GiQuc2luZXcudjEuQXBwbHlQZXJ0dXJiYXRpb25zUmVzcG9uc2UiBOjgGAISZQoSQ2xlYXJQZXJ0dXJiYXRpb25zEiMuc2luZXcudjEuQ2xlYXJQZXJ0dXJiYXRpb25zUmVxdWVzdBokLnNpbmV3LnYxLkNsZWFyUGVydHVyYmF0aW9uc1Jlc3BvbnNlIgTo4BgCYgZwcm90bzM", [file_google_api_field_behavior, file_google_api_resource, file_sinew_v1_options, file_sinew_v1_types]);
 
 /**
  * A mass that a segment carries.
@@ -75,9 +77,9 @@ export type Load = Message<"sinew.v1.Load"> & {
   /**
    * Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never.
    *
-   * @generated from field: double grip_n = 8;
+   * @generated from field: double grip_newtons = 8;
    */
-  gripN: number;
+  gripNewtons: number;
 };
 
 /**
@@ -110,9 +112,9 @@ export type Impulse = Message<"sinew.v1.Impulse"> & {
   /**
    * Impulse, world axes, N·s, each component within ±1000.
    *
-   * @generated from field: sinew.v1.Vector3 impulse_ns = 3;
+   * @generated from field: sinew.v1.Vector3 impulse_newton_seconds = 3;
    */
-  impulseNs?: Vector3 | undefined;
+  impulseNewtonSeconds?: Vector3 | undefined;
 
   /**
    * How long the push takes, s, up to 10. 0 or absent: 0.1.
@@ -152,9 +154,9 @@ export type Force = Message<"sinew.v1.Force"> & {
   /**
    * Force, world axes, N, each component within ±100000.
    *
-   * @generated from field: sinew.v1.Vector3 force_n = 3;
+   * @generated from field: sinew.v1.Vector3 force_newtons = 3;
    */
-  forceN?: Vector3 | undefined;
+  forceNewtons?: Vector3 | undefined;
 
   /**
    * How long it acts, s, 0…86400. 0 or absent: until it is cleared.
@@ -180,9 +182,9 @@ export type Perturbation = Message<"sinew.v1.Perturbation"> & {
   /**
    * Figure: last part of its name.
    *
-   * @generated from field: string figure = 1;
+   * @generated from field: string figure_id = 1;
    */
-  figure: string;
+  figureId: string;
 
   /**
    * Tick at whose start it begins. Absent: at the next tick. Must not be in the past.
@@ -264,6 +266,21 @@ export type ApplyPerturbationsRequest = Message<"sinew.v1.ApplyPerturbationsRequ
    * @generated from field: repeated sinew.v1.Perturbation perturbations = 4;
    */
   perturbations: Perturbation[];
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
+
+  /**
+   * Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+   *
+   * @generated from field: bool validate_only = 14;
+   */
+  validateOnly: boolean;
 };
 
 /**
@@ -306,6 +323,14 @@ export type ClearPerturbationsRequest = Message<"sinew.v1.ClearPerturbationsRequ
    * @generated from field: string figure = 1;
    */
   figure: string;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**

@@ -4,6 +4,8 @@
 
 import type { GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
 import { fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
+import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import type { Figure } from "./figure_pb.js";
 import { file_sinew_v1_figure } from "./figure_pb.js";
 import type { WorldFrame } from "./frame_pb.js";
@@ -23,7 +25,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/simulation.proto.
  */
 export const file_sinew_v1_simulation: GenFile = /*@__PURE__*/
-  fileDesc("ChlzaW5ldy92MS9zaW11bGF0aW9uLnByb3RvEghzaW5ldy52MSJSChFUaW1lZFBlcnR1cmJhdGlvbhIPCgdzdGFydF9zGAEgASgBEiwKDHBlcnR1cmJhdGlvbhgCIAEoCzIWLnNpbmV3LnYxLlBlcnR1cmJhdGlvbiKMAgoTU2ltdWxhdGVDbGlwUmVxdWVzdBIOCgRjbGlwGAEgASgJSAASIgoDYnZoGAIgASgLMhMuc2luZXcudjEuQnZoU291cmNlSAASIAoGZmlndXJlGAMgASgLMhAuc2luZXcudjEuRmlndXJlEg8KB3JhdGVfaHoYBCABKAESEAoIc3Vic3RlcHMYBSABKAUSEgoKZHVyYXRpb25fcxgGIAEoARIMCgRsb29wGAcgASgIEjIKDXBlcnR1cmJhdGlvbnMYCCADKAsyGy5zaW5ldy52MS5UaW1lZFBlcnR1cmJhdGlvbhIcCgR2aWV3GAkgASgLMg4uc2luZXcudjEuVmlld0IICgZzb3VyY2UitQEKFFNpbXVsYXRlQ2xpcFJlc3BvbnNlEiwKB3N1bW1hcnkYASABKAsyGy5zaW5ldy52MS5TaW11bGF0aW9uU3VtbWFyeRIkCgZmcmFtZXMYAiADKAsyFC5zaW5ldy52MS5Xb3JsZEZyYW1lEh8KBmV2ZW50cxgDIAMoCzIPLnNpbmV3LnYxLkV2ZW50EigKBnJlcG9ydBgEIAEoCzIYLnNpbmV3LnYxLlJldGFyZ2V0UmVwb3J0IukCChFTaW11bGF0aW9uU3VtbWFyeRISCgp0aWNrX2NvdW50GAEgASgFEg8KB3JhdGVfaHoYAiABKAESFgoJZmVsbF9hdF9zGAMgASgBSACIAQESHgoWdHJhY2tpbmdfam9pbnRfcm1zX2RlZxgEIAEoARIeChZ0cmFja2luZ19qb2ludF9tYXhfZGVnGAUgASgBEhcKD21heF91dGlsaXNhdGlvbhgGIAEoARIWCg5vdmVyX2xpbWl0X21heBgHIAEoARITCgtzYXR1cmF0ZWRfcxgIIAMoARIZCgxtYXJnaW5fbWluX20YCSABKAFIAYgBARIZChFwZW5ldHJhdGlvbl9tYXhfbRgKIAEoARISCgpzdGF0ZV9oYXNoGAsgASgQEhMKC3RpY2tfcDUwX3VzGAwgASgBEhMKC3RpY2tfcDk5X3VzGA0gASgBQgwKCl9mZWxsX2F0X3NCDwoNX21hcmdpbl9taW5fbTJoChFTaW11bGF0aW9uU2VydmljZRJTCgxTaW11bGF0ZUNsaXASHS5zaW5ldy52MS5TaW11bGF0ZUNsaXBSZXF1ZXN0Gh4uc2luZXcudjEuU2ltdWxhdGVDbGlwUmVzcG9uc2UiBOjgGAdiBnByb3RvMw", [file_sinew_v1_figure, file_sinew_v1_frame, file_sinew_v1_motion, file_sinew_v1_options, file_sinew_v1_perturbation, file_sinew_v1_state, file_sinew_v1_types]);
+  fileDesc("ChlzaW5ldy92MS9zaW11bGF0aW9uLnByb3RvEghzaW5ldy52MSJeChFUaW1lZFBlcnR1cmJhdGlvbhIVCgdzdGFydF9zGAEgASgBQgTiQQEBEjIKDHBlcnR1cmJhdGlvbhgCIAEoCzIWLnNpbmV3LnYxLlBlcnR1cmJhdGlvbkIE4kEBASLMAgoTU2ltdWxhdGVDbGlwUmVxdWVzdBIfCgRjbGlwGAEgASgJQg/6QQwKCnNpbmV3L0NsaXBIABIiCgNidmgYAiABKAsyEy5zaW5ldy52MS5CdmhTb3VyY2VIABImCgZmaWd1cmUYAyABKAsyEC5zaW5ldy52MS5GaWd1cmVCBOJBAQESFQoHcmF0ZV9oehgEIAEoAUIE4kEBARIbCg1zdWJzdGVwX2NvdW50GAUgASgFQgTiQQEBEhgKCmR1cmF0aW9uX3MYBiABKAFCBOJBAQESEgoEbG9vcBgHIAEoCEIE4kEBARI4Cg1wZXJ0dXJiYXRpb25zGAggAygLMhsuc2luZXcudjEuVGltZWRQZXJ0dXJiYXRpb25CBOJBAQESIgoEdmlldxgJIAEoCzIOLnNpbmV3LnYxLlZpZXdCBOJBAQFCCAoGc291cmNlIrUBChRTaW11bGF0ZUNsaXBSZXNwb25zZRIsCgdzdW1tYXJ5GAEgASgLMhsuc2luZXcudjEuU2ltdWxhdGlvblN1bW1hcnkSJAoGZnJhbWVzGAIgAygLMhQuc2luZXcudjEuV29ybGRGcmFtZRIfCgZldmVudHMYAyADKAsyDy5zaW5ldy52MS5FdmVudBIoCgZyZXBvcnQYBCABKAsyGC5zaW5ldy52MS5SZXRhcmdldFJlcG9ydCJXChlTdHJlYW1TaW11bGF0ZUNsaXBSZXF1ZXN0EjoKDXNpbXVsYXRlX2NsaXAYASABKAsyHS5zaW5ldy52MS5TaW11bGF0ZUNsaXBSZXF1ZXN0QgTiQQECIpIBChpTdHJlYW1TaW11bGF0ZUNsaXBSZXNwb25zZRIwCghwcm9ncmVzcxgBIAEoCzIcLnNpbmV3LnYxLlNpbXVsYXRpb25Qcm9ncmVzc0gAEjcKDXNpbXVsYXRlX2NsaXAYAiABKAsyHi5zaW5ldy52MS5TaW11bGF0ZUNsaXBSZXNwb25zZUgAQgkKB21lc3NhZ2UiTAoSU2ltdWxhdGlvblByb2dyZXNzEhAKCHByb2dyZXNzGAEgASgBEiQKBmZyYW1lcxgCIAMoCzIULnNpbmV3LnYxLldvcmxkRnJhbWUi6QIKEVNpbXVsYXRpb25TdW1tYXJ5EhIKCnRpY2tfY291bnQYASABKAUSDwoHcmF0ZV9oehgCIAEoARIWCglmZWxsX2F0X3MYAyABKAFIAIgBARIeChZ0cmFja2luZ19qb2ludF9ybXNfcmFkGAQgASgBEh4KFnRyYWNraW5nX2pvaW50X21heF9yYWQYBSABKAESFwoPbWF4X3V0aWxpc2F0aW9uGAYgASgBEhYKDm92ZXJfbGltaXRfbWF4GAcgASgBEhMKC3NhdHVyYXRlZF9zGAggAygBEhkKDG1hcmdpbl9taW5fbRgJIAEoAUgBiAEBEhkKEXBlbmV0cmF0aW9uX21heF9tGAogASgBEhIKCnN0YXRlX2hhc2gYCyABKBASEwoLdGlja19wNTBfdXMYDCABKAESEwoLdGlja19wOTlfdXMYDSABKAFCDAoKX2ZlbGxfYXRfc0IPCg1fbWFyZ2luX21pbl9tMtEBChFTaW11bGF0aW9uU2VydmljZRJTCgxTaW11bGF0ZUNsaXASHS5zaW5ldy52MS5TaW11bGF0ZUNsaXBSZXF1ZXN0Gh4uc2luZXcudjEuU2ltdWxhdGVDbGlwUmVzcG9uc2UiBOjgGAcSZwoSU3RyZWFtU2ltdWxhdGVDbGlwEiMuc2luZXcudjEuU3RyZWFtU2ltdWxhdGVDbGlwUmVxdWVzdBokLnNpbmV3LnYxLlN0cmVhbVNpbXVsYXRlQ2xpcFJlc3BvbnNlIgTo4BgHMAFiBnByb3RvMw", [file_google_api_field_behavior, file_google_api_resource, file_sinew_v1_figure, file_sinew_v1_frame, file_sinew_v1_motion, file_sinew_v1_options, file_sinew_v1_perturbation, file_sinew_v1_state, file_sinew_v1_types]);
 
 /**
  * A disturbance in time of the clip.
@@ -99,9 +101,9 @@ export type SimulateClipRequest = Message<"sinew.v1.SimulateClipRequest"> & {
   /**
    * Substeps in one tick, 1…16. 0 or absent: 2.
    *
-   * @generated from field: int32 substeps = 5;
+   * @generated from field: int32 substep_count = 5;
    */
-  substeps: number;
+  substepCount: number;
 
   /**
    * How long, s, up to the server's `max_simulation_s` (default 120). 0 or absent: the length of the clip.
@@ -182,6 +184,92 @@ export const SimulateClipResponseSchema: GenMessage<SimulateClipResponse> = /*@_
   messageDesc(file_sinew_v1_simulation, 2);
 
 /**
+ * Asks for a simulation, bit by bit.
+ *
+ * @generated from message sinew.v1.StreamSimulateClipRequest
+ */
+export type StreamSimulateClipRequest = Message<"sinew.v1.StreamSimulateClipRequest"> & {
+  /**
+   * The simulation. Required.
+   *
+   * @generated from field: sinew.v1.SimulateClipRequest simulate_clip = 1;
+   */
+  simulateClip?: SimulateClipRequest | undefined;
+};
+
+/**
+ * Describes the message sinew.v1.StreamSimulateClipRequest.
+ * Use `create(StreamSimulateClipRequestSchema)` to create a new message.
+ */
+export const StreamSimulateClipRequestSchema: GenMessage<StreamSimulateClipRequest> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_simulation, 3);
+
+/**
+ * One message of a simulation.
+ *
+ * @generated from message sinew.v1.StreamSimulateClipResponse
+ */
+export type StreamSimulateClipResponse = Message<"sinew.v1.StreamSimulateClipResponse"> & {
+  /**
+   * What is sent.
+   *
+   * @generated from oneof sinew.v1.StreamSimulateClipResponse.message
+   */
+  message: {
+    /**
+     * How far it is, and what was computed since the message before.
+     *
+     * @generated from field: sinew.v1.SimulationProgress progress = 1;
+     */
+    value: SimulationProgress;
+    case: "progress";
+  } | {
+    /**
+     * The end: as the answer of `SimulateClip`, without frames. The last message.
+     *
+     * @generated from field: sinew.v1.SimulateClipResponse simulate_clip = 2;
+     */
+    value: SimulateClipResponse;
+    case: "simulateClip";
+  } | { case: undefined; value?: undefined };
+};
+
+/**
+ * Describes the message sinew.v1.StreamSimulateClipResponse.
+ * Use `create(StreamSimulateClipResponseSchema)` to create a new message.
+ */
+export const StreamSimulateClipResponseSchema: GenMessage<StreamSimulateClipResponse> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_simulation, 4);
+
+/**
+ * How far a simulation is.
+ *
+ * @generated from message sinew.v1.SimulationProgress
+ */
+export type SimulationProgress = Message<"sinew.v1.SimulationProgress"> & {
+  /**
+   * Share of the work that is done, 0…1.
+   *
+   * @generated from field: double progress = 1;
+   */
+  progress: number;
+
+  /**
+   * Frames since the message before, if a view was asked for.
+   *
+   * @generated from field: repeated sinew.v1.WorldFrame frames = 2;
+   */
+  frames: WorldFrame[];
+};
+
+/**
+ * Describes the message sinew.v1.SimulationProgress.
+ * Use `create(SimulationProgressSchema)` to create a new message.
+ */
+export const SimulationProgressSchema: GenMessage<SimulationProgress> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_simulation, 5);
+
+/**
  * Figures of merit of a simulation.
  *
  * @generated from message sinew.v1.SimulationSummary
@@ -210,18 +298,18 @@ export type SimulationSummary = Message<"sinew.v1.SimulationSummary"> & {
 
   /**
    * Tracking error of the joint angles, target minus actual at the start of a tick: root mean square over DOFs and
-   * ticks, degrees. The target is the prepared motion, moved along with the feet after each step.
+   * ticks, rad. The target is the prepared motion, moved along with the feet after each step.
    *
-   * @generated from field: double tracking_joint_rms_deg = 4;
+   * @generated from field: double tracking_joint_rms_rad = 4;
    */
-  trackingJointRmsDeg: number;
+  trackingJointRmsRad: number;
 
   /**
-   * Largest tracking error of a joint angle, degrees.
+   * Largest tracking error of a joint angle, rad.
    *
-   * @generated from field: double tracking_joint_max_deg = 5;
+   * @generated from field: double tracking_joint_max_rad = 5;
    */
-  trackingJointMaxDeg: number;
+  trackingJointMaxRad: number;
 
   /**
    * Largest torque relative to the torque available.
@@ -285,7 +373,7 @@ export type SimulationSummary = Message<"sinew.v1.SimulationSummary"> & {
  * Use `create(SimulationSummarySchema)` to create a new message.
  */
 export const SimulationSummarySchema: GenMessage<SimulationSummary> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_simulation, 3);
+  messageDesc(file_sinew_v1_simulation, 6);
 
 /**
  * Simulates without a world.
@@ -302,6 +390,17 @@ export const SimulationService: GenService<{
     methodKind: "unary";
     input: typeof SimulateClipRequestSchema;
     output: typeof SimulateClipResponseSchema;
+  },
+  /**
+   * As `SimulateClip`, with frames as they are computed: the streaming twin. The size of a response does not bound
+   * them, and a slow reader slows the simulation down. Ending the stream gives the simulation up.
+   *
+   * @generated from rpc sinew.v1.SimulationService.StreamSimulateClip
+   */
+  streamSimulateClip: {
+    methodKind: "server_streaming";
+    input: typeof StreamSimulateClipRequestSchema;
+    output: typeof StreamSimulateClipResponseSchema;
   },
 }> = /*@__PURE__*/
   serviceDesc(file_sinew_v1_simulation, 0);

@@ -4,6 +4,8 @@
 
 import type { GenEnum, GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
 import { enumDesc, fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
+import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import type { FieldMask } from "@bufbuild/protobuf/wkt";
 import { file_google_protobuf_field_mask } from "@bufbuild/protobuf/wkt";
 import type { WorldFrame } from "./frame_pb.js";
@@ -17,7 +19,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/state.proto.
  */
 export const file_sinew_v1_state: GenFile = /*@__PURE__*/
-  fileDesc("ChRzaW5ldy92MS9zdGF0ZS5wcm90bxIIc2luZXcudjEifwoEVmlldxIPCgdmaWd1cmVzGAEgAygJEioKBmZpZWxkcxgCIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5GaWVsZE1hc2sSJAoIZW5jb2RpbmcYAyABKA4yEi5zaW5ldy52MS5FbmNvZGluZxIUCgxyYXRlX2Rpdmlzb3IYBCABKAUiYQoGUm9zdGVyEg0KBXdvcmxkGAEgASgJEg8KB3JhdGVfaHoYAiABKAESDwoHdmVyc2lvbhgDIAEoBRImCgdmaWd1cmVzGAQgAygLMhUuc2luZXcudjEuUm9zdGVyRW50cnkiQQoLUm9zdGVyRW50cnkSFAoMZmlndXJlX2luZGV4GAEgASgFEg4KBmZpZ3VyZRgCIAEoCRIMCgRib2R5GAMgASgJIl8KFEdldFdvcmxkRnJhbWVSZXF1ZXN0Eg0KBXdvcmxkGAEgASgJEhEKBHRpY2sYAiABKANIAIgBARIcCgR2aWV3GAMgASgLMg4uc2luZXcudjEuVmlld0IHCgVfdGljayJeChVHZXRXb3JsZEZyYW1lUmVzcG9uc2USIAoGcm9zdGVyGAEgASgLMhAuc2luZXcudjEuUm9zdGVyEiMKBWZyYW1lGAIgASgLMhQuc2luZXcudjEuV29ybGRGcmFtZSJqChFXYXRjaFdvcmxkUmVxdWVzdBINCgV3b3JsZBgBIAEoCRIcCgR2aWV3GAIgASgLMg4uc2luZXcudjEuVmlldxIYCgtyZXN1bWVfdGljaxgDIAEoA0gAiAEBQg4KDF9yZXN1bWVfdGljayJqChJXYXRjaFdvcmxkUmVzcG9uc2USIgoGcm9zdGVyGAEgASgLMhAuc2luZXcudjEuUm9zdGVySAASJQoFZnJhbWUYAiABKAsyFC5zaW5ldy52MS5Xb3JsZEZyYW1lSABCCQoHbWVzc2FnZSK9AQoFRXZlbnQSIQoEdHlwZRgBIAEoDjITLnNpbmV3LnYxLkV2ZW50VHlwZRIMCgR0aWNrGAIgASgDEg4KBnRpbWVfcxgDIAEoARIOCgZmaWd1cmUYBCABKAkSDwoHc2VnbWVudBgFIAEoCRILCgNkb2YYBiABKAkSDwoHbWFzc19rZxgHIAEoARIOCgZkZXRhaWwYCCABKAkSDQoFb3RoZXIYCSABKAkSFQoNb3RoZXJfc2VnbWVudBgKIAEoCSJYChJXYXRjaEV2ZW50c1JlcXVlc3QSDQoFd29ybGQYASABKAkSDwoHZmlndXJlcxgCIAMoCRIiCgV0eXBlcxgDIAMoDjITLnNpbmV3LnYxLkV2ZW50VHlwZSJMChNXYXRjaEV2ZW50c1Jlc3BvbnNlEh8KBmV2ZW50cxgBIAMoCzIPLnNpbmV3LnYxLkV2ZW50EhQKDG1pc3NlZF9jb3VudBgCIAEoAyqGBwoJRXZlbnRUeXBlEhoKFkVWRU5UX1RZUEVfVU5TUEVDSUZJRUQQABIdChlFVkVOVF9UWVBFX1NVUFBPUlRfR0FJTkVEEAESGwoXRVZFTlRfVFlQRV9TVVBQT1JUX0xPU1QQAhIYChRFVkVOVF9UWVBFX1NBVFVSQVRFRBADEhcKE0VWRU5UX1RZUEVfUkVMSUVWRUQQBBIbChdFVkVOVF9UWVBFX0JBTEFOQ0VfTE9TVBAFEhgKFEVWRU5UX1RZUEVfUkVDT1ZFUkVEEAYSEwoPRVZFTlRfVFlQRV9GRUxMEAcSGQoVRVZFTlRfVFlQRV9MT0FEX1RBS0VOEAgSGwoXRVZFTlRfVFlQRV9MT0FEX0RST1BQRUQQCRIbChdFVkVOVF9UWVBFX0xPQURfU0xJUFBFRBAeEhoKFkVWRU5UX1RZUEVfUVVBUkFOVElORUQQChIbChdFVkVOVF9UWVBFX0ZJR1VSRV9BRERFRBALEh0KGUVWRU5UX1RZUEVfRklHVVJFX1JFTU9WRUQQDBIaChZFVkVOVF9UWVBFX0RSSVZFX0JFR0FOEA0SGgoWRVZFTlRfVFlQRV9EUklWRV9FTkRFRBAOEh0KGUVWRU5UX1RZUEVfRFJJVkVfUkVTWU5DRUQQIxIbChdFVkVOVF9UWVBFX1dPUkxEX1BBVVNFRBAPEhwKGEVWRU5UX1RZUEVfV09STERfUkVTVU1FRBAQEhsKF0VWRU5UX1RZUEVfV09STERfRkFJTEVEEBESFQoRRVZFTlRfVFlQRV9HT1RfVVAQEhIdChlFVkVOVF9UWVBFX1dPUkxEX1JFU1RPUkVEEC0SFgoSRVZFTlRfVFlQRV9UT1VDSEVEEB8SFQoRRVZFTlRfVFlQRV9QQVJURUQQIBIdChlFVkVOVF9UWVBFX09CU1RBQ0xFX0FEREVEECESHwobRVZFTlRfVFlQRV9PQlNUQUNMRV9SRU1PVkVEECISHwobRVZFTlRfVFlQRV9DT05UUk9MX0FDUVVJUkVEECgSHwobRVZFTlRfVFlQRV9DT05UUk9MX1JFTEVBU0VEECkSIAocRVZFTlRfVFlQRV9DT05UUk9MX1BSRUVNUFRFRBAqEh4KGkVWRU5UX1RZUEVfQ09OVFJPTF9PRkZFUkVEECsSHQoZRVZFTlRfVFlQRV9BQ0NFU1NfUkVGVVNFRBAsMosCCgxTdGF0ZVNlcnZpY2USVgoNR2V0V29ybGRGcmFtZRIeLnNpbmV3LnYxLkdldFdvcmxkRnJhbWVSZXF1ZXN0Gh8uc2luZXcudjEuR2V0V29ybGRGcmFtZVJlc3BvbnNlIgTo4BgBEk8KCldhdGNoV29ybGQSGy5zaW5ldy52MS5XYXRjaFdvcmxkUmVxdWVzdBocLnNpbmV3LnYxLldhdGNoV29ybGRSZXNwb25zZSIE6OAYATABElIKC1dhdGNoRXZlbnRzEhwuc2luZXcudjEuV2F0Y2hFdmVudHNSZXF1ZXN0Gh0uc2luZXcudjEuV2F0Y2hFdmVudHNSZXNwb25zZSIE6OAYATABYgZwcm90bzM", [file_google_protobuf_field_mask, file_sinew_v1_frame, file_sinew_v1_options, file_sinew_v1_types]);
+  fileDesc("ChRzaW5ldy92MS9zdGF0ZS5wcm90bxIIc2luZXcudjEimgEKBFZpZXcSGAoKZmlndXJlX2lkcxgBIAMoCUIE4kEBARIwCgZmaWVsZHMYAiABKAsyGi5nb29nbGUucHJvdG9idWYuRmllbGRNYXNrQgTiQQEBEioKCGVuY29kaW5nGAMgASgOMhIuc2luZXcudjEuRW5jb2RpbmdCBOJBAQESGgoMcmF0ZV9kaXZpc29yGAQgASgFQgTiQQEBInMKBlJvc3RlchIfCgV3b3JsZBgBIAEoCUIQ+kENCgtzaW5ldy9Xb3JsZBIPCgdyYXRlX2h6GAIgASgBEg8KB3ZlcnNpb24YAyABKAUSJgoHZmlndXJlcxgEIAMoCzIVLnNpbmV3LnYxLlJvc3RlckVudHJ5IlUKC1Jvc3RlckVudHJ5EhQKDGZpZ3VyZV9pbmRleBgBIAEoBRIRCglmaWd1cmVfaWQYAiABKAkSHQoEYm9keRgDIAEoCUIP+kEMCgpzaW5ldy9Cb2R5IoEBChRHZXRXb3JsZEZyYW1lUmVxdWVzdBIjCgV3b3JsZBgBIAEoCUIU4kEBAvpBDQoLc2luZXcvV29ybGQSFwoEdGljaxgCIAEoA0IE4kEBAUgAiAEBEiIKBHZpZXcYAyABKAsyDi5zaW5ldy52MS5WaWV3QgTiQQEBQgcKBV90aWNrIl4KFUdldFdvcmxkRnJhbWVSZXNwb25zZRIgCgZyb3N0ZXIYASABKAsyEC5zaW5ldy52MS5Sb3N0ZXISIwoFZnJhbWUYAiABKAsyFC5zaW5ldy52MS5Xb3JsZEZyYW1lIowBChFXYXRjaFdvcmxkUmVxdWVzdBIjCgV3b3JsZBgBIAEoCUIU4kEBAvpBDQoLc2luZXcvV29ybGQSIgoEdmlldxgCIAEoCzIOLnNpbmV3LnYxLlZpZXdCBOJBAQESHgoLcmVzdW1lX3RpY2sYAyABKANCBOJBAQFIAIgBAUIOCgxfcmVzdW1lX3RpY2siagoSV2F0Y2hXb3JsZFJlc3BvbnNlEiIKBnJvc3RlchgBIAEoCzIQLnNpbmV3LnYxLlJvc3RlckgAEiUKBWZyYW1lGAIgASgLMhQuc2luZXcudjEuV29ybGRGcmFtZUgAQgkKB21lc3NhZ2UiwAEKBUV2ZW50EiEKBHR5cGUYASABKA4yEy5zaW5ldy52MS5FdmVudFR5cGUSDAoEdGljaxgCIAEoAxIOCgZ0aW1lX3MYAyABKAESEQoJZmlndXJlX2lkGAQgASgJEg8KB3NlZ21lbnQYBSABKAkSCwoDZG9mGAYgASgJEg8KB21hc3Nfa2cYByABKAESDgoGZGV0YWlsGAggASgJEg0KBW90aGVyGAkgASgJEhUKDW90aGVyX3NlZ21lbnQYCiABKAkifQoSV2F0Y2hFdmVudHNSZXF1ZXN0EiMKBXdvcmxkGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIYCgpmaWd1cmVfaWRzGAIgAygJQgTiQQEBEigKBXR5cGVzGAMgAygOMhMuc2luZXcudjEuRXZlbnRUeXBlQgTiQQEBIkwKE1dhdGNoRXZlbnRzUmVzcG9uc2USHwoGZXZlbnRzGAEgAygLMg8uc2luZXcudjEuRXZlbnQSFAoMbWlzc2VkX2NvdW50GAIgASgDKtoHCglFdmVudFR5cGUSGgoWRVZFTlRfVFlQRV9VTlNQRUNJRklFRBAAEh0KGUVWRU5UX1RZUEVfU1VQUE9SVF9HQUlORUQQARIbChdFVkVOVF9UWVBFX1NVUFBPUlRfTE9TVBACEhgKFEVWRU5UX1RZUEVfU0FUVVJBVEVEEAMSFwoTRVZFTlRfVFlQRV9SRUxJRVZFRBAEEhsKF0VWRU5UX1RZUEVfQkFMQU5DRV9MT1NUEAUSGAoURVZFTlRfVFlQRV9SRUNPVkVSRUQQBhITCg9FVkVOVF9UWVBFX0ZFTEwQBxIZChVFVkVOVF9UWVBFX0xPQURfVEFLRU4QCBIbChdFVkVOVF9UWVBFX0xPQURfRFJPUFBFRBAJEhsKF0VWRU5UX1RZUEVfTE9BRF9TTElQUEVEEB4SGgoWRVZFTlRfVFlQRV9RVUFSQU5USU5FRBAKEhsKF0VWRU5UX1RZUEVfRklHVVJFX0FEREVEEAsSHQoZRVZFTlRfVFlQRV9GSUdVUkVfUkVNT1ZFRBAMEhoKFkVWRU5UX1RZUEVfRFJJVkVfQkVHQU4QDRIaChZFVkVOVF9UWVBFX0RSSVZFX0VOREVEEA4SGQoVRVZFTlRfVFlQRV9DTElQX0JFR0FOEBMSGQoVRVZFTlRfVFlQRV9DTElQX0VOREVEEBQSHQoZRVZFTlRfVFlQRV9EUklWRV9SRVNZTkNFRBAjEhsKF0VWRU5UX1RZUEVfV09STERfUEFVU0VEEA8SHAoYRVZFTlRfVFlQRV9XT1JMRF9SRVNVTUVEEBASGwoXRVZFTlRfVFlQRV9XT1JMRF9GQUlMRUQQERIcChhFVkVOVF9UWVBFX1dPUkxEX0RFTEVURUQQFRIVChFFVkVOVF9UWVBFX0dPVF9VUBASEh0KGUVWRU5UX1RZUEVfV09STERfUkVTVE9SRUQQLRIWChJFVkVOVF9UWVBFX1RPVUNIRUQQHxIVChFFVkVOVF9UWVBFX1BBUlRFRBAgEh0KGUVWRU5UX1RZUEVfT0JTVEFDTEVfQURERUQQIRIfChtFVkVOVF9UWVBFX09CU1RBQ0xFX1JFTU9WRUQQIhIfChtFVkVOVF9UWVBFX0NPTlRST0xfQUNRVUlSRUQQKBIfChtFVkVOVF9UWVBFX0NPTlRST0xfUkVMRUFTRUQQKRIgChxFVkVOVF9UWVBFX0NPTlRST0xfUFJFRU1QVEVEECoSHgoaRVZFTlRfVFlQRV9DT05UUk9MX09GRkVSRUQQKxIdChlFVkVOVF9UWVBFX0FDQ0VTU19SRUZVU0VEECwyiwIKDFN0YXRlU2VydmljZRJWCg1HZXRXb3JsZEZyYW1lEh4uc2luZXcudjEuR2V0V29ybGRGcmFtZVJlcXVlc3QaHy5zaW5ldy52MS5HZXRXb3JsZEZyYW1lUmVzcG9uc2UiBOjgGAESTwoKV2F0Y2hXb3JsZBIbLnNpbmV3LnYxLldhdGNoV29ybGRSZXF1ZXN0Ghwuc2luZXcudjEuV2F0Y2hXb3JsZFJlc3BvbnNlIgTo4BgBMAESUgoLV2F0Y2hFdmVudHMSHC5zaW5ldy52MS5XYXRjaEV2ZW50c1JlcXVlc3QaHS5zaW5ldy52MS5XYXRjaEV2ZW50c1Jlc3BvbnNlIgTo4BgBMAFiBnByb3RvMw", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_field_mask, file_sinew_v1_frame, file_sinew_v1_options, file_sinew_v1_types]);
 
 /**
  * What of a world is sent.
@@ -28,9 +30,9 @@ export type View = Message<"sinew.v1.View"> & {
   /**
    * Figures by the last parts of their names. Empty: all.
    *
-   * @generated from field: repeated string figures = 1;
+   * @generated from field: repeated string figure_ids = 1;
    */
-  figures: string[];
+  figureIds: string[];
 
   /**
    * Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
@@ -120,9 +122,9 @@ export type RosterEntry = Message<"sinew.v1.RosterEntry"> & {
   /**
    * Last part of the figure's name.
    *
-   * @generated from field: string figure = 2;
+   * @generated from field: string figure_id = 2;
    */
-  figure: string;
+  figureId: string;
 
   /**
    * Body: resource name.
@@ -305,9 +307,9 @@ export type Event = Message<"sinew.v1.Event"> & {
   /**
    * Last part of the figure's name; empty for events of the world.
    *
-   * @generated from field: string figure = 4;
+   * @generated from field: string figure_id = 4;
    */
-  figure: string;
+  figureId: string;
 
   /**
    * Segment name, where there is one.
@@ -375,9 +377,9 @@ export type WatchEventsRequest = Message<"sinew.v1.WatchEventsRequest"> & {
   /**
    * Figures by the last parts of their names. Empty: all, and events of the world.
    *
-   * @generated from field: repeated string figures = 2;
+   * @generated from field: repeated string figure_ids = 2;
    */
-  figures: string[];
+  figureIds: string[];
 
   /**
    * Types wanted. Empty: all.
@@ -541,6 +543,20 @@ export enum EventType {
   DRIVE_ENDED = 14,
 
   /**
+   * A clip began to play: the detail is its name, `clips/{clip}`.
+   *
+   * @generated from enum value: EVENT_TYPE_CLIP_BEGAN = 19;
+   */
+  CLIP_BEGAN = 19,
+
+  /**
+   * A clip is over, or was ended: the detail is its name, `clips/{clip}`.
+   *
+   * @generated from enum value: EVENT_TYPE_CLIP_ENDED = 20;
+   */
+  CLIP_ENDED = 20,
+
+  /**
    * The stream of a driver began anew; the detail says why.
    *
    * @generated from enum value: EVENT_TYPE_DRIVE_RESYNCED = 35;
@@ -567,6 +583,13 @@ export enum EventType {
    * @generated from enum value: EVENT_TYPE_WORLD_FAILED = 17;
    */
   WORLD_FAILED = 17,
+
+  /**
+   * The world was deleted, and this is its last event; the detail says by whom or why.
+   *
+   * @generated from enum value: EVENT_TYPE_WORLD_DELETED = 21;
+   */
+  WORLD_DELETED = 21,
 
   /**
    * The figure stands again after a fall.

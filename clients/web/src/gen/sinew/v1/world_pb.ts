@@ -4,18 +4,18 @@
 
 import type { GenEnum, GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
 import { enumDesc, fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
-import type { FieldMask, Timestamp } from "@bufbuild/protobuf/wkt";
-import { file_google_protobuf_field_mask, file_google_protobuf_timestamp } from "@bufbuild/protobuf/wkt";
+import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
+import { file_google_api_resource } from "../../google/api/resource_pb.js";
+import type { Duration, FieldMask, Timestamp } from "@bufbuild/protobuf/wkt";
+import { file_google_protobuf_duration, file_google_protobuf_field_mask, file_google_protobuf_timestamp } from "@bufbuild/protobuf/wkt";
 import { file_sinew_v1_options } from "./options_pb.js";
-import type { Pose, Vector3 } from "./types_pb.js";
-import { file_sinew_v1_types } from "./types_pb.js";
 import type { Message } from "@bufbuild/protobuf";
 
 /**
  * Describes the file sinew/v1/world.proto.
  */
 export const file_sinew_v1_world: GenFile = /*@__PURE__*/
-  fileDesc("ChRzaW5ldy92MS93b3JsZC5wcm90bxIIc2luZXcudjEiyAMKBVdvcmxkEgwKBG5hbWUYASABKAkSFAoMZGlzcGxheV9uYW1lGAIgASgJEg8KB3JhdGVfaHoYAyABKAESEAoIc3Vic3RlcHMYBCABKAUSGQoMZ3Jhdml0eV9tcHMyGAUgASgBSACIAQESFQoIZnJpY3Rpb24YBiABKAFIAYgBARIvCg5vdmVycnVuX3BvbGljeRgHIAEoDjIXLnNpbmV3LnYxLk92ZXJydW5Qb2xpY3kSFgoOY2F0Y2hfdXBfbGltaXQYCCABKAUSDQoFc3BlZWQYCSABKAESIwoFc3RhdGUYCiABKA4yFC5zaW5ldy52MS5Xb3JsZFN0YXRlEgwKBHRpY2sYCyABKAMSDgoGdGltZV9zGAwgASgBEhQKDGZpZ3VyZV9jb3VudBgNIAEoBRINCgVlcG9jaBgOIAEoBRIvCgtjcmVhdGVfdGltZRgPIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5UaW1lc3RhbXASDwoHZmFpbHVyZRgQIAEoCRIXCgpjb2xsaXNpb25zGBEgASgISAKIAQFCDwoNX2dyYXZpdHlfbXBzMkILCglfZnJpY3Rpb25CDQoLX2NvbGxpc2lvbnMiVgoSQ3JlYXRlV29ybGRSZXF1ZXN0EhAKCHdvcmxkX2lkGAEgASgJEh4KBXdvcmxkGAIgASgLMg8uc2luZXcudjEuV29ybGQSDgoGcGF1c2VkGAMgASgIIjUKE0NyZWF0ZVdvcmxkUmVzcG9uc2USHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZCIfCg9HZXRXb3JsZFJlcXVlc3QSDAoEbmFtZRgBIAEoCSIyChBHZXRXb3JsZFJlc3BvbnNlEh4KBXdvcmxkGAEgASgLMg8uc2luZXcudjEuV29ybGQiOgoRTGlzdFdvcmxkc1JlcXVlc3QSEQoJcGFnZV9zaXplGAEgASgFEhIKCnBhZ2VfdG9rZW4YAiABKAkiTgoSTGlzdFdvcmxkc1Jlc3BvbnNlEh8KBndvcmxkcxgBIAMoCzIPLnNpbmV3LnYxLldvcmxkEhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSJlChJVcGRhdGVXb3JsZFJlcXVlc3QSHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZBIvCgt1cGRhdGVfbWFzaxgCIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5GaWVsZE1hc2siNQoTVXBkYXRlV29ybGRSZXNwb25zZRIeCgV3b3JsZBgBIAEoCzIPLnNpbmV3LnYxLldvcmxkIiIKEkRlbGV0ZVdvcmxkUmVxdWVzdBIMCgRuYW1lGAEgASgJIhUKE0RlbGV0ZVdvcmxkUmVzcG9uc2UiIQoRUGF1c2VXb3JsZFJlcXVlc3QSDAoEbmFtZRgBIAEoCSI0ChJQYXVzZVdvcmxkUmVzcG9uc2USHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZCIiChJSZXN1bWVXb3JsZFJlcXVlc3QSDAoEbmFtZRgBIAEoCSI1ChNSZXN1bWVXb3JsZFJlc3BvbnNlEh4KBXdvcmxkGAEgASgLMg8uc2luZXcudjEuV29ybGQiNAoQU3RlcFdvcmxkUmVxdWVzdBIMCgRuYW1lGAEgASgJEhIKCnRpY2tfY291bnQYAiABKAUiRQoRU3RlcFdvcmxkUmVzcG9uc2USDAoEdGljaxgBIAEoAxIOCgZ0aW1lX3MYAiABKAESEgoKc3RhdGVfaGFzaBgDIAEoECIzChRTZXRXb3JsZFNwZWVkUmVxdWVzdBIMCgRuYW1lGAEgASgJEg0KBXNwZWVkGAIgASgBIjcKFVNldFdvcmxkU3BlZWRSZXNwb25zZRIeCgV3b3JsZBgBIAEoCzIPLnNpbmV3LnYxLldvcmxkIh8KC1NwaGVyZVNoYXBlEhAKCHJhZGl1c19tGAEgASgBIjcKDENhcHN1bGVTaGFwZRIQCghyYWRpdXNfbRgBIAEoARIVCg1oYWxmX2xlbmd0aF9tGAIgASgBIi0KCEJveFNoYXBlEiEKBmhhbGZfbRgBIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjMiDAoKUGxhbmVTaGFwZSKcAwoIT2JzdGFjbGUSDAoEbmFtZRgBIAEoCRInCgZzcGhlcmUYAiABKAsyFS5zaW5ldy52MS5TcGhlcmVTaGFwZUgAEikKB2NhcHN1bGUYAyABKAsyFi5zaW5ldy52MS5DYXBzdWxlU2hhcGVIABIhCgNib3gYBCABKAsyEi5zaW5ldy52MS5Cb3hTaGFwZUgAEiUKBXBsYW5lGAUgASgLMhQuc2luZXcudjEuUGxhbmVTaGFwZUgAEiwKCG1vYmlsaXR5GAYgASgOMhouc2luZXcudjEuT2JzdGFjbGVNb2JpbGl0eRIPCgdtYXNzX2tnGAcgASgBEhUKCGZyaWN0aW9uGAggASgBSAGIAQESHAoEcG9zZRgJIAEoCzIOLnNpbmV3LnYxLlBvc2USJwoMdmVsb2NpdHlfbXBzGAogASgLMhEuc2luZXcudjEuVmVjdG9yMxIxChZhbmd1bGFyX3ZlbG9jaXR5X3JhZHBzGAsgASgLMhEuc2luZXcudjEuVmVjdG9yM0IHCgVzaGFwZUILCglfZnJpY3Rpb24iXwoSQWRkT2JzdGFjbGVSZXF1ZXN0Eg4KBnBhcmVudBgBIAEoCRITCgtvYnN0YWNsZV9pZBgCIAEoCRIkCghvYnN0YWNsZRgDIAEoCzISLnNpbmV3LnYxLk9ic3RhY2xlIjsKE0FkZE9ic3RhY2xlUmVzcG9uc2USJAoIb2JzdGFjbGUYASABKAsyEi5zaW5ldy52MS5PYnN0YWNsZSI9ChVVcGRhdGVPYnN0YWNsZVJlcXVlc3QSJAoIb2JzdGFjbGUYASABKAsyEi5zaW5ldy52MS5PYnN0YWNsZSI+ChZVcGRhdGVPYnN0YWNsZVJlc3BvbnNlEiQKCG9ic3RhY2xlGAEgASgLMhIuc2luZXcudjEuT2JzdGFjbGUiJQoVUmVtb3ZlT2JzdGFjbGVSZXF1ZXN0EgwKBG5hbWUYASABKAkiGAoWUmVtb3ZlT2JzdGFjbGVSZXNwb25zZSImChRMaXN0T2JzdGFjbGVzUmVxdWVzdBIOCgZwYXJlbnQYASABKAkiPgoVTGlzdE9ic3RhY2xlc1Jlc3BvbnNlEiUKCW9ic3RhY2xlcxgBIAMoCzISLnNpbmV3LnYxLk9ic3RhY2xlKoABCg1PdmVycnVuUG9saWN5Eh4KGk9WRVJSVU5fUE9MSUNZX1VOU1BFQ0lGSUVEEAASFwoTT1ZFUlJVTl9QT0xJQ1lfU0tJUBABEhsKF09WRVJSVU5fUE9MSUNZX0NBVENIX1VQEAISGQoVT1ZFUlJVTl9QT0xJQ1lfRElMQVRFEAMqcgoKV29ybGRTdGF0ZRIbChdXT1JMRF9TVEFURV9VTlNQRUNJRklFRBAAEhcKE1dPUkxEX1NUQVRFX1JVTk5JTkcQARIWChJXT1JMRF9TVEFURV9QQVVTRUQQAhIWChJXT1JMRF9TVEFURV9GQUlMRUQQAyqJAQoQT2JzdGFjbGVNb2JpbGl0eRIhCh1PQlNUQUNMRV9NT0JJTElUWV9VTlNQRUNJRklFRBAAEhsKF09CU1RBQ0xFX01PQklMSVRZX0ZJWEVEEAESGQoVT0JTVEFDTEVfTU9CSUxJVFlfTEVEEAISGgoWT0JTVEFDTEVfTU9CSUxJVFlfRlJFRRADMsEICgxXb3JsZFNlcnZpY2USUAoLQ3JlYXRlV29ybGQSHC5zaW5ldy52MS5DcmVhdGVXb3JsZFJlcXVlc3QaHS5zaW5ldy52MS5DcmVhdGVXb3JsZFJlc3BvbnNlIgTo4BgHEkcKCEdldFdvcmxkEhkuc2luZXcudjEuR2V0V29ybGRSZXF1ZXN0Ghouc2luZXcudjEuR2V0V29ybGRSZXNwb25zZSIE6OAYARJNCgpMaXN0V29ybGRzEhsuc2luZXcudjEuTGlzdFdvcmxkc1JlcXVlc3QaHC5zaW5ldy52MS5MaXN0V29ybGRzUmVzcG9uc2UiBOjgGAYSUAoLVXBkYXRlV29ybGQSHC5zaW5ldy52MS5VcGRhdGVXb3JsZFJlcXVlc3QaHS5zaW5ldy52MS5VcGRhdGVXb3JsZFJlc3BvbnNlIgTo4BgEElAKC0RlbGV0ZVdvcmxkEhwuc2luZXcudjEuRGVsZXRlV29ybGRSZXF1ZXN0Gh0uc2luZXcudjEuRGVsZXRlV29ybGRSZXNwb25zZSIE6OAYBRJNCgpQYXVzZVdvcmxkEhsuc2luZXcudjEuUGF1c2VXb3JsZFJlcXVlc3QaHC5zaW5ldy52MS5QYXVzZVdvcmxkUmVzcG9uc2UiBOjgGAQSUAoLUmVzdW1lV29ybGQSHC5zaW5ldy52MS5SZXN1bWVXb3JsZFJlcXVlc3QaHS5zaW5ldy52MS5SZXN1bWVXb3JsZFJlc3BvbnNlIgTo4BgEEkoKCVN0ZXBXb3JsZBIaLnNpbmV3LnYxLlN0ZXBXb3JsZFJlcXVlc3QaGy5zaW5ldy52MS5TdGVwV29ybGRSZXNwb25zZSIE6OAYBBJWCg1TZXRXb3JsZFNwZWVkEh4uc2luZXcudjEuU2V0V29ybGRTcGVlZFJlcXVlc3QaHy5zaW5ldy52MS5TZXRXb3JsZFNwZWVkUmVzcG9uc2UiBOjgGAQSUAoLQWRkT2JzdGFjbGUSHC5zaW5ldy52MS5BZGRPYnN0YWNsZVJlcXVlc3QaHS5zaW5ldy52MS5BZGRPYnN0YWNsZVJlc3BvbnNlIgTo4BgEElkKDlVwZGF0ZU9ic3RhY2xlEh8uc2luZXcudjEuVXBkYXRlT2JzdGFjbGVSZXF1ZXN0GiAuc2luZXcudjEuVXBkYXRlT2JzdGFjbGVSZXNwb25zZSIE6OAYBBJZCg5SZW1vdmVPYnN0YWNsZRIfLnNpbmV3LnYxLlJlbW92ZU9ic3RhY2xlUmVxdWVzdBogLnNpbmV3LnYxLlJlbW92ZU9ic3RhY2xlUmVzcG9uc2UiBOjgGAQSVgoNTGlzdE9ic3RhY2xlcxIeLnNpbmV3LnYxLkxpc3RPYnN0YWNsZXNSZXF1ZXN0Gh8uc2luZXcudjEuTGlzdE9ic3RhY2xlc1Jlc3BvbnNlIgTo4BgBYgZwcm90bzM", [file_google_protobuf_field_mask, file_google_protobuf_timestamp, file_sinew_v1_options, file_sinew_v1_types]);
+  fileDesc("ChRzaW5ldy92MS93b3JsZC5wcm90bxIIc2luZXcudjEitQUKBVdvcmxkEhIKBG5hbWUYASABKAlCBOJBAQgSGgoMZGlzcGxheV9uYW1lGAIgASgJQgTiQQEBEhYKB3JhdGVfaHoYAyABKAFCBeJBAgEFEhwKDXN1YnN0ZXBfY291bnQYBCABKAVCBeJBAgEFEiAKDGdyYXZpdHlfbXBzMhgFIAEoAUIF4kECAQVIAIgBARIcCghmcmljdGlvbhgGIAEoAUIF4kECAQVIAYgBARI1Cg5vdmVycnVuX3BvbGljeRgHIAEoDjIXLnNpbmV3LnYxLk92ZXJydW5Qb2xpY3lCBOJBAQESIQoTY2F0Y2hfdXBfdGlja19jb3VudBgIIAEoBUIE4kEBARITCgVzcGVlZBgJIAEoAUIE4kEBARIpCgVzdGF0ZRgKIAEoDjIULnNpbmV3LnYxLldvcmxkU3RhdGVCBOJBAQMSEgoEdGljaxgLIAEoA0IE4kEBAxIUCgZ0aW1lX3MYDCABKAFCBOJBAQMSGgoMZmlndXJlX2NvdW50GA0gASgFQgTiQQEDEhMKBWVwb2NoGA4gASgFQgTiQQEDEjUKC2NyZWF0ZV90aW1lGA8gASgLMhouZ29vZ2xlLnByb3RvYnVmLlRpbWVzdGFtcEIE4kEBAxIVCgdmYWlsdXJlGBAgASgJQgTiQQEDEh4KCmNvbGxpc2lvbnMYESABKAhCBeJBAgEFSAKIAQESMQoIaWRsZV90dGwYEiABKAsyGS5nb29nbGUucHJvdG9idWYuRHVyYXRpb25CBOJBAQESEgoEZXRhZxgTIAEoCUIE4kEBATov6kEsCgtzaW5ldy9Xb3JsZBIOd29ybGRzL3t3b3JsZH0qBndvcmxkczIFd29ybGRCDwoNX2dyYXZpdHlfbXBzMkILCglfZnJpY3Rpb25CDQoLX2NvbGxpc2lvbnMinwEKEkNyZWF0ZVdvcmxkUmVxdWVzdBIWCgh3b3JsZF9pZBgBIAEoCUIE4kEBARIkCgV3b3JsZBgCIAEoCzIPLnNpbmV3LnYxLldvcmxkQgTiQQEBEhQKBnBhdXNlZBgDIAEoCEIE4kEBARIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQEiNQoTQ3JlYXRlV29ybGRSZXNwb25zZRIeCgV3b3JsZBgBIAEoCzIPLnNpbmV3LnYxLldvcmxkIjUKD0dldFdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZCIyChBHZXRXb3JsZFJlc3BvbnNlEh4KBXdvcmxkGAEgASgLMg8uc2luZXcudjEuV29ybGQiRgoRTGlzdFdvcmxkc1JlcXVlc3QSFwoJcGFnZV9zaXplGAEgASgFQgTiQQEBEhgKCnBhZ2VfdG9rZW4YAiABKAlCBOJBAQEiTgoSTGlzdFdvcmxkc1Jlc3BvbnNlEh8KBndvcmxkcxgBIAMoCzIPLnNpbmV3LnYxLldvcmxkEhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSKOAQoSVXBkYXRlV29ybGRSZXF1ZXN0EiQKBXdvcmxkGAEgASgLMg8uc2luZXcudjEuV29ybGRCBOJBAQISNQoLdXBkYXRlX21hc2sYAiABKAsyGi5nb29nbGUucHJvdG9idWYuRmllbGRNYXNrQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQEiNQoTVXBkYXRlV29ybGRSZXNwb25zZRIeCgV3b3JsZBgBIAEoCzIPLnNpbmV3LnYxLldvcmxkImYKEkRlbGV0ZVdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBISCgRldGFnGAwgASgJQgTiQQEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiFQoTRGVsZXRlV29ybGRSZXNwb25zZSI3ChFQYXVzZVdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZCI0ChJQYXVzZVdvcmxkUmVzcG9uc2USHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZCI4ChJSZXN1bWVXb3JsZFJlcXVlc3QSIgoEbmFtZRgBIAEoCUIU4kEBAvpBDQoLc2luZXcvV29ybGQiNQoTUmVzdW1lV29ybGRSZXNwb25zZRIeCgV3b3JsZBgBIAEoCzIPLnNpbmV3LnYxLldvcmxkImoKEFN0ZXBXb3JsZFJlcXVlc3QSIgoEbmFtZRgBIAEoCUIU4kEBAvpBDQoLc2luZXcvV29ybGQSGAoKdGlja19jb3VudBgCIAEoBUIE4kEBARIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBIkUKEVN0ZXBXb3JsZFJlc3BvbnNlEgwKBHRpY2sYASABKAMSDgoGdGltZV9zGAIgASgBEhIKCnN0YXRlX2hhc2gYAyABKBAiTwoUU2V0V29ybGRTcGVlZFJlcXVlc3QSIgoEbmFtZRgBIAEoCUIU4kEBAvpBDQoLc2luZXcvV29ybGQSEwoFc3BlZWQYAiABKAFCBOJBAQIiNwoVU2V0V29ybGRTcGVlZFJlc3BvbnNlEh4KBXdvcmxkGAEgASgLMg8uc2luZXcudjEuV29ybGQqgAEKDU92ZXJydW5Qb2xpY3kSHgoaT1ZFUlJVTl9QT0xJQ1lfVU5TUEVDSUZJRUQQABIXChNPVkVSUlVOX1BPTElDWV9TS0lQEAESGwoXT1ZFUlJVTl9QT0xJQ1lfQ0FUQ0hfVVAQAhIZChVPVkVSUlVOX1BPTElDWV9ESUxBVEUQAypyCgpXb3JsZFN0YXRlEhsKF1dPUkxEX1NUQVRFX1VOU1BFQ0lGSUVEEAASFwoTV09STERfU1RBVEVfUlVOTklORxABEhYKEldPUkxEX1NUQVRFX1BBVVNFRBACEhYKEldPUkxEX1NUQVRFX0ZBSUxFRBADMuEFCgxXb3JsZFNlcnZpY2USUAoLQ3JlYXRlV29ybGQSHC5zaW5ldy52MS5DcmVhdGVXb3JsZFJlcXVlc3QaHS5zaW5ldy52MS5DcmVhdGVXb3JsZFJlc3BvbnNlIgTo4BgHEkcKCEdldFdvcmxkEhkuc2luZXcudjEuR2V0V29ybGRSZXF1ZXN0Ghouc2luZXcudjEuR2V0V29ybGRSZXNwb25zZSIE6OAYARJNCgpMaXN0V29ybGRzEhsuc2luZXcudjEuTGlzdFdvcmxkc1JlcXVlc3QaHC5zaW5ldy52MS5MaXN0V29ybGRzUmVzcG9uc2UiBOjgGAYSUAoLVXBkYXRlV29ybGQSHC5zaW5ldy52MS5VcGRhdGVXb3JsZFJlcXVlc3QaHS5zaW5ldy52MS5VcGRhdGVXb3JsZFJlc3BvbnNlIgTo4BgEElAKC0RlbGV0ZVdvcmxkEhwuc2luZXcudjEuRGVsZXRlV29ybGRSZXF1ZXN0Gh0uc2luZXcudjEuRGVsZXRlV29ybGRSZXNwb25zZSIE6OAYBRJNCgpQYXVzZVdvcmxkEhsuc2luZXcudjEuUGF1c2VXb3JsZFJlcXVlc3QaHC5zaW5ldy52MS5QYXVzZVdvcmxkUmVzcG9uc2UiBOjgGAQSUAoLUmVzdW1lV29ybGQSHC5zaW5ldy52MS5SZXN1bWVXb3JsZFJlcXVlc3QaHS5zaW5ldy52MS5SZXN1bWVXb3JsZFJlc3BvbnNlIgTo4BgEEkoKCVN0ZXBXb3JsZBIaLnNpbmV3LnYxLlN0ZXBXb3JsZFJlcXVlc3QaGy5zaW5ldy52MS5TdGVwV29ybGRSZXNwb25zZSIE6OAYBBJWCg1TZXRXb3JsZFNwZWVkEh4uc2luZXcudjEuU2V0V29ybGRTcGVlZFJlcXVlc3QaHy5zaW5ldy52MS5TZXRXb3JsZFNwZWVkUmVzcG9uc2UiBOjgGARiBnByb3RvMw", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_duration, file_google_protobuf_field_mask, file_google_protobuf_timestamp, file_sinew_v1_options]);
 
 /**
  * One world.
@@ -47,9 +47,9 @@ export type World = Message<"sinew.v1.World"> & {
   /**
    * Substeps of the dynamics in one tick, 1…16. 0 or absent: 2. Fixed at creation.
    *
-   * @generated from field: int32 substeps = 4;
+   * @generated from field: int32 substep_count = 4;
    */
-  substeps: number;
+  substepCount: number;
 
   /**
    * Downward acceleration of gravity, m/s², 0…30. Absent: 9.81. Fixed at creation.
@@ -75,9 +75,9 @@ export type World = Message<"sinew.v1.World"> & {
   /**
    * Most ticks that are caught up at once with OVERRUN_POLICY_CATCH_UP, 1…100. 0 or absent: 5.
    *
-   * @generated from field: int32 catch_up_limit = 8;
+   * @generated from field: int32 catch_up_tick_count = 8;
    */
-  catchUpLimit: number;
+  catchUpTickCount: number;
 
   /**
    * World seconds per wall second, 0.01…10. 0 or absent: 1.
@@ -142,6 +142,22 @@ export type World = Message<"sinew.v1.World"> & {
    * @generated from field: optional bool collisions = 17;
    */
   collisions?: boolean | undefined;
+
+  /**
+   * The world is deleted after it was idle for so long: no call named it and no stream of it was open. 1 s…30 d. Absent
+   * or zero: never.
+   *
+   * @generated from field: google.protobuf.Duration idle_ttl = 18;
+   */
+  idleTtl?: Duration | undefined;
+
+  /**
+   * Changes whenever what was set of the world does; that its clock goes on does not count. In requests: the change is
+   * refused (ABORTED, `ETAG_MISMATCH`) unless it is that of the world. Empty: not checked.
+   *
+   * @generated from field: string etag = 19;
+   */
+  etag: string;
 };
 
 /**
@@ -177,6 +193,21 @@ export type CreateWorldRequest = Message<"sinew.v1.CreateWorldRequest"> & {
    * @generated from field: bool paused = 3;
    */
   paused: boolean;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
+
+  /**
+   * Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+   *
+   * @generated from field: bool validate_only = 14;
+   */
+  validateOnly: boolean;
 };
 
 /**
@@ -256,7 +287,7 @@ export const GetWorldResponseSchema: GenMessage<GetWorldResponse> = /*@__PURE__*
  */
 export type ListWorldsRequest = Message<"sinew.v1.ListWorldsRequest"> & {
   /**
-   * Most worlds to return, 0…1000. 0: 100.
+   * Most worlds to return. 0: 100; more than 1000 are taken as 1000.
    *
    * @generated from field: int32 page_size = 1;
    */
@@ -319,11 +350,19 @@ export type UpdateWorldRequest = Message<"sinew.v1.UpdateWorldRequest"> & {
   world?: World | undefined;
 
   /**
-   * Which of `display_name`, `overrun_policy`, `catch_up_limit`, `speed` to take. Must not be empty.
+   * Which of `display_name`, `overrun_policy`, `catch_up_tick_count`, `speed`, `idle_ttl` to take. Absent or empty:
+   * those that are not empty. `*`: all.
    *
    * @generated from field: google.protobuf.FieldMask update_mask = 2;
    */
   updateMask?: FieldMask | undefined;
+
+  /**
+   * Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+   *
+   * @generated from field: bool validate_only = 14;
+   */
+  validateOnly: boolean;
 };
 
 /**
@@ -366,6 +405,21 @@ export type DeleteWorldRequest = Message<"sinew.v1.DeleteWorldRequest"> & {
    * @generated from field: string name = 1;
    */
   name: string;
+
+  /**
+   * Deletes it only if this is its `etag`: else ABORTED (`ETAG_MISMATCH`). Empty: not checked.
+   *
+   * @generated from field: string etag = 12;
+   */
+  etag: string;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -493,6 +547,14 @@ export type StepWorldRequest = Message<"sinew.v1.StepWorldRequest"> & {
    * @generated from field: int32 tick_count = 2;
    */
   tickCount: number;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
 };
 
 /**
@@ -587,369 +649,6 @@ export const SetWorldSpeedResponseSchema: GenMessage<SetWorldSpeedResponse> = /*
   messageDesc(file_sinew_v1_world, 18);
 
 /**
- * A ball around the obstacle's origin.
- *
- * @generated from message sinew.v1.SphereShape
- */
-export type SphereShape = Message<"sinew.v1.SphereShape"> & {
-  /**
-   * Radius, m, 0.005…100.
-   *
-   * @generated from field: double radius_m = 1;
-   */
-  radiusM: number;
-};
-
-/**
- * Describes the message sinew.v1.SphereShape.
- * Use `create(SphereShapeSchema)` to create a new message.
- */
-export const SphereShapeSchema: GenMessage<SphereShape> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 19);
-
-/**
- * A cylinder with round ends along z of the obstacle's frame, around its origin.
- *
- * @generated from message sinew.v1.CapsuleShape
- */
-export type CapsuleShape = Message<"sinew.v1.CapsuleShape"> & {
-  /**
-   * Radius, m, 0.005…100.
-   *
-   * @generated from field: double radius_m = 1;
-   */
-  radiusM: number;
-
-  /**
-   * Half the length of the cylinder without its ends, m, 0…100.
-   *
-   * @generated from field: double half_length_m = 2;
-   */
-  halfLengthM: number;
-};
-
-/**
- * Describes the message sinew.v1.CapsuleShape.
- * Use `create(CapsuleShapeSchema)` to create a new message.
- */
-export const CapsuleShapeSchema: GenMessage<CapsuleShape> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 20);
-
-/**
- * A box around the obstacle's origin.
- *
- * @generated from message sinew.v1.BoxShape
- */
-export type BoxShape = Message<"sinew.v1.BoxShape"> & {
-  /**
-   * Half of its edges along the axes of the obstacle's frame, m, each 0.005…1000.
-   *
-   * @generated from field: sinew.v1.Vector3 half_m = 1;
-   */
-  halfM?: Vector3 | undefined;
-};
-
-/**
- * Describes the message sinew.v1.BoxShape.
- * Use `create(BoxShapeSchema)` to create a new message.
- */
-export const BoxShapeSchema: GenMessage<BoxShape> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 21);
-
-/**
- * Everything below z = 0 of the obstacle's frame.
- *
- * @generated from message sinew.v1.PlaneShape
- */
-export type PlaneShape = Message<"sinew.v1.PlaneShape"> & {
-};
-
-/**
- * Describes the message sinew.v1.PlaneShape.
- * Use `create(PlaneShapeSchema)` to create a new message.
- */
-export const PlaneShapeSchema: GenMessage<PlaneShape> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 22);
-
-/**
- * A thing that figures can touch.
- *
- * @generated from message sinew.v1.Obstacle
- */
-export type Obstacle = Message<"sinew.v1.Obstacle"> & {
-  /**
-   * Resource name `worlds/{world}/obstacles/{obstacle}`. Ignored in requests to add one.
-   *
-   * @generated from field: string name = 1;
-   */
-  name: string;
-
-  /**
-   * Shape. Required. A plane cannot be free.
-   *
-   * @generated from oneof sinew.v1.Obstacle.shape
-   */
-  shape: {
-    /**
-     * A ball.
-     *
-     * @generated from field: sinew.v1.SphereShape sphere = 2;
-     */
-    value: SphereShape;
-    case: "sphere";
-  } | {
-    /**
-     * A cylinder with round ends.
-     *
-     * @generated from field: sinew.v1.CapsuleShape capsule = 3;
-     */
-    value: CapsuleShape;
-    case: "capsule";
-  } | {
-    /**
-     * A box.
-     *
-     * @generated from field: sinew.v1.BoxShape box = 4;
-     */
-    value: BoxShape;
-    case: "box";
-  } | {
-    /**
-     * A half-space.
-     *
-     * @generated from field: sinew.v1.PlaneShape plane = 5;
-     */
-    value: PlaneShape;
-    case: "plane";
-  } | { case: undefined; value?: undefined };
-
-  /**
-   * How it moves.
-   *
-   * @generated from field: sinew.v1.ObstacleMobility mobility = 6;
-   */
-  mobility: ObstacleMobility;
-
-  /**
-   * Mass of a free obstacle, kg, 0.01…10000; spread evenly over its shape. Ignored for others.
-   *
-   * @generated from field: double mass_kg = 7;
-   */
-  massKg: number;
-
-  /**
-   * Coefficient of friction, 0.05…2; of two obstacles the smaller one counts. Absent: 0.6.
-   *
-   * @generated from field: optional double friction = 8;
-   */
-  friction?: number | undefined;
-
-  /**
-   * Where it is; the origin of its frame is its centre. Absent: at the world's origin.
-   *
-   * @generated from field: sinew.v1.Pose pose = 9;
-   */
-  pose?: Pose | undefined;
-
-  /**
-   * Velocity of its centre, m/s, each component within ±100. Ignored for fixed ones. Absent: at rest.
-   *
-   * @generated from field: sinew.v1.Vector3 velocity_mps = 10;
-   */
-  velocityMps?: Vector3 | undefined;
-
-  /**
-   * Angular velocity, world axes, rad/s, each component within ±100. Ignored for fixed ones. Absent: none.
-   *
-   * @generated from field: sinew.v1.Vector3 angular_velocity_radps = 11;
-   */
-  angularVelocityRadps?: Vector3 | undefined;
-};
-
-/**
- * Describes the message sinew.v1.Obstacle.
- * Use `create(ObstacleSchema)` to create a new message.
- */
-export const ObstacleSchema: GenMessage<Obstacle> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 23);
-
-/**
- * Asks to put an obstacle into a world.
- *
- * @generated from message sinew.v1.AddObstacleRequest
- */
-export type AddObstacleRequest = Message<"sinew.v1.AddObstacleRequest"> & {
-  /**
-   * World: resource name `worlds/{world}`.
-   *
-   * @generated from field: string parent = 1;
-   */
-  parent: string;
-
-  /**
-   * Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
-   *
-   * @generated from field: string obstacle_id = 2;
-   */
-  obstacleId: string;
-
-  /**
-   * The obstacle. Required.
-   *
-   * @generated from field: sinew.v1.Obstacle obstacle = 3;
-   */
-  obstacle?: Obstacle | undefined;
-};
-
-/**
- * Describes the message sinew.v1.AddObstacleRequest.
- * Use `create(AddObstacleRequestSchema)` to create a new message.
- */
-export const AddObstacleRequestSchema: GenMessage<AddObstacleRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 24);
-
-/**
- * The new obstacle.
- *
- * @generated from message sinew.v1.AddObstacleResponse
- */
-export type AddObstacleResponse = Message<"sinew.v1.AddObstacleResponse"> & {
-  /**
-   * As it was added, with defaults filled in.
-   *
-   * @generated from field: sinew.v1.Obstacle obstacle = 1;
-   */
-  obstacle?: Obstacle | undefined;
-};
-
-/**
- * Describes the message sinew.v1.AddObstacleResponse.
- * Use `create(AddObstacleResponseSchema)` to create a new message.
- */
-export const AddObstacleResponseSchema: GenMessage<AddObstacleResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 25);
-
-/**
- * Replaces an obstacle.
- *
- * @generated from message sinew.v1.UpdateObstacleRequest
- */
-export type UpdateObstacleRequest = Message<"sinew.v1.UpdateObstacleRequest"> & {
-  /**
-   * The obstacle, by `name`, with all its new values.
-   *
-   * @generated from field: sinew.v1.Obstacle obstacle = 1;
-   */
-  obstacle?: Obstacle | undefined;
-};
-
-/**
- * Describes the message sinew.v1.UpdateObstacleRequest.
- * Use `create(UpdateObstacleRequestSchema)` to create a new message.
- */
-export const UpdateObstacleRequestSchema: GenMessage<UpdateObstacleRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 26);
-
-/**
- * The changed obstacle.
- *
- * @generated from message sinew.v1.UpdateObstacleResponse
- */
-export type UpdateObstacleResponse = Message<"sinew.v1.UpdateObstacleResponse"> & {
-  /**
-   * As it is now.
-   *
-   * @generated from field: sinew.v1.Obstacle obstacle = 1;
-   */
-  obstacle?: Obstacle | undefined;
-};
-
-/**
- * Describes the message sinew.v1.UpdateObstacleResponse.
- * Use `create(UpdateObstacleResponseSchema)` to create a new message.
- */
-export const UpdateObstacleResponseSchema: GenMessage<UpdateObstacleResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 27);
-
-/**
- * Takes an obstacle out.
- *
- * @generated from message sinew.v1.RemoveObstacleRequest
- */
-export type RemoveObstacleRequest = Message<"sinew.v1.RemoveObstacleRequest"> & {
-  /**
-   * Resource name `worlds/{world}/obstacles/{obstacle}`.
-   *
-   * @generated from field: string name = 1;
-   */
-  name: string;
-};
-
-/**
- * Describes the message sinew.v1.RemoveObstacleRequest.
- * Use `create(RemoveObstacleRequestSchema)` to create a new message.
- */
-export const RemoveObstacleRequestSchema: GenMessage<RemoveObstacleRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 28);
-
-/**
- * The obstacle is gone.
- *
- * @generated from message sinew.v1.RemoveObstacleResponse
- */
-export type RemoveObstacleResponse = Message<"sinew.v1.RemoveObstacleResponse"> & {
-};
-
-/**
- * Describes the message sinew.v1.RemoveObstacleResponse.
- * Use `create(RemoveObstacleResponseSchema)` to create a new message.
- */
-export const RemoveObstacleResponseSchema: GenMessage<RemoveObstacleResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 29);
-
-/**
- * Asks for the obstacles of a world.
- *
- * @generated from message sinew.v1.ListObstaclesRequest
- */
-export type ListObstaclesRequest = Message<"sinew.v1.ListObstaclesRequest"> & {
-  /**
-   * World: resource name `worlds/{world}`.
-   *
-   * @generated from field: string parent = 1;
-   */
-  parent: string;
-};
-
-/**
- * Describes the message sinew.v1.ListObstaclesRequest.
- * Use `create(ListObstaclesRequestSchema)` to create a new message.
- */
-export const ListObstaclesRequestSchema: GenMessage<ListObstaclesRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 30);
-
-/**
- * The obstacles of a world: at most 256.
- *
- * @generated from message sinew.v1.ListObstaclesResponse
- */
-export type ListObstaclesResponse = Message<"sinew.v1.ListObstaclesResponse"> & {
-  /**
-   * In the order they were added.
-   *
-   * @generated from field: repeated sinew.v1.Obstacle obstacles = 1;
-   */
-  obstacles: Obstacle[];
-};
-
-/**
- * Describes the message sinew.v1.ListObstaclesResponse.
- * Use `create(ListObstaclesResponseSchema)` to create a new message.
- */
-export const ListObstaclesResponseSchema: GenMessage<ListObstaclesResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_world, 31);
-
-/**
  * What the clock does when a tick takes longer than its period.
  *
  * @generated from enum sinew.v1.OverrunPolicy
@@ -970,7 +669,7 @@ export enum OverrunPolicy {
   SKIP = 1,
 
   /**
-   * Computes up to `catch_up_limit` missed ticks back to back, then leaves out the rest.
+   * Computes up to `catch_up_tick_count` missed ticks back to back, then leaves out the rest.
    *
    * @generated from enum value: OVERRUN_POLICY_CATCH_UP = 2;
    */
@@ -1032,47 +731,6 @@ export const WorldStateSchema: GenEnum<WorldState> = /*@__PURE__*/
   enumDesc(file_sinew_v1_world, 1);
 
 /**
- * How an obstacle moves.
- *
- * @generated from enum sinew.v1.ObstacleMobility
- */
-export enum ObstacleMobility {
-  /**
-   * The default: OBSTACLE_MOBILITY_FIXED.
-   *
-   * @generated from enum value: OBSTACLE_MOBILITY_UNSPECIFIED = 0;
-   */
-  UNSPECIFIED = 0,
-
-  /**
-   * Not at all.
-   *
-   * @generated from enum value: OBSTACLE_MOBILITY_FIXED = 1;
-   */
-  FIXED = 1,
-
-  /**
-   * With its velocity, whatever it meets.
-   *
-   * @generated from enum value: OBSTACLE_MOBILITY_LED = 2;
-   */
-  LED = 2,
-
-  /**
-   * As a rigid body of `mass_kg`, under gravity and on the ground.
-   *
-   * @generated from enum value: OBSTACLE_MOBILITY_FREE = 3;
-   */
-  FREE = 3,
-}
-
-/**
- * Describes the enum sinew.v1.ObstacleMobility.
- */
-export const ObstacleMobilitySchema: GenEnum<ObstacleMobility> = /*@__PURE__*/
-  enumDesc(file_sinew_v1_world, 2);
-
-/**
  * Creates, lists and controls worlds. A world is one shared scene with a clock of its own: gravity, ground, figures.
  *
  * @generated from service sinew.v1.WorldService
@@ -1121,7 +779,7 @@ export const WorldService: GenService<{
     output: typeof UpdateWorldResponseSchema;
   },
   /**
-   * Ends a world: its streams end with NOT_FOUND.
+   * Ends a world: its streams end with NOT_FOUND, after the event `EVENT_TYPE_WORLD_DELETED`.
    *
    * @generated from rpc sinew.v1.WorldService.DeleteWorld
    */
@@ -1171,47 +829,6 @@ export const WorldService: GenService<{
     methodKind: "unary";
     input: typeof SetWorldSpeedRequestSchema;
     output: typeof SetWorldSpeedResponseSchema;
-  },
-  /**
-   * Puts a thing into a world that figures can touch: a seat, a wall, a ball. A world holds at most 256
-   * (RESOURCE_EXHAUSTED).
-   *
-   * @generated from rpc sinew.v1.WorldService.AddObstacle
-   */
-  addObstacle: {
-    methodKind: "unary";
-    input: typeof AddObstacleRequestSchema;
-    output: typeof AddObstacleResponseSchema;
-  },
-  /**
-   * Replaces an obstacle by another of the same name: shape, mobility, pose and velocity.
-   *
-   * @generated from rpc sinew.v1.WorldService.UpdateObstacle
-   */
-  updateObstacle: {
-    methodKind: "unary";
-    input: typeof UpdateObstacleRequestSchema;
-    output: typeof UpdateObstacleResponseSchema;
-  },
-  /**
-   * Takes an obstacle out of its world.
-   *
-   * @generated from rpc sinew.v1.WorldService.RemoveObstacle
-   */
-  removeObstacle: {
-    methodKind: "unary";
-    input: typeof RemoveObstacleRequestSchema;
-    output: typeof RemoveObstacleResponseSchema;
-  },
-  /**
-   * All obstacles of a world as they are now, in the order they were added.
-   *
-   * @generated from rpc sinew.v1.WorldService.ListObstacles
-   */
-  listObstacles: {
-    methodKind: "unary";
-    input: typeof ListObstaclesRequestSchema;
-    output: typeof ListObstaclesResponseSchema;
   },
 }> = /*@__PURE__*/
   serviceDesc(file_sinew_v1_world, 0);

@@ -1,0 +1,98 @@
+//! Streams of long work: how far it is, and in the end what came of it. The work is given up when the stream ends.
+
+use super::{refusal, stopped};
+use crate::server::access::caller::Caller;
+use crate::wire::status::Fault;
+use std::future::{Future, pending};
+use std::time::Duration;
+use tokio::sync::{mpsc, watch};
+use tokio_stream::wrappers::ReceiverStream;
+use tonic::Status;
+
+/// What a client is told, as it comes.
+pub(super) type Messages<M> = ReceiverStream<Result<M, Status>>;
+
+/// Messages that wait for a client that reads slowly.
+const QUEUE: usize = 4;
+/// How long the last message waits for a client that does not read.
+const LAST_WORD: Duration = Duration::from_secs(30);
+
+/// A stream of long work.
+pub(super) struct Stream<P, L> {
+    /// Whose it is.
+    pub caller: Caller,
+    /// How far the work is.
+    pub told: watch::Receiver<Option<f64>>,
+    /// Makes a message of that; `None` if the work itself sends such messages.
+    pub progress: Option<P>,
+    /// Makes the last message.
+    pub last: L,
+}
+
+impl<P, L> Stream<P, L> {
+    /// Does the work.
+    pub(super) fn run<M, T>(
+        self,
+        work: impl Future<Output = Result<T, Fault>> + Send + 'static,
+        stopping: watch::Receiver<bool>,
+    ) -> Messages<M>
+    where
+        M: Send + 'static,
+        T: Send + 'static,
+        P: Fn(f64) -> M + Send + 'static,
+        L: FnOnce(T) -> M + Send + 'static,
+    {
+        self.run_with(|_| work, stopping)
+    }
+
+    /// Does work that sends messages of its own.
+    pub(super) fn run_with<M, T, W>(
+        mut self,
+        work: impl FnOnce(mpsc::Sender<Result<M, Status>>) -> W,
+        mut stopping: watch::Receiver<bool>,
+    ) -> Messages<M>
+    where
+        M: Send + 'static,
+        T: Send + 'static,
+        P: Fn(f64) -> M + Send + 'static,
+        L: FnOnce(T) -> M + Send + 'static,
+        W: Future<Output = Result<T, Fault>> + Send + 'static,
+    {
+        let (out, messages) = mpsc::channel(QUEUE);
+        let work = work(out.clone());
+        tokio::spawn(async move {
+            let mut work = Box::pin(work);
+            let end = self.caller.expires_at();
+            let expired = async {
+                match end {
+                    Some(end) => tokio::time::sleep_until(end.into()).await,
+                    None => pending().await,
+                }
+            };
+            tokio::pin!(expired);
+            let done = loop {
+                tokio::select! {
+                    done = &mut work => break done,
+                    changed = self.told.changed() => {
+                        if changed.is_err() {
+                            break (&mut work).await; // it is about to end
+                        }
+                        let share = *self.told.borrow_and_update();
+                        if let (Some(message), Some(share)) = (&self.progress, share) {
+                            // Who reads slowly is told less often.
+                            let _ = out.try_send(Ok(message(share)));
+                        }
+                    }
+                    () = out.closed() => return,
+                    () = stopped(&mut stopping) => break Err(Fault::Draining),
+                    () = &mut expired => break Err(Caller::expired()),
+                }
+            };
+            drop(work);
+            let last = done.map(self.last).map_err(refusal);
+            // Who is gone, or does not read, does without.
+            let _ = out.send_timeout(last, LAST_WORD).await;
+        });
+        ReceiverStream::new(messages)
+    }
+}

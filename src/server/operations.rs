@@ -1,0 +1,429 @@
+//! Long work that goes on whether or not somebody waits for it, kept in memory with what came of it.
+
+use crate::server::progress::Progress;
+use crate::server::shares::part;
+use crate::wire::convert::names::OPERATION;
+use crate::wire::status::Fault;
+use std::collections::BTreeMap;
+use std::future::Future;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, SystemTime};
+use tokio::sync::watch;
+use tokio::task::AbortHandle;
+
+/// How far an operation is.
+#[derive(Debug)]
+pub enum State<T> {
+    /// It waits for its turn or is worked on.
+    Going,
+    /// It has ended.
+    Ended {
+        /// When.
+        at: SystemTime,
+        /// What came of it; `None`: it was given up.
+        outcome: Option<Result<Arc<T>, Fault>>,
+        /// Bytes of that.
+        bytes: u64,
+    },
+}
+
+// Derived, this would ask the result to be `Clone`, too.
+impl<T> Clone for State<T> {
+    fn clone(&self) -> Self {
+        match self {
+            Self::Going => Self::Going,
+            Self::Ended { at, outcome, bytes } => Self::Ended {
+                at: *at,
+                outcome: outcome.clone(),
+                bytes: *bytes,
+            },
+        }
+    }
+}
+
+/// One operation.
+#[derive(Debug)]
+pub struct Operation<T> {
+    /// Counts up from operation to operation.
+    pub number: u64,
+    /// Last part of its name.
+    pub id: String,
+    /// Who started it.
+    pub principal: Arc<str>,
+    /// When.
+    pub created: SystemTime,
+    /// How far its work is.
+    pub progress: Progress,
+    state: watch::Sender<State<T>>,
+    work: Mutex<Option<AbortHandle>>,
+}
+
+/// All operations.
+#[derive(Debug)]
+pub struct Operations<T> {
+    held: Mutex<Held<T>>,
+    limits: Limits,
+}
+
+/// How many operations are kept, and for how long.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// Operations (`max_operations`).
+    pub most: u64,
+    /// Share of them that one principal may have.
+    pub share: f64,
+    /// Bytes of results (`max_operation_bytes`).
+    pub bytes: u64,
+    /// How long one that has ended is kept.
+    pub ttl: Duration,
+}
+
+#[derive(Debug)]
+struct Held<T> {
+    /// By number: oldest first.
+    all: BTreeMap<u64, Arc<Operation<T>>>,
+    next: u64,
+}
+
+impl<T> Operation<T> {
+    /// How far it is.
+    pub fn state(&self) -> State<T> {
+        self.state.borrow().clone()
+    }
+
+    /// Whether it has ended.
+    pub fn has_ended(&self) -> bool {
+        matches!(*self.state.borrow(), State::Ended { .. })
+    }
+
+    /// Waits until it has.
+    pub async fn ended(&self) {
+        let ended = |state: &State<T>| matches!(state, State::Ended { .. });
+        // The sender lives in this operation.
+        let _ = self.state.subscribe().wait_for(ended).await;
+    }
+
+    fn bytes(&self) -> u64 {
+        match *self.state.borrow() {
+            State::Going => 0,
+            State::Ended { bytes, .. } => bytes,
+        }
+    }
+
+    /// Notes the end; the first one counts.
+    fn end(&self, outcome: Option<Result<T, Fault>>, bytes: u64) {
+        self.state.send_if_modified(|state| {
+            let going = matches!(state, State::Going);
+            if going {
+                *state = State::Ended {
+                    at: SystemTime::now(),
+                    outcome: outcome.map(|o| o.map(Arc::new)),
+                    bytes,
+                };
+            }
+            going
+        });
+    }
+
+    /// Gives the work up, unless it has ended.
+    pub fn cancel(&self) {
+        self.end(None, 0);
+        let work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(work) = &*work {
+            work.abort(); // what it waits for notices that nobody waits any more
+        }
+    }
+}
+
+impl<T: Send + Sync + 'static> Operations<T> {
+    /// None yet.
+    pub fn new(limits: Limits) -> Arc<Self> {
+        let held = Held {
+            all: BTreeMap::new(),
+            next: 1,
+        };
+        Arc::new(Self {
+            held: Mutex::new(held),
+            limits,
+        })
+    }
+
+    /// What is held, without what has expired.
+    fn lock(&self) -> MutexGuard<'_, Held<T>> {
+        // Entries are whole.
+        let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
+        let now = SystemTime::now();
+        held.all.retain(|_, o| match *o.state.borrow() {
+            State::Going => true,
+            State::Ended { at, .. } => now.duration_since(at).unwrap_or_default() < self.limits.ttl,
+        });
+        held
+    }
+
+    /// Starts an operation. `size` says how many bytes its result takes.
+    ///
+    /// # Errors
+    /// There are too many that go on.
+    pub fn start<W>(
+        self: &Arc<Self>,
+        principal: Arc<str>,
+        work: impl FnOnce(Progress) -> W,
+        size: fn(&T) -> u64,
+    ) -> Result<Arc<Operation<T>>, Fault>
+    where
+        W: Future<Output = Result<T, Fault>> + Send + 'static,
+    {
+        let mut held = self.lock();
+        held.make_room(&self.limits, &principal)?;
+        let number = held.next;
+        held.next += 1;
+        let operation = Arc::new(Operation {
+            number,
+            id: format!("operation-{number}"),
+            principal,
+            created: SystemTime::now(),
+            progress: Progress::default(),
+            state: watch::Sender::new(State::Going),
+            work: Mutex::default(),
+        });
+        held.all.insert(number, operation.clone());
+        drop(held);
+        let done = work(operation.progress.clone());
+        let (all, of) = (self.clone(), operation.clone());
+        let task = tokio::spawn(async move {
+            let ends = Ends(of);
+            let outcome = done.await;
+            all.finish(&ends.0, outcome, size);
+        });
+        *operation
+            .work
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner) = Some(task.abort_handle());
+        if operation.has_ended() {
+            task.abort(); // it was cancelled before the handle was there
+        }
+        Ok(operation)
+    }
+
+    fn finish(&self, operation: &Operation<T>, outcome: Result<T, Fault>, size: fn(&T) -> u64) {
+        let bytes = outcome.as_ref().map_or(0, size);
+        let outcome = if bytes > self.limits.bytes {
+            Err(Fault::Exhausted {
+                limit: "max_operation_bytes",
+                value: self.limits.bytes,
+                message: format!("a result of {bytes} bytes"),
+                retry: None,
+            })
+        } else {
+            outcome
+        };
+        let bytes = if outcome.is_ok() { bytes } else { 0 };
+        let mut held = self.lock();
+        held.free(self.limits.bytes.saturating_sub(bytes));
+        operation.end(Some(outcome), bytes);
+    }
+
+    /// An operation of a principal.
+    ///
+    /// # Errors
+    /// It has none of that name.
+    pub fn get(&self, principal: &str, id: &str) -> Result<Arc<Operation<T>>, Fault> {
+        let held = self.lock();
+        let mut mine = held.all.values().filter(|o| *o.principal == *principal);
+        let found = mine.find(|o| o.id == id).cloned();
+        found.ok_or_else(|| Fault::not_found("operation", OPERATION.name([id])))
+    }
+
+    /// Those of a principal, in the order they were started.
+    pub fn list(&self, principal: &str) -> Vec<Arc<Operation<T>>> {
+        let held = self.lock();
+        let mine = held.all.values().filter(|o| *o.principal == *principal);
+        mine.cloned().collect()
+    }
+
+    /// Forgets one that has ended.
+    ///
+    /// # Errors
+    /// There is none of that name, or it goes on.
+    pub fn delete(&self, principal: &str, id: &str) -> Result<(), Fault> {
+        let operation = self.get(principal, id)?;
+        if !operation.has_ended() {
+            return Err(Fault::Precondition {
+                reason: "OPERATION_RUNNING",
+                message: format!("operation {id:?} goes on: cancel it first"),
+                facts: vec![],
+            });
+        }
+        self.lock().all.remove(&operation.number);
+        Ok(())
+    }
+}
+
+impl<T> Held<T> {
+    /// Makes room for one more of a principal by forgetting the oldest that have ended.
+    fn make_room(&mut self, limits: &Limits, principal: &str) -> Result<(), Fault> {
+        let own = part(limits.most, limits.share);
+        for (most, whose) in [(own, Some(principal)), (limits.most, None)] {
+            let is_theirs = |o: &Operation<T>| whose.is_none_or(|p| *o.principal == *p);
+            while self.all.values().filter(|o| is_theirs(o)).count() as u64 >= most {
+                let mut theirs = self.all.iter().filter(|(_, o)| is_theirs(o));
+                let oldest = theirs.find(|(_, o)| o.has_ended()).map(|(n, _)| *n);
+                let Some(oldest) = oldest else {
+                    return Err(Fault::Exhausted {
+                        limit: "max_operations",
+                        value: limits.most,
+                        message: "one more operation; those that go on are as many as there may be"
+                            .into(),
+                        retry: Some(Duration::from_secs(1)),
+                    });
+                };
+                self.all.remove(&oldest);
+            }
+        }
+        Ok(())
+    }
+
+    /// Forgets the oldest results until those that are left take no more than so many bytes.
+    fn free(&mut self, most: u64) {
+        let mut used: u64 = self.all.values().map(|o| o.bytes()).sum();
+        while used > most {
+            let Some((n, bytes)) = self
+                .all
+                .iter()
+                .map(|(n, o)| (*n, o.bytes()))
+                .find(|(_, bytes)| *bytes > 0)
+            else {
+                return;
+            };
+            self.all.remove(&n);
+            used -= bytes;
+        }
+    }
+}
+
+/// Ends an operation whose work has panicked.
+struct Ends<T>(Arc<Operation<T>>);
+
+impl<T> Drop for Ends<T> {
+    fn drop(&mut self) {
+        // One that was cancelled has ended already.
+        let abnormal = Fault::Internal("the operation ended abnormally".into());
+        self.0.end(Some(Err(abnormal)), 0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use tokio::sync::Notify;
+
+    fn all(most: u64, bytes: u64) -> Arc<Operations<String>> {
+        Operations::new(Limits {
+            most,
+            share: 0.5,
+            bytes,
+            ttl: Duration::from_secs(60),
+        })
+    }
+
+    fn size(text: &String) -> u64 {
+        text.len() as u64
+    }
+
+    fn outcome(o: &Operation<String>) -> Option<Result<String, Fault>> {
+        match o.state() {
+            State::Going => panic!("it goes on"),
+            State::Ended { outcome, .. } => outcome.map(|o| o.map(|text| (*text).clone())),
+        }
+    }
+
+    #[tokio::test]
+    async fn an_operation_ends_with_what_came_of_it() {
+        let all = all(8, 100);
+        let text = |_: Progress| async { Ok("done".to_owned()) };
+        let o = all.start("ann".into(), text, size).unwrap();
+        o.ended().await;
+        assert_eq!(outcome(&o), Some(Ok("done".into())));
+        let refused = |_: Progress| async { Err(Fault::invalid("bvh.data", "is empty")) };
+        let o = all.start("ann".into(), refused, size).unwrap();
+        o.ended().await;
+        assert_eq!(outcome(&o).unwrap().unwrap_err().reason(), "INVALID_FIELD");
+        let broken = |_: Progress| async { panic!("on purpose") };
+        let o = all.start("ann".into(), broken, size).unwrap();
+        o.ended().await;
+        assert_eq!(outcome(&o).unwrap().unwrap_err().reason(), "INTERNAL");
+    }
+
+    #[tokio::test]
+    async fn one_that_is_cancelled_is_given_up() {
+        struct Dropped(Arc<AtomicBool>);
+        impl Drop for Dropped {
+            fn drop(&mut self) {
+                self.0.store(true, Ordering::SeqCst);
+            }
+        }
+        let all = all(8, 100);
+        let (gone, begun) = (Arc::new(AtomicBool::new(false)), Arc::new(Notify::new()));
+        let (watched, told) = (gone.clone(), begun.clone());
+        let work = |_: Progress| async move {
+            let _dropped = Dropped(watched);
+            told.notify_one();
+            std::future::pending::<Result<String, Fault>>().await
+        };
+        let o = all.start("ann".into(), work, size).unwrap();
+        begun.notified().await;
+        assert!(all.delete("ann", &o.id).is_err(), "it goes on");
+        o.cancel();
+        o.ended().await;
+        assert_eq!(outcome(&o), None);
+        while !gone.load(Ordering::SeqCst) {
+            tokio::task::yield_now().await;
+        }
+        o.cancel(); // again: nothing happens
+        all.delete("ann", &o.id).unwrap();
+        assert!(all.get("ann", &o.id).is_err());
+    }
+
+    #[tokio::test]
+    async fn nobody_sees_those_of_others_or_fills_their_room() {
+        let all = all(8, 100);
+        let text = |_: Progress| async { Ok("done".to_owned()) };
+        let bobs = all.start("bob".into(), text, size).unwrap();
+        bobs.ended().await;
+        let endless = |_: Progress| std::future::pending::<Result<String, Fault>>();
+        for _ in 0..4 {
+            all.start("ann".into(), endless, size).unwrap();
+        }
+        let refused = all.start("ann".into(), endless, size).unwrap_err();
+        assert_eq!(refused.reason(), "LIMIT_REACHED");
+        assert!(all.get("ann", &bobs.id).is_err());
+        assert!(all.delete("ann", &bobs.id).is_err());
+        assert_eq!(all.list("ann").len(), 4);
+        // Of those that have ended the oldest makes room.
+        for _ in 0..6 {
+            let o = all.start("bob".into(), text, size).unwrap();
+            o.ended().await;
+        }
+        assert_eq!(all.list("bob").len(), 4);
+        assert!(all.get("bob", &bobs.id).is_err());
+    }
+
+    #[tokio::test]
+    async fn results_are_bounded_by_their_bytes() {
+        let all = all(64, 100);
+        let text = |n: usize| move |_: Progress| async move { Ok("x".repeat(n)) };
+        let large = all.start("ann".into(), text(101), size).unwrap();
+        large.ended().await;
+        assert_eq!(
+            outcome(&large).unwrap().unwrap_err().reason(),
+            "LIMIT_REACHED"
+        );
+        for _ in 0..10 {
+            let o = all.start("ann".into(), text(40), size).unwrap();
+            o.ended().await;
+            let held: u64 = all.list("ann").iter().map(|o| o.bytes()).sum();
+            assert!(held <= 100, "{held}");
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! Requests that carry a `request_id`.
+
+use super::pb;
+
+/// A request that is done once, however often it is sent under the same name.
+pub trait Repeatable: prost::Message {
+    /// Its name; empty: it counts each time.
+    fn request_id(&self) -> &str;
+}
+
+macro_rules! repeatable {
+    ($($name:ident)*) => {
+        $(impl Repeatable for pb::$name {
+            fn request_id(&self) -> &str {
+                &self.request_id
+            }
+        })*
+        #[cfg(test)]
+        const ALL: &[&str] = &[$(stringify!($name)),*];
+    };
+}
+
+repeatable! {
+    AcceptControlRequest
+    AcquireControlRequest
+    ApplyPerturbationsRequest
+    CheckpointWorldRequest
+    ClearPerturbationsRequest
+    CreateClipRequest
+    CreateFigureRequest
+    CreateGrantRequest
+    CreateObstacleRequest
+    CreateWorldRequest
+    DeleteCheckpointRequest
+    DeleteClipRequest
+    DeleteFigureRequest
+    DeleteGrantRequest
+    DeleteObstacleRequest
+    DeleteWorldRequest
+    ForkWorldRequest
+    PlayClipRequest
+    ReleaseControlRequest
+    ResetFigureRequest
+    RestoreWorldRequest
+    StartOperationRequest
+    StepWorldRequest
+    StopClipRequest
+    TransferControlRequest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use prost::Message as _;
+
+    #[test]
+    fn every_request_with_a_name_is_repeatable() {
+        let set = prost_types::FileDescriptorSet::decode(super::super::DESCRIPTOR_SET).unwrap();
+        let all = set.file.iter().flat_map(|f| &f.message_type);
+        let named = all.filter(|m| m.field.iter().any(|f| f.name() == "request_id"));
+        let mut named: Vec<&str> = named.map(|m| m.name()).collect();
+        named.sort_unstable();
+        assert_eq!(named, ALL);
+    }
+}

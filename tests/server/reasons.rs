@@ -1,0 +1,170 @@
+//! Every error says why, whoever makes it: all calls with broken bytes, and what goes wrong before a call is there.
+
+use crate::raw::Raw;
+use crate::support::{TestServer, refusal};
+use prost_reflect::{DescriptorPool, MethodDescriptor};
+use sinew::wire::{DESCRIPTOR_SET, pb};
+use std::time::{Duration, Instant};
+use tonic::metadata::{MetadataMap, MetadataValue};
+use tonic::transport::{Channel, Endpoint};
+use tonic::{Code, Request, Status};
+
+async fn channel(server: &TestServer) -> Channel {
+    let endpoint = Endpoint::from_shared(format!("http://{}", server.address)).unwrap();
+    endpoint.connect().await.unwrap()
+}
+
+/// How a call ends that sends these messages.
+async fn ends(
+    channel: &Channel,
+    path: &str,
+    messages: Vec<Vec<u8>>,
+    headers: &[(&'static str, &'static str)],
+) -> Result<(), Status> {
+    let mut grpc = tonic::client::Grpc::new(channel.clone());
+    grpc.ready().await.unwrap();
+    let mut request = Request::new(tokio_stream::iter(messages));
+    let metadata: &mut MetadataMap = request.metadata_mut();
+    for (name, value) in headers {
+        metadata.insert(*name, MetadataValue::from_static(value));
+    }
+    let answer = grpc.streaming(request, path.parse().unwrap(), Raw).await?;
+    let mut answer = answer.into_inner();
+    while answer.message().await?.is_some() {}
+    Ok(())
+}
+
+fn methods() -> Vec<MethodDescriptor> {
+    let pool = DescriptorPool::decode(DESCRIPTOR_SET).unwrap();
+    let services: Vec<_> = pool.services().collect();
+    services.iter().flat_map(|s| s.methods()).collect()
+}
+
+fn path(method: &MethodDescriptor) -> String {
+    format!("/{}/{}", method.parent_service().full_name(), method.name())
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn broken_requests_of_every_call_are_told_why() {
+    let small = [("max_request_bytes", "65536"), ("max_clip_bytes", "65536")];
+    let server = TestServer::with(&small).await;
+    let channel = channel(&server).await;
+    let gzip = [("grpc-encoding", "gzip")];
+    let all = methods();
+    assert!(all.len() > 60);
+    for method in &all {
+        let path = path(method);
+        // Bytes that are no message, the beginning of one, and more than there may be.
+        for (bytes, code, reason) in [
+            (vec![0xff; 32], Code::InvalidArgument, "MALFORMED_MESSAGE"),
+            (
+                vec![0x0a, 0x7f, 0x61],
+                Code::InvalidArgument,
+                "MALFORMED_MESSAGE",
+            ),
+            (
+                vec![0; 200_000],
+                Code::ResourceExhausted,
+                "MESSAGE_TOO_LARGE",
+            ),
+        ] {
+            let e = ends(&channel, &path, vec![bytes], &[]).await.unwrap_err();
+            let (got, why, _) = refusal(&e);
+            assert_eq!((got, why.as_str()), (code, reason), "{path}: {e:?}");
+        }
+        // No message at all, and an encoding that nobody asked for.
+        let e = ends(&channel, &path, vec![], &[]).await.unwrap_err();
+        assert_eq!(refusal(&e).0, Code::InvalidArgument, "{path}: {e:?}");
+        let e = ends(&channel, &path, vec![vec![]], &gzip)
+            .await
+            .unwrap_err();
+        assert_eq!(refusal(&e).1, "NOT_AVAILABLE", "{path}: {e:?}");
+    }
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn errors_of_libraries_have_a_reason_too() {
+    let server = TestServer::start().await;
+    let channel = channel(&server).await;
+    for unknown in [
+        "/sinew.v1.WorldService/Nothing",
+        "/sinew.v1.NothingService/GetWorld",
+        "/sinew.v2.WorldService/GetWorld",
+    ] {
+        let e = ends(&channel, unknown, vec![vec![]], &[])
+            .await
+            .unwrap_err();
+        let (code, reason, _) = refusal(&e);
+        assert_eq!(
+            (code, reason.as_str()),
+            (Code::Unimplemented, "NOT_AVAILABLE")
+        );
+    }
+    // Health of what there is not: field 1 is the name of the service.
+    let service = vec![0x0a, 1, b'x'];
+    let e = ends(&channel, "/grpc.health.v1.Health/Check", vec![service], &[]).await;
+    assert_eq!(refusal(&e.unwrap_err()).1, "RESOURCE_NOT_FOUND");
+    // A deadline that the client gave: a wait of a minute for work that does not end.
+    let work = pb::start_operation_request::Work::SimulateClip(pb::SimulateClipRequest {
+        source: Some(pb::simulate_clip_request::Source::Clip("clips/walk".into())),
+        duration_s: 100.0,
+        rate_hz: 1000.0,
+        r#loop: true,
+        ..Default::default()
+    });
+    let request = pb::StartOperationRequest {
+        work: Some(work),
+        ..Default::default()
+    };
+    let started = server.client.operations().start_operation(request).await;
+    let name = started.unwrap().into_inner().operation.unwrap().name;
+    let wait = prost::Message::encode_to_vec(&pb::WaitOperationRequest {
+        name,
+        timeout: None,
+    });
+    let begun = Instant::now();
+    let e = ends(
+        &channel,
+        "/sinew.v1.OperationService/WaitOperation",
+        vec![wait],
+        &[("grpc-timeout", "200m")],
+    )
+    .await
+    .unwrap_err();
+    let (code, reason, _) = refusal(&e);
+    assert_eq!(
+        (code, reason.as_str()),
+        (Code::DeadlineExceeded, "DEADLINE_EXCEEDED")
+    );
+    assert!(begun.elapsed() < Duration::from_secs(20));
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn one_connection_has_so_many_requests_at_a_time_and_learns_of_it() {
+    let server = TestServer::with(&[("max_requests_per_connection", "2")]).await;
+    let world = server.paused_world("w").await;
+    let watch = || pb::WatchEventsRequest {
+        world: world.clone(),
+        ..Default::default()
+    };
+    let mut states = server.client.states();
+    let one = states.watch_events(watch()).await.unwrap();
+    let two = states.watch_events(watch()).await.unwrap();
+    let e = states.watch_events(watch()).await.unwrap_err();
+    let (code, reason, _) = refusal(&e);
+    assert_eq!(
+        (code, reason.as_str()),
+        (Code::ResourceExhausted, "LIMIT_REACHED")
+    );
+    let other = sinew::client::Client::connect(&server.address.to_string())
+        .await
+        .unwrap();
+    let get = pb::GetWorldRequest {
+        name: world.clone(),
+    };
+    other.worlds().get_world(get).await.unwrap();
+    drop((one, two));
+    server.stop().await;
+}
