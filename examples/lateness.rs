@@ -82,7 +82,12 @@ fn pass(time: Duration) {
 
 fn measure(outlets: &[Arc<Outlet>], seconds: f64) -> Measured {
     pass(Duration::from_secs(2)); // until all go
-    let ticks = || -> u64 { outlets.iter().map(|o| o.ticks.load(Ordering::Relaxed)).sum() };
+    let ticks = || -> u64 {
+        outlets
+            .iter()
+            .map(|o| o.ticks.load(Ordering::Relaxed))
+            .sum()
+    };
     let begun = (Instant::now(), processor_time(), ticks());
     pass(Duration::from_secs_f64(seconds));
     let time = begun.0.elapsed().as_secs_f64();
@@ -144,7 +149,10 @@ fn shared(worlds: Vec<World>, priority: Priority, seconds: f64) -> Measured {
         .collect();
     pass(Duration::from_millis(100));
     let (workers, obtained) = scheduler.workers();
-    println!("  {} threads, {workers} workers in each lane, {obtained}", threads());
+    println!(
+        "  {} threads, {workers} workers in each lane, {obtained}",
+        threads()
+    );
     let measured = measure(&outlets, seconds);
     drop(added);
     measured

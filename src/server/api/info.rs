@@ -2,8 +2,8 @@
 
 use super::{Api, answer, caller};
 use crate::server::access::roles::Role;
-use crate::server::tick::scheduler::Priority;
 use crate::server::engine::{BUILTIN_NAMES, CAPABILITIES};
+use crate::server::tick::scheduler::Priority;
 use crate::sim::figure::Flags;
 use crate::wire::convert::{server, timestamp};
 use crate::wire::frame::FIELD_NAMES;

@@ -1,8 +1,8 @@
 //! The rate keeper: the [`scheduler`]'s threads call [`Runner::round`] of each world when it is due.
 //!
 //! A tick is: carry out commands in order, sample desired motion, step the physics, publish the frame, account for
-//! time. The thread never waits for a client, for a lock that is held for long, or for the disk. Commands come through a
-//! bounded queue, frames leave through latest-wins cells.
+//! time. The thread never waits for a client, for a lock that is held for long, or for the disk. Commands come through
+//! a bounded queue, frames leave through latest-wins cells.
 
 pub mod budget;
 pub mod clock;

@@ -5,11 +5,11 @@
 //! rounds of theirs, and keeps them; so a world is never on two threads. A world that waits for a command is in no heap
 //! and costs nothing; the command wakes it.
 //!
-//! There are two lanes of as many workers each. Worlds whose rounds take less than a millisecond share the *short* lane,
-//! which is the more urgent one to the system. All others, and those that are stepped by hand, share the *long* lane. A
-//! round cannot be interrupted by another one of the same worker, but long ones are on other threads than short ones,
-//! and the system interrupts those. So a world that needs little is late by the short rounds of others at most, also on
-//! one processor.
+//! There are two lanes of as many workers each. Worlds whose rounds take less than a millisecond share the *short*
+//! lane, which is the more urgent one to the system. All others, and those that are stepped by hand, share the *long*
+//! lane. A round cannot be interrupted by another one of the same worker, but long ones are on other threads than short
+//! ones, and the system interrupts those. So a world that needs little is late by the short rounds of others at most,
+//! also on one processor.
 //!
 //! [`watchdog`] looks after rounds that do not end.
 
@@ -344,6 +344,14 @@ impl Shared {
         if duty == Duty::Short {
             let mut least = lock(&self.obtained);
             *least = Some(least.map_or(obtained, |l| l.max(obtained)));
+            if seat == 0 {
+                let (workers, priority) = (self.width, obtained.to_string());
+                tracing::info!(
+                    workers,
+                    priority,
+                    "workers for short ticks, and as many for long ones"
+                );
+            }
         }
         while let Some(entry) = self.next_entry(seat, epoch) {
             if std::mem::take(&mut lock(&self.seats[seat].queue).lowered) {

@@ -78,8 +78,8 @@ fn worlds_go_to_another_worker_when_theirs_is_held_up() {
     }
 }
 
-/// Four worlds whose rounds are of 10 ms fill their worker; one that needs microseconds is on time all the same, with one
-/// worker in each lane.
+/// Four worlds whose rounds are of 10 ms fill their worker; one that needs microseconds is on time all the same, with
+/// one worker in each lane.
 #[test]
 fn worlds_that_need_little_do_not_wait_for_those_that_need_much() {
     let scheduler = Scheduler::start(workers(1)).unwrap();
