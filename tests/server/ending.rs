@@ -143,7 +143,11 @@ async fn what_runs_may_end_and_what_comes_meanwhile_is_refused() {
     let steps = tokio::spawn(async move {
         let tick_count = 1000;
         worlds
-            .step_world(pb::StepWorldRequest { name, tick_count })
+            .step_world(pb::StepWorldRequest {
+                name,
+                tick_count,
+                ..Default::default()
+            })
             .await
     });
     while server.frame(&world, &["status"]).await.tick == 0 {
