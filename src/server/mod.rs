@@ -172,6 +172,10 @@ pub async fn serve(
     if let Some(traces) = traces {
         traces.close().await;
     }
+    #[cfg(feature = "otlp")]
+    if let Some(traces) = traces {
+        traces.close().await;
+    }
     tracing::info!("stopped");
     Ok(())
 }
