@@ -149,7 +149,7 @@ impl App {
             access: Access::new(&config).map_err(Fault::Internal)?,
             clips: Clips::new(&config, &bodies)?,
             bodies,
-            worlds: Registry::new(config.clone()),
+            worlds: Registry::new(config.clone())?,
             checkpoints: Checkpoints::new(&config),
             recordings: Recordings::new(config.max_recordings, config.max_recording_bytes, share),
             conversions: Pool::new(
@@ -191,6 +191,17 @@ impl App {
     pub async fn restore(self: &Arc<Self>) {
         if let Some(persistence) = &self.persistence {
             persistence.restore(self).await;
+        }
+    }
+
+    /// Why new clients should rather go elsewhere. Names of worlds are not for everyone.
+    pub fn unready(&self) -> Option<String> {
+        if self.worlds.is_draining() {
+            return Some("shutting down".into());
+        }
+        match self.worlds.stuck().len() {
+            0 => None,
+            n => Some(format!("ticks that do not end: {n}")),
         }
     }
 
