@@ -30,6 +30,20 @@ fn ball() -> pb::Obstacle {
     }
 }
 
+/// A frame of a clip.
+fn lifted(i: i64) -> Vec<pb::FigureMotion> {
+    let mut figures = arm_frame("", i).figures;
+    figures[0].root = Some(pb::Pose {
+        position_m: Some(pb::Vector3 {
+            x: 0.0,
+            y: 0.0,
+            z: 0.95,
+        }),
+        rotation: None,
+    });
+    figures
+}
+
 impl TestServer {
     async fn worlds(&self) -> Vec<String> {
         let request = pb::ListWorldsRequest::default();
@@ -338,7 +352,7 @@ async fn a_mask_says_what_an_update_takes() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn trying_out_answers_and_changes_nothing() {
-    let server = TestServer::with(&[("max_worlds", "2")]).await;
+    let server = TestServer::start().await;
     let world = server.paused_world("w").await;
     let figure = server.figure(&world, "a").await;
     let ball = server.ball(&world, "ball").await;
@@ -466,9 +480,7 @@ async fn trying_out_answers_and_changes_nothing() {
         clip_id: "lift".into(),
         source: Some(pb::create_clip_request::Source::Frames(pb::FrameSource {
             rate_hz: 60.0,
-            frames: (0..frames as i64)
-                .flat_map(|i| arm_frame("", i).figures)
-                .collect(),
+            frames: (0..frames as i64).flat_map(lifted).collect(),
         })),
         validate_only: true,
         ..Default::default()

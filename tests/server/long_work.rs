@@ -13,10 +13,24 @@ fn lift(id: &str, frames: i64) -> pb::CreateClipRequest {
         clip_id: id.into(),
         source: Some(pb::create_clip_request::Source::Frames(pb::FrameSource {
             rate_hz: 60.0,
-            frames: (0..frames).flat_map(|i| arm_frame("", i).figures).collect(),
+            frames: (0..frames).flat_map(lifted).collect(),
         })),
         ..Default::default()
     }
+}
+
+/// A frame of a clip.
+fn lifted(i: i64) -> Vec<pb::FigureMotion> {
+    let mut figures = arm_frame("", i).figures;
+    figures[0].root = Some(pb::Pose {
+        position_m: Some(pb::Vector3 {
+            x: 0.0,
+            y: 0.0,
+            z: 0.95,
+        }),
+        rotation: None,
+    });
+    figures
 }
 
 fn simulation(duration_s: f64) -> pb::SimulateClipRequest {
