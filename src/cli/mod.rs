@@ -3,6 +3,7 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)] // `terminal` writes: it survives a closed pipe
 
 pub mod args;
+pub mod bench;
 pub mod bodies;
 pub mod compare;
 pub mod completions;

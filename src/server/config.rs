@@ -422,7 +422,7 @@ impl Config {
 
 /// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
 /// read.
-const OTHER_VARIABLES: [&str; 20] = [
+const OTHER_VARIABLES: [&str; 22] = [
     "config",
     "token",
     "bin",
@@ -443,6 +443,8 @@ const OTHER_VARIABLES: [&str; 20] = [
     "soak_ticks",
     "abuse_seconds",
     "chaos_seconds",
+    "fuzz_cases",
+    "soak_seconds",
 ];
 
 /// True for a variable that is no setting. Kubernetes sets `SINEW_SERVICE_…` and `SINEW_PORT…` in every container next

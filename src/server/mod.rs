@@ -182,6 +182,10 @@ pub async fn serve(
     if let Some(traces) = traces {
         traces.close().await;
     }
+    #[cfg(feature = "otlp")]
+    if let Some(traces) = traces {
+        traces.close().await;
+    }
     tracing::info!("stopped");
     Ok(())
 }
