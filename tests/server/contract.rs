@@ -622,3 +622,39 @@ async fn a_world_that_nobody_uses_ends_and_says_so() {
     }
     server.stop().await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_etag_outlives_the_server_that_stores_its_world() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("etags");
+    let _ = std::fs::remove_dir_all(&folder); // of an earlier run
+    let settings = [("data_dir", folder.to_str().unwrap())];
+    let server = TestServer::with(&settings).await;
+    let given = pb::World {
+        display_name: "studio".into(),
+        idle_ttl: Some(prost_types::Duration {
+            seconds: 600,
+            nanos: 0,
+        }),
+        ..Default::default()
+    };
+    let world = server.world("w", true, given).await;
+    let figure = server.figure(&world, "a").await;
+    let ball = server.ball(&world, "ball").await;
+    let before = server.get_world(&world).await;
+    server.stop().await;
+
+    let server = TestServer::with(&settings).await;
+    server.app.restore().await;
+    let after = server.get_world(&world).await;
+    assert_eq!(
+        (after.idle_ttl, &after.etag),
+        (before.idle_ttl, &before.etag)
+    );
+    assert_eq!(server.look(&figure.name).await.etag, figure.etag);
+    let get = pb::GetObstacleRequest {
+        name: ball.name.clone(),
+    };
+    let found = server.client.obstacles().get_obstacle(get).await.unwrap();
+    assert_eq!(found.into_inner().obstacle.unwrap().etag, ball.etag);
+    server.stop().await;
+}
