@@ -477,7 +477,7 @@ async fn trying_out_answers_and_changes_nothing() {
     assert_eq!(none.unwrap_err().code(), Code::NotFound);
 
     let clip = |frames: usize| pb::CreateClipRequest {
-        clip_id: "lift".into(),
+        clip_id: "raised".into(),
         source: Some(pb::create_clip_request::Source::Frames(pb::FrameSource {
             rate_hz: 60.0,
             frames: (0..frames as i64).flat_map(lifted).collect(),
@@ -491,7 +491,7 @@ async fn trying_out_answers_and_changes_nothing() {
     let bad = c.motions().create_clip(clip(1)).await.unwrap_err();
     assert_eq!(bad.code(), Code::InvalidArgument);
     let get = pb::GetClipRequest {
-        name: "clips/lift".into(),
+        name: "clips/raised".into(),
     };
     assert_eq!(
         c.motions().get_clip(get).await.unwrap_err().code(),
