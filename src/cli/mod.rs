@@ -7,6 +7,7 @@ pub mod bench;
 pub mod bodies;
 pub mod compare;
 pub mod completions;
+pub mod config;
 pub mod convert;
 pub mod exit;
 pub mod grant;
