@@ -1,8 +1,8 @@
-//! Goal: what a client was told to be done outlives `kill -9`, and worlds come back as they were, but for the last group
-//! of inputs. Method: the real server with a data directory; a client creates and deletes worlds, figures and clips as
-//! fast as it is answered, and keeps a book of the answers; another one drives two figures at 60 Hz and notes the hash
-//! of each frame that it sees. Every few seconds the server is killed, started again, and held against both: it does
-//! again what it has recorded, and says which tick and hash that led to.
+//! Goal: what a client was told to be done outlives `kill -9`, and worlds come back as they were, but for the last
+//! group of inputs. Method: the real server with a data directory; a client creates and deletes worlds, figures and
+//! clips as fast as it is answered, and keeps a book of the answers; another one drives two figures at 60 Hz and notes
+//! the hash of each frame that it sees. Every few seconds the server is killed, started again, and held against both:
+//! it does again what it has recorded, and says which tick and hash that led to.
 #![cfg(all(feature = "net", unix))]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
@@ -271,7 +271,7 @@ async fn drive(client: &Client, mut n: i64) -> i64 {
         figure_ids: vec!["a".into(), "b".into()],
         ..Default::default()
     };
-    let Ok(mut driver) = client.drive(header).await else {
+    let Ok(driver) = client.drive(header).await else {
         return n;
     };
     loop {
@@ -418,9 +418,22 @@ async fn what_was_answered_outlives_kill_9() {
     let dir = Temporary(std::env::temp_dir().join(name));
     let mut book = Book::default();
     let begun = Instant::now();
-    let mut table = String::from(
-        "| kill | answers | worlds | clips | lost worlds | lost figures | lost clips | back after ms | ticks done again | loss ms |\n\
-         |---|---|---|---|---|---|---|---|---|---|\n",
+    let columns = [
+        "kill",
+        "answers",
+        "worlds",
+        "clips",
+        "lost worlds",
+        "lost figures",
+        "lost clips",
+        "back after ms",
+        "ticks done again",
+        "loss ms",
+    ];
+    let mut table = format!(
+        "| {} |\n|{}\n",
+        columns.join(" | "),
+        "---|".repeat(columns.len())
     );
     print!("{table}");
     let mut server = Server::start(&dir.0);

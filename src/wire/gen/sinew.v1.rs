@@ -4190,8 +4190,8 @@ pub mod checkpoint_service_client {
             self.inner.unary(req, path, codec).await
         }
         /// Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
-        /// event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure goes
-        /// over to the stream from what it does there. Figures that were driven by others finish their step and stand. Speed,
+        /// event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure
+        /// goes over to the stream from what it does there. Figures that others drove finish their step and stand. Speed,
         /// overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
         /// FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
         pub async fn restore_world(
@@ -4294,8 +4294,8 @@ pub mod checkpoint_service_server {
             tonic::Status,
         >;
         /// Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
-        /// event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure goes
-        /// over to the stream from what it does there. Figures that were driven by others finish their step and stand. Speed,
+        /// event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure
+        /// goes over to the stream from what it does there. Figures that others drove finish their step and stand. Speed,
         /// overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
         /// FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
         async fn restore_world(
