@@ -348,7 +348,7 @@ impl Persistence {
         let Some(record) = self.worlds().get(&*handle.id).cloned() else {
             return Ok(()); // deleted meanwhile
         };
-        if record.settings == settings {
+        if record.settings == settings || at_rest(&record.settings) == at_rest(&settings) {
             return Ok(());
         }
         let changed = WorldRecord {
@@ -615,6 +615,26 @@ fn describe(handle: &WorldHandle) -> Described {
             .map(|g| access::grant_out(&handle.id, g))
             .collect(),
     }
+}
+
+/// What is described without that which moves by itself: states have it.
+fn at_rest(settings: &[u8]) -> Option<Described> {
+    let mut described = Described::decode(settings).ok()?;
+    let fixed = i32::from(pb::ObstacleMobility::Fixed);
+    for o in described
+        .obstacles
+        .iter_mut()
+        .filter(|o| o.mobility != fixed)
+    {
+        *o = pb::Obstacle {
+            pose: None,
+            velocity_mps: None,
+            angular_velocity_rad_s: None,
+            etag: String::new(),
+            ..std::mem::take(o)
+        };
+    }
+    Some(described)
 }
 
 fn restore_clip(app: &Arc<App>, clip: &ClipRecord) -> Result<(), Fault> {

@@ -13,6 +13,7 @@ use crate::sim::world::checkpoint::{Capture, read_definitions, write_definitions
 use crate::wire::status::Fault;
 use bytes::Bytes;
 use std::collections::VecDeque;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
 use tokio::sync::Notify;
@@ -21,6 +22,8 @@ use tokio::sync::Notify;
 pub const CHECKPOINT_EVERY: Duration = Duration::from_secs(5);
 /// About what an entry takes besides its bytes.
 const ENTRY_BYTES: usize = size_of::<Logged>();
+/// Bytes of entries, at least, that are worth a checkpoint of their own.
+const LEAST_SEGMENT: u64 = 1 << 20;
 /// About what one frame of a clip takes, bytes.
 const CLIP_FRAME_BYTES: usize = 1200;
 
@@ -31,6 +34,23 @@ pub enum Logged {
     Record(Record),
     /// A tick was done: its number, and the hash of the state after it.
     Hash(u64, u64),
+}
+
+/// Bytes that the past of all worlds of a server takes together.
+#[derive(Debug)]
+pub struct Total {
+    most: u64,
+    used: AtomicU64,
+}
+
+impl Total {
+    /// At most so many, but for what each world needs at least.
+    pub fn new(most: u64) -> Self {
+        Self {
+            most,
+            used: AtomicU64::new(0),
+        }
+    }
 }
 
 /// How much is held.
@@ -178,22 +198,33 @@ struct Inside {
     ticket: Option<Ticket>,
     /// Parts that are kept longer.
     pins: Vec<Weak<Pin>>,
+    /// Bytes of it that are counted in the total.
+    counted: u64,
 }
 
 /// The last minutes of one world.
 #[derive(Debug)]
 pub struct Journal {
     room: Room,
+    total: Arc<Total>,
     inside: Mutex<Inside>,
     /// Tells that a checkpoint was handed to the recorder.
     written: Notify,
 }
 
+impl Drop for Journal {
+    fn drop(&mut self) {
+        let counted = self.inside().counted;
+        self.total.used.fetch_sub(counted, Ordering::Relaxed);
+    }
+}
+
 impl Journal {
     /// Nothing yet.
-    pub fn new(room: Room) -> Self {
+    pub fn new(room: Room, total: Arc<Total>) -> Self {
         Self {
             room,
+            total,
             inside: Mutex::new(Inside {
                 sealed: VecDeque::new(),
                 current: None,
@@ -201,6 +232,7 @@ impl Journal {
                 holds: false,
                 ticket: None,
                 pins: Vec::new(),
+                counted: 0,
             }),
             written: Notify::new(),
         }
@@ -242,7 +274,8 @@ impl Journal {
         match &inside.current {
             None => true,
             Some(current) => {
-                let full = self.room.any() && current.bytes as u64 > self.room.bytes / 4;
+                let entries = current.bytes.saturating_sub(current.start.size()) as u64;
+                let full = self.room.any() && entries > (self.room.bytes / 4).max(LEAST_SEGMENT);
                 (now - current.begun >= CHECKPOINT_EVERY || full) && !current.entries.is_empty()
             }
         }
@@ -257,7 +290,7 @@ impl Journal {
             inside.pin(&before, None);
             inside.sealed.push_back(before);
         }
-        inside.cut(&self.room, now);
+        inside.cut(&self.room, now, &self.total);
     }
 
     /// The world goes on from `capture`, and not from what it was. With `goes_back` what is held up to there is its
@@ -284,6 +317,7 @@ impl Journal {
         }
         inside.current = Some(Segment::new(Arc::new(capture), now));
         inside.holds = inside.recorder.is_some();
+        inside.cut(&self.room, now, &self.total);
     }
 
     // ── the disk ──
@@ -454,7 +488,7 @@ impl Inside {
         }
     }
 
-    fn cut(&mut self, room: &Room, now: Instant) {
+    fn cut(&mut self, room: &Room, now: Instant, total: &Total) {
         let mut bytes: u64 = self.sealed.iter().map(|s| s.bytes as u64).sum();
         let room = if room.any() {
             *room
@@ -464,11 +498,20 @@ impl Inside {
                 age: Duration::ZERO,
             }
         };
+        let current = self.current.as_ref().map_or(0, |c| c.bytes as u64);
+        let before = std::mem::replace(&mut self.counted, bytes + current);
+        total.used.fetch_add(self.counted, Ordering::Relaxed);
+        total.used.fetch_sub(before, Ordering::Relaxed);
         // A segment is as old as its end.
         while let Some(first) = self.sealed.front()
-            && (bytes > room.bytes || now - first.begun > room.age + CHECKPOINT_EVERY)
+            && (bytes > room.bytes
+                || now - first.begun > room.age + CHECKPOINT_EVERY
+                || total.used.load(Ordering::Relaxed) > total.most)
         {
-            bytes -= first.bytes as u64;
+            let less = first.bytes as u64;
+            bytes -= less;
+            self.counted -= less;
+            total.used.fetch_sub(less, Ordering::Relaxed);
             self.sealed.pop_front();
         }
     }

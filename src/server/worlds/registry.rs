@@ -10,7 +10,7 @@ use crate::server::tick::Outlet;
 use crate::server::tick::budget::Budget;
 use crate::server::tick::command::{Command, Origin, Queue, Refusal};
 use crate::server::tick::history::History;
-use crate::server::tick::journal::{Journal, Room};
+use crate::server::tick::journal::{Journal, Room, Total};
 use crate::server::tick::planners::Planners;
 use crate::server::tick::scene::Scene;
 use crate::server::tick::scheduler::{Added, Plan, Priority, Scheduler, Ticket};
@@ -394,6 +394,8 @@ pub struct Registry {
     /// Worlds end because the server does.
     ending: Arc<AtomicBool>,
     config: Arc<Config>,
+    /// What the past of all worlds takes.
+    past: Arc<Total>,
     planners: Arc<Planners>,
     scheduler: Scheduler,
     /// What the ticks of all worlds may cost.
@@ -415,6 +417,7 @@ impl Registry {
         });
         let scheduler = scheduler
             .map_err(|e| Fault::Internal(format!("no threads for the ticks of worlds: {e}")))?;
+        let past = Arc::new(Total::new(config.max_memory_bytes));
         Ok(Self {
             budget,
             scheduler,
@@ -423,6 +426,7 @@ impl Registry {
             draining: AtomicBool::new(false),
             ending: Arc::default(),
             config,
+            past,
             planners: Arc::new(Planners::start()),
         })
     }
@@ -554,7 +558,8 @@ impl Registry {
             age: Duration::from_secs_f64(self.config.memory_s),
         };
         let stored = !self.config.data_dir.is_empty();
-        let journal = (room.any() || stored).then(|| Arc::new(Journal::new(room)));
+        let journal =
+            (room.any() || stored).then(|| Arc::new(Journal::new(room, Arc::clone(&self.past))));
         if let Some(journal) = &journal {
             shard.keep_past(Arc::clone(journal));
         }

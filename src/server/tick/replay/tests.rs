@@ -6,7 +6,7 @@
 use super::*;
 use crate::server::engine::{self, Clip, FigureKey, ObstacleKey};
 use crate::server::ingest::jitter_buffer::Frame;
-use crate::server::tick::journal::{Journal, Room, Segment, from_disk};
+use crate::server::tick::journal::{Journal, Room, Segment, Total, from_disk};
 use crate::server::tick::scene::{Done, Input, PlayerKey};
 use crate::sim::body::Body;
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
@@ -235,10 +235,11 @@ impl Script {
 
     /// Runs it, with a journal. `aside`: plans come when threads have them.
     fn run(mut self, aside: bool) -> (Journal, Vec<u64>) {
-        let journal = Journal::new(Room {
+        let room = Room {
             bytes: 1 << 30,
             age: Duration::from_secs(3600),
-        });
+        };
+        let journal = Journal::new(room, Arc::new(Total::new(1 << 30)));
         let now = Instant::now();
         journal.begin(self.scene.capture(), now);
         let mut hashes = vec![self.scene.world().state_hash()];
