@@ -6,7 +6,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const root = join(here, "../../..");
+export const root = join(here, "../../..");
 export const program = process.env.SINEW_BIN ?? join(root, "target/debug/sinew");
 /** Where screenshots are kept, to be looked at. */
 export const SHOTS = join(here, "../shots");
