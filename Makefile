@@ -10,8 +10,8 @@ RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml cli
 oracle load python viewer proto generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test recordings ci setup lint proto physics rust survey release oracle python viewer load abuse soak \
-	generate fmt
+.PHONY: help run test recordings ci setup lint proto physics rust traces survey release oracle python viewer load \
+	deploy abuse soak fuzz generate fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -19,7 +19,7 @@ help: ## what there is
 run: ## the demo server
 	cd $(ROOT) && $(CARGO) run --release
 
-PARTS := setup lint proto physics rust survey release load oracle python viewer
+PARTS := setup lint proto physics rust traces survey release load deploy oracle python viewer
 
 test: $(PARTS) ## every test that needs nothing from outside the repository; installs what they need
 	@echo "make test: passed: $(PARTS)."
@@ -53,6 +53,10 @@ physics: ## the physics compiles without a network crate in sight
 rust: ## Rust tests
 	cd $(ROOT) && $(CARGO) test --locked --no-fail-fast
 
+traces: export CARGO_PROFILE_DEV_OPT_LEVEL := 0 # no physics in it that takes time: compiling does
+traces: ## the feature otlp, which is off by default, with a collector in the test
+	cd $(ROOT) && $(CARGO) test --locked --features otlp --test otlp
+
 survey: ## every measure of every clip of tests/corpus against the stored one
 	$(ROOT)/tests/survey.sh $(ROOT)/tests/corpus
 
@@ -62,12 +66,19 @@ release: ## whole figures in the profile that is shipped, which rounds and inlin
 load: setup ## ghz against a live server
 	$(ROOT)/tests/load/run.sh
 
+deploy: ## rules, dashboard, unit and image by the tools that read them
+	$(ROOT)/tests/deploy/check.sh
+
 abuse: ## attacks on the server, each for half a minute; `make rust` runs them for three seconds
 	$(ROOT)/tests/abuse/run.sh
 
-soak: ## a million figure-ticks of everything that can be asked for; about twenty minutes
+soak: ## a million figure-ticks of everything that can be asked for, about twenty minutes; then a server, half an hour
 	cd $(ROOT) && SINEW_SOAK_TICKS=1000000 \
 		$(CARGO) test --release --locked --no-default-features --test soak -- --nocapture
+	$(ROOT)/tests/soak.sh
+
+fuzz: ## a million cases of everything that reads bytes from outside; some hours
+	cd $(ROOT) && SINEW_FUZZ_CASES=1000000 $(CARGO) test --locked --test fuzz -- --nocapture
 
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
 	cd $(ROOT) && $(CARGO) build --locked --bins --examples

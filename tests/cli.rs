@@ -427,11 +427,96 @@ fn the_first_line_of_serve_is_an_address_that_answers() {
 #[test]
 fn health_says_whether_a_server_serves() {
     let server = Server::start(&["--no-demo"]);
-    assert_eq!(succeed(&["health", &server.address]), "serving\n");
+    for asked in [
+        &[][..],
+        &["--live"],
+        &["--service", "sinew.v1.WorldService"],
+    ] {
+        let args = [&["health", &server.address], asked].concat();
+        assert_eq!(succeed(&args), "serving\n", "{asked:?}");
+    }
+    let out = sinew(&["health", &server.address, "--service", "sinew.v1.NoService"]);
+    assert_eq!(out.status.code(), Some(1), "{}", stderr(&out));
     let address = server.address.clone();
     drop(server);
     let out = sinew(&["health", &address]);
     assert_eq!(out.status.code(), Some(1), "{}", stderr(&out));
+}
+
+#[test]
+fn settings_are_checked_and_shown_with_where_they_come_from() {
+    let scratch = Scratch::new("config");
+    let file = scratch.file("sinew.toml", "max_clips = 7\n");
+    let with = |args: &[&str], variables: &[(&str, &str)]| {
+        let mut command = command(args);
+        command.envs(variables.iter().copied());
+        command.output().expect("the binary runs")
+    };
+    let set = ["--set", "listen=127.0.0.1:0"];
+    let args = [
+        &["config", "show", "--config", &file, "--log", "warn"],
+        &set[..],
+    ]
+    .concat();
+    let out = with(&args, &[("SINEW_MAX_WORLDS", "4"), ("SINEW_TOKEN", "hush")]);
+    let shown = stdout(&out);
+    let line = |name: &str| {
+        let line = shown.lines().find(|l| l.starts_with(&format!("{name} = ")));
+        line.unwrap_or_else(|| panic!("{name} is not in {shown}"))
+    };
+    for (name, value, source) in [
+        ("max_worlds", "4", "SINEW_MAX_WORLDS"),
+        ("max_clips", "7", &file),
+        ("log", "warn", "flag"),
+        ("tick_workers", "0", "default"),
+    ] {
+        let line = line(name);
+        assert!(line.starts_with(&format!("{name} = {value} ")), "{line}");
+        assert!(line.ends_with(&format!("# {source}")), "{line}");
+    }
+    assert!(!shown.contains("hush"));
+
+    let check = [&["config", "check"], &set[..]].concat();
+    assert!(with(&check, &[]).status.success());
+    let misspelt = with(&check, &[("SINEW_MAX_WORDLS", "4")]);
+    assert_eq!(misspelt.status.code(), Some(USAGE));
+    let said = stderr(&misspelt);
+    assert!(said.contains("did you mean SINEW_MAX_WORLDS?"), "{said}");
+    // Everything that is wrong is named at once.
+    let no_key = scratch.file("empty.json", "{\"keys\": []}");
+    let secret = scratch.file("secret", "password1");
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
+    let listen = format!("listen={}", taken.local_addr().expect("an address"));
+    let cert = format!("tls_cert={}", scratch.path("none.pem"));
+    let key = format!("tls_key={}", scratch.path("none.key"));
+    let (keys, secret) = (
+        format!("jwt_keys={no_key}"),
+        format!("jwt_secret_file={secret}"),
+    );
+    let data_dir = format!("data_dir={no_key}/worlds");
+    let mut args = vec!["config", "check"];
+    for setting in [&listen, &cert, &key, &keys, &secret, &data_dir] {
+        args.extend(["--set", setting]);
+    }
+    let out = with(&args, &[]);
+    assert_eq!(out.status.code(), Some(1));
+    let said = stderr(&out);
+    for name in [
+        "listen",
+        "tls_cert",
+        "jwt_keys",
+        "jwt_secret_file",
+        "data_dir",
+    ] {
+        assert!(
+            said.lines().any(|l| l.starts_with(&format!("{name}: "))),
+            "{name}: {said}"
+        );
+    }
+    assert!(
+        said.contains("5 problems") && !said.contains("password1"),
+        "{said}"
+    );
 }
 
 #[test]

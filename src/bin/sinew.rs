@@ -20,8 +20,12 @@ enum Command {
     Push(cli::push::Args),
     /// Print the frames of a world
     Watch(cli::watch::Args),
-    /// Ask a server whether it serves
+    /// Ask a server whether it takes new clients, or whether it lives
     Health(cli::health::Args),
+    /// Check or show the settings of a server
+    Config(cli::config::ConfigArgs),
+    /// Load a server by a schedule and report how late ticks and frames are
+    Bench(cli::bench::Args),
     /// Make a bearer token, or the secret that signs tokens
     Token(cli::token::TokenArgs),
     /// Grant roles in a world, take them back, or list them
@@ -56,6 +60,8 @@ fn main() -> ExitCode {
         Some(Command::Push(args)) => cli::push::run(&args).map(Into::into),
         Some(Command::Watch(args)) => cli::watch::run(&args).map(Into::into),
         Some(Command::Health(args)) => cli::health::run(&args).map(Into::into),
+        Some(Command::Config(args)) => cli::config::run(&args).map(Into::into),
+        Some(Command::Bench(args)) => cli::bench::run(&args).map(Into::into),
         Some(Command::Token(args)) => cli::token::run(&args).map(Into::into),
         Some(Command::Grant(args)) => cli::grant::run(&args).map(Into::into),
         Some(Command::Run(args)) => cli::run::run(&args),

@@ -1,8 +1,9 @@
-//! `sinew health`: asks a server whether it serves.
+//! `sinew health`: asks a server whether it lives, and whether it takes new clients.
 
 use super::args::CredentialArgs;
 use super::explain;
 use super::terminal::print_line;
+use crate::server::health::{LIVENESS, READINESS};
 use std::time::Duration;
 
 /// How long the answer may take.
@@ -14,6 +15,12 @@ pub struct Args {
     /// Server, host:port
     #[arg(default_value = "127.0.0.1:7463")]
     address: String,
+    /// Ask only whether the process answers, as `/livez`; without it, whether new clients are welcome, as `/readyz`
+    #[arg(long, conflicts_with = "service")]
+    live: bool,
+    /// Ask for one service, for example `sinew.v1.WorldService`
+    #[arg(long, value_name = "NAME")]
+    service: Option<String>,
     #[command(flatten)]
     credentials: CredentialArgs,
 }
@@ -21,7 +28,7 @@ pub struct Args {
 /// Succeeds if the server serves.
 ///
 /// # Errors
-/// No server, one that is shutting down, or no answer within 3 s.
+/// No server, one that takes no new clients (unless `--live`), an unknown service, or no answer within 3 s.
 pub fn run(args: &Args) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
@@ -29,7 +36,12 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
     runtime.block_on(async {
         let asked = async {
             let client = args.credentials.connect(&args.address).await?;
-            client.serves().await.map_err(|e| explain(&e))
+            let service = match &args.service {
+                Some(service) => service,
+                None if args.live => LIVENESS,
+                None => READINESS,
+            };
+            client.is_healthy(service).await.map_err(|e| explain(&e))
         };
         let serves = tokio::time::timeout(PATIENCE, asked).await;
         match serves.unwrap_or_else(|_| Err(anyhow::anyhow!("no answer within {PATIENCE:?}")))? {

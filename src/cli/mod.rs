@@ -3,9 +3,11 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)] // `terminal` writes: it survives a closed pipe
 
 pub mod args;
+pub mod bench;
 pub mod bodies;
 pub mod compare;
 pub mod completions;
+pub mod config;
 pub mod convert;
 pub mod exit;
 pub mod grant;

@@ -3,7 +3,7 @@
 use super::exit::{Usage, usage};
 use super::terminal::{OutputClosed, note, print, stderr_shows_colour};
 use crate::server::api::App;
-use crate::server::config::Config;
+use crate::server::config::{Config, Sources};
 use crate::server::{self, telemetry};
 use anyhow::Context as _;
 use std::net::SocketAddr;
@@ -50,8 +50,18 @@ fn pair(text: &str) -> Result<(String, String), String> {
         .ok_or_else(|| "expected NAME=VALUE".to_owned())
 }
 
+/// Variables of the environment. What is no UTF-8 in them is replaced: no setting has it.
+fn variables() -> impl Iterator<Item = (String, String)> {
+    let text = |s: std::ffi::OsString| s.to_string_lossy().into_owned();
+    std::env::vars_os().map(move |(name, value)| (text(name), text(value)))
+}
+
 impl Args {
-    fn settings(&self) -> anyhow::Result<Config> {
+    /// Settings from all sources, and where each comes from.
+    ///
+    /// # Errors
+    /// One is not usable.
+    pub(super) fn settings(&self) -> anyhow::Result<(Config, Sources)> {
         let mut flags = self.set.clone();
         let mut flag = |name: &str, value: String| flags.push((name.to_owned(), value));
         if let Some(listen) = self.listen {
@@ -72,9 +82,9 @@ impl Args {
         if let Some(log) = &self.log {
             flag("log", log.clone());
         }
-        Ok(Config::load(
+        Ok(Config::load_with_sources(
             self.config.as_deref(),
-            std::env::vars(),
+            variables(),
             &flags,
         )?)
     }
@@ -86,7 +96,7 @@ impl Args {
 /// # Errors
 /// Settings that are not usable, or a port that is taken.
 pub fn run(args: &Args) -> anyhow::Result<()> {
-    let config = args.settings().map_err(usage)?;
+    let (config, _) = args.settings().map_err(usage)?;
     let filter = telemetry::log_filter(&config).map_err(Usage)?;
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
@@ -134,7 +144,7 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
     if let Some(log) = log {
         log();
     }
-    for (name, _, value) in config.table() {
+    for (name, _, value) in config.shown() {
         tracing::info!("setting {name} = {value}");
     }
     if !figures.is_empty() {

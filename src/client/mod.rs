@@ -161,9 +161,18 @@ impl Client {
     /// # Errors
     /// The server does not answer.
     pub async fn serves(&self) -> Result<bool, Status> {
+        self.is_healthy("").await
+    }
+
+    /// Whether a service serves, by its full name; `liveness` and `readiness` are others.
+    ///
+    /// # Errors
+    /// The server does not answer, or knows no such service.
+    pub async fn is_healthy(&self, service: &str) -> Result<bool, Status> {
         use tonic_health::pb::health_check_response::ServingStatus;
         let mut health = tonic_health::pb::health_client::HealthClient::new(self.channel.clone());
-        let request = tonic_health::pb::HealthCheckRequest::default();
+        let service = service.to_owned();
+        let request = tonic_health::pb::HealthCheckRequest { service };
         let answer = health.check(request).await?.into_inner();
         Ok(answer.status() == ServingStatus::Serving)
     }

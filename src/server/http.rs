@@ -42,7 +42,8 @@ pub(super) fn router(app: Arc<App>) -> Router {
     let pages = Router::new()
         .route("/status", get(status_page))
         .route("/metrics", get(metrics_page))
-        .route("/ready", get(ready));
+        .route("/livez", get(live))
+        .route("/readyz", get(ready));
     let pages = if app.config.viewer {
         pages.merge(viewer::router())
     } else {
@@ -73,12 +74,16 @@ pub(super) async fn unknown(uri: Uri, headers: HeaderMap) -> Response {
     }
 }
 
+/// The process answers.
+async fn live() -> Response {
+    "live\n".into_response()
+}
+
 /// Whether new clients are welcome.
 async fn ready(State(app): State<Arc<App>>) -> Response {
-    if app.worlds.is_draining() {
-        (StatusCode::SERVICE_UNAVAILABLE, "shutting down\n").into_response()
-    } else {
-        "ready\n".into_response()
+    match app.unready() {
+        Some(why) => (StatusCode::SERVICE_UNAVAILABLE, format!("{why}\n")).into_response(),
+        None => "ready\n".into_response(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Everything that touches the network or the clock.
 //!
-//! [`run`] serves one port: gRPC, gRPC-Web, reflection, health, the viewer, a status page and metrics. Each world has a
-//! thread of its own that runs [`tick::run`]; services send it commands and read what it publishes.
+//! [`run`] serves one port: gRPC, gRPC-Web, reflection, health, the viewer, a status page and metrics. A few threads
+//! run the ticks of all worlds ([`tick::scheduler`]); services send worlds commands and read what they publish.
 
 pub mod access;
 pub mod api;
@@ -24,6 +24,9 @@ pub mod tick;
 pub mod workers;
 pub mod worlds;
 
+pub mod health;
+
+mod drain;
 mod edge;
 mod http;
 mod viewer;
@@ -32,6 +35,9 @@ use crate::wire::DESCRIPTOR_SET;
 use api::App;
 use axum::middleware::{from_fn, from_fn_with_state};
 use config::Config;
+use drain::Drain;
+use edge::connections::{AGE_SPREAD, Connection};
+use futures_util::{Stream, StreamExt as _};
 use std::future::Future;
 use std::sync::Arc;
 use std::time::Duration;
@@ -56,9 +62,11 @@ const RESET_STREAMS: usize = 32;
 /// Streams of one connection that the server resets because the other side broke the protocol on them; one more ends
 /// the connection ("made you reset"). tonic's own default is no limit.
 const BROKEN_STREAMS: usize = 64;
+/// Different ages at which connections are asked to close.
+const AGES: usize = 8;
 
-/// Serves until `shutdown` completes, then says so for the lame-duck time, tells streams, finishes the ticks and
-/// returns within the grace time.
+/// Serves until `shutdown` completes, then says so for the lame-duck time, ends streams, lets calls and ticks come to
+/// their end, writes down the states of worlds and closes connections.
 ///
 /// # Errors
 /// The built-in data cannot be prepared, or the listener fails.
@@ -87,12 +95,8 @@ pub async fn serve(
     let config = app.config.clone();
     #[cfg(feature = "otlp")]
     let traces = telemetry::traces::start(&config)?;
-    let (health, health_service) = tonic_health::server::health_reporter();
-    for name in api::SERVICE_NAMES {
-        health
-            .set_service_status(name, tonic_health::ServingStatus::Serving)
-            .await;
-    }
+    let (reporter, health_service) = tonic_health::server::health_reporter();
+    let health = health::Health::new(reporter).await;
     let described = || {
         tonic_reflection::server::Builder::configure()
             .register_encoded_file_descriptor_set(DESCRIPTOR_SET)
@@ -123,7 +127,7 @@ pub async fn serve(
         .layer(from_fn_with_state(edge.clone(), edge::admit));
 
     let seconds = Duration::from_secs_f64;
-    let mut server = Server::builder()
+    let server = Server::builder()
         .accept_http1(true) // status page, metrics, gRPC-Web from browsers
         .max_concurrent_streams(Some(config.max_streams_per_connection as u32))
         .initial_stream_window_size(STREAM_WINDOW)
@@ -136,47 +140,33 @@ pub async fn serve(
         .http2_keepalive_timeout(Some(seconds(config.keepalive_timeout_s)))
         .tcp_nodelay(true);
 
-    let mut stopping = stop.subscribe();
-    let drain = {
-        let app = app.clone();
-        async move {
-            shutdown.await;
-            tracing::info!("shutting down");
-            for name in api::SERVICE_NAMES {
-                health
-                    .set_service_status(name, tonic_health::ServingStatus::NotServing)
-                    .await;
-            }
-            // Whoever looks after this server sees that it ends before it does.
-            app.worlds.refuse_new();
-            tokio::time::sleep(seconds(app.config.lame_duck_s)).await;
-            stop.send_replace(true); // streams end with UNAVAILABLE
-            app.conversions.close();
-            app.simulations.close();
-            if let Some(persistence) = &app.persistence {
-                persistence.checkpoint_all(&app).await;
-            }
-            app.worlds.drain().await; // ticks end whole
-            if let Some(persistence) = &app.persistence {
-                persistence.close().await;
-            }
-        }
+    let drain = Drain {
+        app: app.clone(),
+        edge: edge.clone(),
+        health: health.clone(),
+        stop,
     };
     let tls = app.access.tls.as_ref().map(|tls| tls.acceptor.clone());
     let incoming = edge::connections::incoming(listener, edge.doors.clone(), tls);
-    let serving = server
-        .add_routes(Routes::from(router))
-        .serve_with_incoming_shutdown(incoming, drain);
+    let (close, closing) = watch::channel(false);
+    let serving = serve_ages(
+        server,
+        Routes::from(router),
+        incoming,
+        closing,
+        config.max_connection_age_s,
+    );
     tokio::pin!(serving);
     tokio::select! {
         ended = &mut serving => ended?,
         () = async {
-            // The sender lives in the future above; it only goes when that one ends.
-            let _ = stopping.wait_for(|s| *s).await;
+            drain.run(shutdown).await;
+            close.send_replace(true);
             tokio::time::sleep(seconds(config.shutdown_grace_s)).await;
         } => tracing::warn!("connections were still open after the grace time"),
         () = app.access.keep_fresh() => {} // never ends
-        () = app.end_idle_worlds() => {}   // nor does this
+        () = health.follow(&app) => {} // likewise
+        () = app.end_idle_worlds() => {}
     }
     #[cfg(feature = "otlp")]
     if let Some(traces) = traces {
@@ -184,4 +174,36 @@ pub async fn serve(
     }
     tracing::info!("stopped");
     Ok(())
+}
+
+/// Serves connections. Those that may not grow older than `age_s` are asked to close at ages around it: each of the
+/// transport's servers asks at one age, and they take turns to accept.
+async fn serve_ages(
+    server: Server,
+    routes: Routes,
+    incoming: impl Stream<Item = std::io::Result<Connection>> + Send + 'static,
+    closing: watch::Receiver<bool>,
+    age_s: f64,
+) -> Result<(), tonic::transport::Error> {
+    let count = if age_s > 0.0 { AGES } else { 1 };
+    let incoming = Arc::new(tokio::sync::Mutex::new(Box::pin(incoming)));
+    let all = (0..count).map(|n| {
+        let mut server = server.clone();
+        if age_s > 0.0 {
+            let spread = (n as f64 + 0.5) / count as f64 * 2.0 - 1.0;
+            let age = age_s * (1.0 + AGE_SPREAD * spread);
+            server = server.max_connection_age(Duration::from_secs_f64(age));
+        }
+        let incoming = futures_util::stream::unfold(incoming.clone(), |incoming| async {
+            let next = incoming.lock().await.next().await; // those who wait for it are in a queue
+            Some((next?, incoming))
+        });
+        let mut closing = closing.clone();
+        let close = async move {
+            let _ = closing.wait_for(|c| *c).await; // an error says the same
+        };
+        let server = server.add_routes(routes.clone());
+        server.serve_with_incoming_shutdown(incoming, close)
+    });
+    futures_util::future::try_join_all(all).await.map(|_| ())
 }

@@ -3,6 +3,8 @@
 #![cfg(feature = "net")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
+mod load;
+mod soak;
 mod support;
 
 use sinew::client::Client;

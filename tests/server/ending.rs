@@ -13,23 +13,31 @@ use tonic_types::StatusExt;
 
 /// Health, asked over a new connection.
 async fn health(server: &TestServer) -> ServingStatus {
+    health_of(server, "").await
+}
+
+async fn health_of(server: &TestServer, service: &str) -> ServingStatus {
     let endpoint = format!("http://{}", server.address);
     let channel = tonic::transport::Endpoint::from_shared(endpoint);
     let channel = channel.unwrap().connect().await.unwrap();
     let mut client = HealthClient::new(channel);
     let request = HealthCheckRequest {
-        service: String::new(),
+        service: service.into(),
     };
     client.check(request).await.unwrap().into_inner().status()
 }
 
-/// The first line of the answer of `/ready`.
+/// The first line of the answer of `/readyz`.
 async fn ready(server: &TestServer) -> String {
+    page(server, "/readyz").await
+}
+
+async fn page(server: &TestServer, path: &str) -> String {
     let mut stream = tokio::net::TcpStream::connect(server.address)
         .await
         .unwrap();
     let request = format!(
-        "GET /ready HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
+        "GET {path} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n",
         server.address
     );
     stream.write_all(request.as_bytes()).await.unwrap();
@@ -61,6 +69,16 @@ async fn the_end_of_the_server_is_seen_before_it_comes() {
     }
     // New connections see it, and what is there goes on; but nothing new begins.
     assert_eq!(ready(&server).await, "HTTP/1.1 503 Service Unavailable");
+    assert_eq!(page(&server, "/livez").await, "HTTP/1.1 200 OK");
+    for (service, status) in [
+        ("readiness", ServingStatus::NotServing),
+        ("liveness", ServingStatus::Serving),
+    ] {
+        assert_eq!(health_of(&server, service).await, status, "{service}");
+    }
+    while health_of(&server, "sinew.v1.MotionService").await == ServingStatus::Serving {
+        tokio::task::yield_now().await;
+    }
     let client = Client::connect(&server.address.to_string()).await.unwrap();
     let name = world.clone();
     let mut worlds = client.worlds();
@@ -74,7 +92,7 @@ async fn the_end_of_the_server_is_seen_before_it_comes() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn who_waits_when_the_server_ends_is_told_to_come_again() {
-    let mut server = TestServer::start().await;
+    let mut server = TestServer::with(&[("shutdown_grace_s", "0.3")]).await;
     let world = server.paused_world("w").await;
     server.figure(&world, "a").await;
     let mut worlds = server.client.worlds();
@@ -112,6 +130,90 @@ async fn who_waits_when_the_server_ends_is_told_to_come_again() {
     is_draining(&steps.await.unwrap().unwrap_err());
     is_draining(&simulation.await.unwrap().unwrap_err());
     is_draining(&end_of(driver.unwrap()).await);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_runs_may_end_and_what_comes_meanwhile_is_refused() {
+    let mut server = TestServer::with(&[("shutdown_grace_s", "60")]).await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    let mut worlds = server.client.worlds();
+    let name = world.clone();
+    let steps = tokio::spawn(async move {
+        let tick_count = 1000;
+        worlds
+            .step_world(pb::StepWorldRequest {
+                name,
+                tick_count,
+                ..Default::default()
+            })
+            .await
+    });
+    while server.frame(&world, &["status"]).await.tick == 0 {
+        tokio::time::sleep(Duration::from_millis(1)).await;
+    }
+    server.begin_stop();
+    // The steps go on; whoever else comes is sent away, also over a new connection.
+    let client = Client::connect(&server.address.to_string()).await.unwrap();
+    let get = || {
+        let name = world.clone();
+        let mut worlds = client.worlds();
+        async move { worlds.get_world(pb::GetWorldRequest { name }).await }
+    };
+    let refused = loop {
+        if let Err(e) = get().await {
+            break e;
+        }
+    };
+    is_draining(&refused);
+    assert!(!steps.is_finished(), "more steps are needed for this test");
+    assert_eq!(health(&server).await, ServingStatus::NotServing);
+    assert_eq!(steps.await.unwrap().unwrap().into_inner().tick, 1000);
+    drop(client);
+    server.stop().await;
+}
+
+/// Connections are asked to close when they are old enough, at different ages, and closed if they do not.
+#[tokio::test(flavor = "multi_thread")]
+async fn connections_grow_only_so_old() {
+    let settings = [
+        ("max_connection_age_s", "1"),
+        ("connection_age_grace_s", "0.5"),
+    ];
+    let server = TestServer::with(&settings).await;
+    let begun = std::time::Instant::now();
+    // HTTP/1: a connection that is asked to close closes after its answer, or at once if it has none to give.
+    let idle = (0..8).map(|_| async {
+        let mut stream = tokio::net::TcpStream::connect(server.address)
+            .await
+            .unwrap();
+        let request = format!("GET /livez HTTP/1.1\r\nHost: {}\r\n\r\n", server.address);
+        stream.write_all(request.as_bytes()).await.unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).await.unwrap();
+        assert!(answer.starts_with("HTTP/1.1 200"));
+        begun.elapsed().as_secs_f64()
+    });
+    let mut ages = futures_util::future::join_all(idle).await;
+    ages.sort_by(f64::total_cmp);
+    assert!(ages[0] > 0.85 && ages[7] > ages[0] + 0.1, "{ages:?}");
+    // A stream goes on until the grace time is over, and a client that is asked to close comes again by itself.
+    let world = server.world("w", false, pb::World::default()).await;
+    let began = std::time::Instant::now();
+    let mut frames = server
+        .client
+        .watch(&world, pb::View::default(), None)
+        .await
+        .unwrap();
+    while let Ok(Some(_)) = frames.message().await {}
+    assert!(began.elapsed() < Duration::from_secs(10));
+    server
+        .client
+        .worlds()
+        .list_worlds(pb::ListWorldsRequest::default())
+        .await
+        .unwrap();
     server.stop().await;
 }
 

@@ -32,6 +32,8 @@ impl TestServer {
         // How fast this build computes on this machine decides no test but those that are about it.
         let flags: Vec<_> = [("max_tick_budget", "1000"), ("lame_duck_s", "0")]
             .iter()
+            // Nor do tests beside each other wait for each other's ticks.
+            .chain(&[("tick_priority", "plain")])
             .chain(settings)
             .map(|(a, b)| ((*a).to_owned(), (*b).to_owned()))
             .collect();

@@ -481,7 +481,7 @@ async fn info_and_stats_say_what_the_server_does() {
     assert!(
         info.limits
             .iter()
-            .any(|l| l.name == "max_worlds" && l.value == 16)
+            .any(|l| l.name == "max_worlds" && l.value == 1024)
     );
     assert!(info.builtin_clips.contains(&"clips/wave".to_owned()));
     let stats = server

@@ -46,7 +46,7 @@ enum From {
 }
 
 /// Where keys come from, and those that were there last.
-pub(super) struct KeySource {
+pub(in crate::server) struct KeySource {
     from: From,
     interval: Duration,
     keys: RwLock<Vec<Key>>,
@@ -60,7 +60,7 @@ impl KeySource {
     ///
     /// # Errors
     /// The file has no keys, or the address is none.
-    pub(super) fn new(config: &Config) -> Result<Arc<Self>, String> {
+    pub(in crate::server) fn new(config: &Config) -> Result<Arc<Self>, String> {
         let place = config.jwt_keys.as_str();
         let from = if place.contains("://") {
             let url: http::Uri = place
@@ -123,12 +123,7 @@ impl KeySource {
             })
     }
 
-    /// Fetches the keys unless that was done or tried within `least`. Those that were there stay if it fails.
-    async fn fetch(&self, least: Duration) {
-        let mut fetched = self.fetched.lock().await;
-        if fetched.is_some_and(|at| at.elapsed() < least) {
-            return;
-        }
+    async fn read(&self) -> Result<Vec<Key>, String> {
         let text = match &self.from {
             From::File(path) => read(path),
             From::Url(url, client) => {
@@ -136,8 +131,26 @@ impl KeySource {
                 got.unwrap_or_else(|_| Err(format!("no answer within {FETCH_TIME:?}")))
             }
         };
+        text.and_then(|text| parse(&text))
+    }
+
+    /// Whether the keys can be fetched now.
+    ///
+    /// # Errors
+    /// Why they cannot.
+    pub(in crate::server) async fn try_fetch(&self) -> Result<(), String> {
+        self.read().await.map(|_| ())
+    }
+
+    /// Fetches the keys unless that was done or tried within `least`. Those that were there stay if it fails.
+    async fn fetch(&self, least: Duration) {
+        let mut fetched = self.fetched.lock().await;
+        if fetched.is_some_and(|at| at.elapsed() < least) {
+            return;
+        }
+        let read = self.read().await;
         *fetched = Some(Instant::now());
-        match text.and_then(|text| parse(&text)) {
+        match read {
             Ok(keys) => {
                 *self.keys.write().unwrap_or_else(PoisonError::into_inner) = keys;
                 // Tokens that were checked with the keys before are checked again.

@@ -7,7 +7,7 @@
 
 pub mod caller;
 pub mod grants;
-mod keys;
+pub(super) mod keys;
 pub mod limits;
 pub mod roles;
 pub mod tls;

@@ -3,6 +3,7 @@
 use super::{Api, answer, caller};
 use crate::server::access::roles::Role;
 use crate::server::engine::{BUILTIN_NAMES, CAPABILITIES};
+use crate::server::tick::scheduler::Priority;
 use crate::sim::figure::Flags;
 use crate::wire::convert::{server, timestamp};
 use crate::wire::frame::FIELD_NAMES;
@@ -24,6 +25,13 @@ impl ServerService for Api {
             builtin_clips: BUILTIN_NAMES.iter().map(|n| format!("clips/{n}")).collect(),
             capabilities: names(&CAPABILITIES),
             limits: server::limits(&self.config.limits()),
+            tick_worker_count: self.worlds.workers().0 as i32,
+            tick_priority: match self.worlds.workers().1 {
+                Priority::Fifo => pb::TickPriority::Fifo,
+                Priority::Nice => pb::TickPriority::Nice,
+                Priority::Plain => pb::TickPriority::Plain,
+            }
+            .into(),
         }))
     }
 

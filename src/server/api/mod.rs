@@ -142,7 +142,7 @@ impl App {
             access: Access::new(&config).map_err(Fault::Internal)?,
             clips: Clips::new(&config, &bodies)?,
             bodies,
-            worlds: Registry::new(config.clone()),
+            worlds: Registry::new(config.clone())?,
             checkpoints: Checkpoints::new(&config),
             conversions: Pool::new(
                 "file conversion",
@@ -183,6 +183,17 @@ impl App {
     pub async fn restore(self: &Arc<Self>) {
         if let Some(persistence) = &self.persistence {
             persistence.restore(self).await;
+        }
+    }
+
+    /// Why new clients should rather go elsewhere. Names of worlds are not for everyone.
+    pub fn unready(&self) -> Option<String> {
+        if self.worlds.is_draining() {
+            return Some("shutting down".into());
+        }
+        match self.worlds.stuck().len() {
+            0 => None,
+            n => Some(format!("ticks that do not end: {n}")),
         }
     }
 

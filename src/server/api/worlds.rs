@@ -212,7 +212,7 @@ impl WorldService for Api {
                 });
             })?;
             let _in_use = handle.usage.begin();
-            let snapshot = rx.await.unwrap_or_else(|_| Err(handle.ended()))?;
+            let snapshot = handle.answer(rx).await?;
             Ok(pb::StepWorldResponse {
                 tick: snapshot.tick as i64,
                 time_s: snapshot.time,

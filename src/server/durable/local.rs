@@ -63,6 +63,18 @@ pub struct LocalStore {
 }
 
 impl LocalStore {
+    /// Whether a directory, if it holds worlds, holds those of this version. Changes nothing.
+    ///
+    /// # Errors
+    /// A later version has written it, or it is damaged.
+    pub fn check_format(dir: &Path) -> Result<(), StoreError> {
+        let format = dir.join("format");
+        match files::read(&format, DIRECTORY, FORMAT) {
+            Err(StoreError::Io(_)) if !format.exists() => Ok(()),
+            other => other.map(|_| ()),
+        }
+    }
+
     /// Opens a directory, or makes one, and locks it.
     ///
     /// # Errors
@@ -80,13 +92,10 @@ impl LocalStore {
                 .map_err(|e| unusable(format!("the directory cannot be made: {e}")))?;
         }
         let lock = lock(dir)?;
+        Self::check_format(dir)?;
         let format = dir.join("format");
-        match files::read(&format, DIRECTORY, FORMAT) {
-            Ok(_) => {}
-            Err(StoreError::Io(_)) if !format.exists() => {
-                files::write(&format, DIRECTORY, FORMAT, b"worlds and clips of sinew")?;
-            }
-            Err(error) => return Err(error),
+        if !format.exists() {
+            files::write(&format, DIRECTORY, FORMAT, b"worlds and clips of sinew")?;
         }
         let mut last_end = LastEnd::default();
         let end = dir.join("end");

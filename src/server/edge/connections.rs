@@ -28,6 +28,9 @@ use tonic::transport::server::Connected;
 const RESERVED: usize = 64;
 /// Least time between two lines of the log about connections that were closed.
 const LOG_EVERY: Duration = Duration::from_secs(10);
+/// Part of their greatest age by which connections are asked to close sooner or later, so that those that came
+/// together do not come again together.
+pub(in crate::server) const AGE_SPREAD: f64 = 0.1;
 /// Pause after a connection could not be accepted, for example for want of file handles.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(20);
 
@@ -44,6 +47,8 @@ pub(super) enum Why {
     Reset,
     /// There was no TLS to agree on.
     Tls,
+    /// It was asked to close for its age, and did not.
+    Age,
 }
 
 impl Why {
@@ -55,6 +60,7 @@ impl Why {
             Self::Unread => "unread",
             Self::Reset => "reset",
             Self::Tls => "tls",
+            Self::Age => "age",
         }
     }
 }
@@ -175,6 +181,8 @@ pub(in crate::server) struct Doors {
     most: usize,
     most_per_address: usize,
     first_request: Duration,
+    /// When a connection is closed in any case.
+    oldest: Option<Duration>,
     uses: Arc<AtomicU64>,
     open: Mutex<Table>,
     log: Mutex<Log>,
@@ -243,6 +251,10 @@ impl Doors {
                 .max_connections_per_address
                 .min(config.max_connections) as usize,
             first_request: Duration::from_secs_f64(config.first_request_s),
+            oldest: (config.max_connection_age_s > 0.0).then(|| {
+                let asked = config.max_connection_age_s * (1.0 + AGE_SPREAD);
+                Duration::from_secs_f64(asked + config.connection_age_grace_s)
+            }),
             uses: Arc::default(),
             open: Mutex::default(),
             log: Mutex::default(),
@@ -342,6 +354,8 @@ pub(in crate::server) struct Connection {
     doors: Arc<Doors>,
     /// When the first request must be there; gone once it is.
     deadline: Option<Pin<Box<Sleep>>>,
+    /// When it is closed for its age.
+    end: Option<Pin<Box<Sleep>>>,
 }
 
 /// Connections as they come.
@@ -368,6 +382,7 @@ pub(in crate::server) fn incoming(
                         peer,
                         number,
                         deadline: Some(Box::pin(tokio::time::sleep(doors.first_request))),
+                        end: doors.oldest.map(|age| Box::pin(tokio::time::sleep(age))),
                         doors: doors.clone(),
                     };
                     return Some((Ok(connection), (listener, doors, tls)));
@@ -445,6 +460,11 @@ impl Connection {
         {
             self.deadline = None;
             self.peer.close(Why::Silent);
+        }
+        let end = self.end.as_mut();
+        if end.is_some_and(|e| e.as_mut().poll(cx).is_ready()) {
+            self.end = None;
+            self.peer.close(Why::Age);
         }
         self.peer.reader.register(cx.waker());
         self.peer.is_closed()

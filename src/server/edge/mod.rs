@@ -25,16 +25,19 @@ use hosts::Hosts;
 use replies::{Reply, Unread};
 use requests::Uploads;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 use tokio::sync::Semaphore;
 use tonic::Status;
 use tonic::transport::server::TcpConnectInfo;
 
-/// Answers that are given even when all places are taken.
-const VITAL: [&str; 3] = [
+/// Answers that are given even when all places are taken, and while the server ends.
+const VITAL: [&str; 5] = [
     "/grpc.health.v1.Health/Check",
     "/grpc.health.v1.Health/Watch",
+    "/livez",
     "/metrics",
+    "/readyz",
 ];
 
 /// The state of the edge.
@@ -47,6 +50,8 @@ pub(super) struct Edge {
     unread: Arc<Unread>,
     requests: Arc<Semaphore>,
     max_requests: u64,
+    /// The server ends: what comes now is refused.
+    ending: AtomicBool,
     max_requests_of_one: u64,
     /// How long a request may take before its response begins.
     timeout: Duration,
@@ -62,9 +67,20 @@ impl Edge {
             unread: Unread::new(config.max_unread_bytes),
             requests: Arc::new(Semaphore::new(config.max_requests as usize)),
             max_requests: config.max_requests,
+            ending: AtomicBool::new(false),
             max_requests_of_one: config.max_requests_per_connection,
             timeout: Duration::from_secs_f64(config.request_timeout_s),
         })
+    }
+
+    /// Refuses requests from now on, and waits for the end of those that are worked on. False: some are left after
+    /// `patience`.
+    pub(super) async fn finish(&self, patience: Duration) -> bool {
+        self.ending.store(true, Ordering::SeqCst);
+        // Each request has one of these places.
+        let all = u32::try_from(self.max_requests).unwrap_or(u32::MAX);
+        let done = tokio::time::timeout(patience, self.requests.acquire_many(all)).await;
+        done.is_ok()
     }
 }
 
@@ -98,6 +114,9 @@ pub(super) async fn admit(
             &request,
         );
     }
+    if edge.ending.load(Ordering::SeqCst) && !vital {
+        return refused(Fault::Draining, &request);
+    }
     if peer.open_requests() > edge.max_requests_of_one && !vital {
         return refused(
             Fault::Exhausted {
@@ -109,7 +128,11 @@ pub(super) async fn admit(
             &request,
         );
     }
-    let place = edge.requests.clone().try_acquire_owned().ok();
+    let place = if vital {
+        None
+    } else {
+        edge.requests.clone().try_acquire_owned().ok()
+    };
     if place.is_none() && !vital {
         return refused(
             Fault::Exhausted {

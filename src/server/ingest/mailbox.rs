@@ -301,6 +301,13 @@ impl Mailboxes {
         self.held().insert(mailbox.driver().clone(), mailbox);
     }
 
+    /// Takes nothing any more for any driver.
+    pub fn close_all(&self, why: &Fault) {
+        for mailbox in self.held().values() {
+            mailbox.close(why.clone());
+        }
+    }
+
     /// Removes the mailbox of a driver.
     pub fn remove(&self, driver: &DriverId) {
         self.held().remove(driver);

@@ -185,6 +185,21 @@ pub const METRICS: &[Metric] = &[
         "stops and transitions that were not planned in time: the figure goes on with what it does and switches later",
     ),
     metric(
+        "sinew_slow_ticks_total",
+        Counter,
+        "ticks that took longer than `slow_tick_s`",
+    ),
+    metric(
+        "sinew_stuck_worlds",
+        Gauge,
+        "worlds whose ticks do not end: should stay 0",
+    ),
+    metric(
+        "sinew_worlds_stolen_total",
+        Counter,
+        "times that a worker ran the world of another one, which was busy",
+    ),
+    metric(
         "sinew_worlds_failed_total",
         Counter,
         "worlds whose step ended abnormally: should stay 0",
@@ -237,13 +252,13 @@ pub const METRICS: &[Metric] = &[
     metric("sinew_connections_total", Counter, "connections accepted"),
     by(
         "reason",
-        &["silent", "room", "unread", "reset", "tls"],
+        &["silent", "room", "unread", "reset", "tls", "age"],
         metric(
             "sinew_connections_closed_total",
             Counter,
             "connections that ended other than by their clients' wish: `silent` (no request in time), `room` (evicted \
              for another one), `unread` (the client did not read), `reset` (by the client), `tls` (no TLS was agreed \
-             on)",
+             on), `age` (it did not close when it was asked to)",
         ),
     ),
     by(

@@ -220,31 +220,59 @@ fn fair(needs: &[f64], capacity: f64, own: f64) -> f64 {
     1.0
 }
 
-/// Meter of one world's thread.
+/// Meter of one world. A round of it is on one thread, the next one maybe on another.
 pub struct Meter {
     account: Arc<Account>,
     budget: Arc<Budget>,
-    last: Duration,
+    /// When this round began, and up to when it is counted, of the thread that runs it.
+    begun: Duration,
+    counted: Duration,
+    /// Since the last tick.
+    spent: Duration,
     allowance: f64,
     ticks: u32,
 }
 
 impl Meter {
-    /// A meter of the thread that calls this.
+    /// A meter of a world with that account.
     pub fn new(account: Arc<Account>, budget: Arc<Budget>) -> Self {
         Self {
             account,
             budget,
-            last: processor_time(),
+            begun: Duration::ZERO,
+            counted: Duration::ZERO,
+            spent: Duration::ZERO,
             allowance: 1.0,
             ticks: 0,
         }
     }
 
+    /// A round begins on this thread.
+    pub fn begin(&mut self) {
+        self.begun = processor_time();
+        self.counted = self.begun;
+    }
+
+    /// It ends. Returns the processor time that it took.
+    pub fn end(&mut self) -> Duration {
+        self.count();
+        self.counted.saturating_sub(self.begun)
+    }
+
+    fn count(&mut self) {
+        let now = processor_time();
+        self.spent += now.saturating_sub(std::mem::replace(&mut self.counted, now));
+    }
+
+    /// Mean processor time of recent ticks.
+    pub fn mean(&self) -> Duration {
+        Duration::try_from_secs_f64(self.account.cost.get()).unwrap_or_default()
+    }
+
     /// Notes a tick that ends now and whose physics took `physics`. Returns how long the world has to rest.
     pub fn tick(&mut self, physics: Duration, figures: usize) -> Duration {
-        let now = processor_time();
-        let busy = now.saturating_sub(std::mem::replace(&mut self.last, now));
+        self.count();
+        let busy = std::mem::take(&mut self.spent);
         self.account.record(busy, physics.min(busy), figures);
         self.ticks = (self.ticks + 1) % LOOK;
         if self.ticks == 0 {
@@ -340,10 +368,23 @@ mod tests {
         let b = Arc::new(budget(1.0));
         let a = b.open(60.0, 2).unwrap();
         let mut meter = Meter::new(a.clone(), b);
+        meter.begin();
         // It waits for a message that does not come.
         let (_held, never) = std::sync::mpsc::sync_channel::<()>(1);
         let _ = never.recv_timeout(Duration::from_millis(200));
         assert_eq!(meter.tick(Duration::ZERO, 0), Duration::ZERO);
         assert!(!cfg!(target_os = "linux") || a.cost.get() < 2e-3);
+        // What others do on the thread between two rounds is not counted, and what the round does is.
+        let work = |time| {
+            let begun = processor_time();
+            while processor_time() - begun < time {
+                std::hint::spin_loop();
+            }
+        };
+        work(Duration::from_millis(20));
+        meter.begin();
+        work(Duration::from_millis(2));
+        let round = meter.end();
+        assert!(!cfg!(target_os = "linux") || (2..10).contains(&round.as_millis()));
     }
 }

@@ -9,6 +9,8 @@ pub struct Clock {
     period: Duration,
     policy: Overrun,
     deadline: Instant,
+    /// Where its deadlines lie among those of other worlds: a start, and a part of the period after it.
+    phase: Option<(Instant, f64)>,
     /// Ticks done in a row after a missed deadline.
     caught_up: u32,
     /// Deadlines left out so far.
@@ -27,6 +29,7 @@ impl Clock {
             period,
             policy,
             deadline: now + period,
+            phase: None,
             caught_up: 0,
             skipped: 0,
             overruns: 0,
@@ -34,14 +37,33 @@ impl Clock {
         }
     }
 
-    /// The same counts with another pace; the next tick is due one period from `now`.
+    /// The same counts with another pace; the next tick is due within one period from `now`, at its phase.
     pub fn restart(&mut self, rate_hz: f64, speed: f64, policy: Overrun, now: Instant) {
         let (skipped, overruns, lost) = (self.skipped, self.overruns, self.lost);
+        let phase = self.phase;
         *self = Self {
             skipped,
             overruns,
             lost,
             ..Self::new(rate_hz, speed, policy, now)
+        };
+        if let Some((start, part)) = phase {
+            self.stagger(start, part, now);
+        }
+    }
+
+    /// Lets deadlines lie `part` of a period after multiples of it from `start`: so worlds that begin together do not
+    /// tick together. The next tick is due within one period from `now`.
+    pub fn stagger(&mut self, start: Instant, part: f64, now: Instant) {
+        self.phase = Some((start, part));
+        let period = self.period.as_nanos().max(1);
+        let first = start + self.period.mul_f64(part);
+        self.deadline = match now.checked_duration_since(first) {
+            Some(past) => {
+                let into = (past.as_nanos() % period) as u64;
+                now + self.period - Duration::from_nanos(into)
+            }
+            None => first,
         };
     }
 
@@ -135,6 +157,28 @@ mod tests {
             c.advance(c.deadline() + MS * 3);
         }
         assert_eq!((c.skipped, c.overruns), (0, 0));
+    }
+
+    #[test]
+    fn worlds_that_begin_together_tick_apart() {
+        let start = Instant::now();
+        let now = start + MS * 12_345;
+        let mut due: Vec<Instant> = (0..100)
+            .map(|n| {
+                let mut c = clock(Overrun::Skip, now);
+                c.stagger(start, (f64::from(n) * 0.618_034).fract(), now);
+                let first = c.deadline();
+                assert!(first > now && first <= now + MS * 10);
+                // Another pace and back: the same grid.
+                c.restart(50.0, 1.0, Overrun::Skip, now);
+                c.restart(100.0, 1.0, Overrun::Skip, now + MS * 30);
+                assert_eq!(c.deadline(), first + MS * 30);
+                first
+            })
+            .collect();
+        due.sort_unstable();
+        let gaps = due.windows(2).map(|w| w[1] - w[0]);
+        assert!(gaps.max().unwrap() < MS / 4, "100 worlds in 10 ms: {due:?}");
     }
 
     #[test]

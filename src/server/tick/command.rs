@@ -2,9 +2,7 @@
 
 use super::shard::Shard;
 use std::collections::VecDeque;
-use std::sync::Arc;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Who asks and in which order: commands that meet in one tick are carried out by (client, sequence), so that a replay
 /// is exact.
@@ -24,51 +22,100 @@ pub struct Command {
     pub action: Box<dyn FnOnce(&mut Shard) + Send>,
 }
 
+/// Why a command was not taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Refusal {
+    /// As many wait as may.
+    Full,
+    /// The world has ended, or its tick does not.
+    Closed,
+}
+
+/// Commands that wait for a world. It takes memory only while some do.
+#[derive(Debug)]
+pub struct Queue {
+    waiting: Mutex<Waiting>,
+    most: usize,
+}
+
+#[derive(Default)]
+struct Waiting {
+    commands: VecDeque<Command>,
+    closed: bool,
+}
+
+impl std::fmt::Debug for Waiting {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} commands", self.commands.len())
+    }
+}
+
+impl Queue {
+    /// An empty queue that holds `most`.
+    pub fn new(most: usize) -> Self {
+        Self {
+            waiting: Mutex::default(),
+            most,
+        }
+    }
+
+    fn waiting(&self) -> MutexGuard<'_, Waiting> {
+        // Commands are added and taken whole.
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Adds a command.
+    ///
+    /// # Errors
+    /// There is no room, or nobody takes it any more.
+    pub fn push(&self, command: Command) -> Result<(), Refusal> {
+        let mut waiting = self.waiting();
+        if waiting.closed {
+            return Err(Refusal::Closed);
+        }
+        if waiting.commands.len() >= self.most {
+            return Err(Refusal::Full);
+        }
+        waiting.commands.push_back(command);
+        Ok(())
+    }
+
+    /// Takes none any more. Those that wait are dropped, which tells who waits for an answer.
+    pub fn close(&self) {
+        let mut waiting = self.waiting();
+        waiting.closed = true;
+        let dropped = std::mem::take(&mut waiting.commands);
+        drop(waiting);
+        drop(dropped);
+    }
+}
+
 /// Commands on their way into ticks. Those that a tick has no time for are the first of the next one.
 pub struct Inbox {
-    queue: Receiver<Command>,
-    most: usize,
+    queue: Arc<Queue>,
     ready: VecDeque<Command>,
 }
 
 impl Inbox {
-    /// Commands of `queue`, which holds `most`; at most as many again are ready for a tick.
-    pub fn new(queue: Receiver<Command>, most: usize) -> Self {
+    /// Commands of `queue`; at most as many again as that holds are ready for a tick.
+    pub fn new(queue: Arc<Queue>) -> Self {
         Self {
             queue,
-            most,
             ready: VecDeque::new(),
         }
     }
 
-    /// Waits, then takes what has come; with `eager` one command ends the wait. While it waits for a deadline, commands
-    /// stay in the queue, so that its limit holds. False when there will be no more.
-    #[allow(
-        clippy::disallowed_methods,
-        reason = "the tick loop waits for its absolute deadline"
-    )]
-    pub fn wait(&mut self, wait: Duration, eager: bool) -> bool {
-        let mut fresh = Vec::new();
-        if !eager {
-            std::thread::sleep(wait);
-        } else if self.ready.is_empty() && !wait.is_zero() {
-            match self.queue.recv_timeout(wait) {
-                Ok(command) => fresh.push(command),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => return false,
-            }
+    /// Takes what has come. False when there will be no more.
+    pub fn fetch(&mut self) -> bool {
+        let mut waiting = self.queue.waiting();
+        let room = self.queue.most - self.ready.len();
+        let many = waiting.commands.len().min(room);
+        let mut fresh: Vec<Command> = waiting.commands.drain(..many).collect();
+        if waiting.commands.is_empty() {
+            waiting.commands = VecDeque::new();
         }
-        let mut more = true;
-        while self.ready.len() + fresh.len() < self.most {
-            match self.queue.try_recv() {
-                Ok(command) => fresh.push(command),
-                Err(TryRecvError::Empty) => break,
-                Err(TryRecvError::Disconnected) => {
-                    more = false;
-                    break;
-                }
-            }
-        }
+        let more = !waiting.closed;
+        drop(waiting);
         // Stable: those of one client and sequence stay in the order of arrival.
         fresh.sort_by(|a, b| a.origin.cmp(&b.origin));
         self.ready.extend(fresh);
@@ -89,7 +136,6 @@ impl Inbox {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::mpsc::sync_channel;
 
     fn command(client: &str, sequence: i64) -> Command {
         Command {
@@ -108,35 +154,38 @@ mod tests {
 
     #[test]
     fn commands_of_a_round_are_ordered_and_those_left_over_come_first() {
-        let (send, queue) = sync_channel(8);
-        let mut inbox = Inbox::new(queue, 8);
+        let queue = Arc::new(Queue::new(8));
+        let mut inbox = Inbox::new(queue.clone());
         for (client, sequence) in [("b", 2), ("a", 9), ("b", 1)] {
-            send.send(command(client, sequence)).unwrap();
+            queue.push(command(client, sequence)).unwrap();
         }
-        assert!(inbox.wait(Duration::ZERO, true));
+        assert!(inbox.fetch());
         assert_eq!(taken(&mut inbox), Some(("a".into(), 9)));
-        send.send(command("a", 0)).unwrap();
-        drop(send);
-        assert!(inbox.wait(Duration::ZERO, false), "there are some left");
+        queue.push(command("a", 0)).unwrap();
+        assert!(inbox.fetch());
+        queue.close();
+        assert!(inbox.fetch(), "there are some left");
         let rest: Vec<_> = std::iter::from_fn(|| taken(&mut inbox)).collect();
         assert_eq!(
             rest,
             [("b".into(), 1), ("b".into(), 2), ("a".into(), 0)],
             "what came later does not push in"
         );
-        assert!(!inbox.wait(Duration::ZERO, true));
+        assert!(!inbox.fetch());
+        assert_eq!(queue.push(command("a", 1)), Err(Refusal::Closed));
     }
 
     #[test]
     fn a_flood_fills_the_queue_and_nothing_else() {
-        let (send, queue) = sync_channel(8);
-        let mut inbox = Inbox::new(queue, 8);
+        let queue = Arc::new(Queue::new(8));
+        let mut inbox = Inbox::new(queue.clone());
         let mut sent = 0;
         for _ in 0..100 {
-            while send.try_send(command("a", 0)).is_ok() {
+            while queue.push(command("a", 0)).is_ok() {
                 sent += 1;
             }
-            assert!(inbox.wait(Duration::ZERO, false));
+            assert_eq!(queue.push(command("a", 0)), Err(Refusal::Full));
+            assert!(inbox.fetch());
         }
         assert_eq!((sent, inbox.left()), (16, 8));
     }

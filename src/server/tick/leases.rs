@@ -108,6 +108,11 @@ impl Leases {
         self.by_figure.get_mut(figure)
     }
 
+    /// Whether there are any.
+    pub fn are_held(&self) -> bool {
+        !self.by_figure.is_empty()
+    }
+
     /// How often the control of a figure has changed hands.
     pub fn epoch(&self, figure: &str) -> i64 {
         self.epochs.get(figure).copied().unwrap_or(0)

@@ -1,8 +1,8 @@
-//! The rate keeper: each world has a thread that runs [`run`].
+//! The rate keeper: the [`scheduler`]'s threads call [`Runner::round`] of each world when it is due.
 //!
-//! A tick is: wait for the deadline, carry out commands in order, sample desired motion, step the physics, publish the
-//! frame, account for time. The thread never waits for a client, for a lock held elsewhere, or for the disk. Commands
-//! come through a bounded queue, frames leave through latest-wins cells.
+//! A tick is: carry out commands in order, sample desired motion, step the physics, publish the frame, account for
+//! time. The thread never waits for a client, for a lock that is held for long, or for the disk. Commands come through
+//! a bounded queue, frames leave through latest-wins cells.
 
 pub mod budget;
 pub mod clock;
@@ -11,12 +11,14 @@ pub mod drives;
 pub mod history;
 pub mod leases;
 pub mod planners;
+pub mod scheduler;
 pub mod shard;
 pub mod stage_times;
 
 use crate::wire::status::Fault;
 use crate::wire::types::{Described, EventKind, Snapshot, WorldEvent};
-use command::Inbox;
+use budget::Meter;
+use command::{Inbox, Queue};
 use history::History;
 use shard::Shard;
 use stage_times::StageTimes;
@@ -35,12 +37,14 @@ const COMMAND_SHARE: f64 = 0.25;
 /// Least time for the commands of one tick: fast clocks must not take all day over a few of them.
 const COMMAND_LEAST: Duration = Duration::from_micros(200);
 
-/// What leaves a world's thread.
+/// What leaves the thread that runs a world.
 #[derive(Debug)]
 pub struct Outlet {
+    /// Why nobody waits for it any more: its tick does not end.
+    pub lost: watch::Sender<Option<Fault>>,
     /// Latest frame.
     pub latest: watch::Sender<Arc<Snapshot>>,
-    /// Frames of the last ticks. Whoever looks into it copies pointers, so the world's thread does not wait for long.
+    /// Frames of the last ticks. Whoever looks into it copies pointers, so a tick does not wait for long.
     pub history: Mutex<History>,
     /// World and figures, as they were when something of them changed last.
     pub described: watch::Sender<Arc<Described>>,
@@ -56,29 +60,140 @@ pub struct Outlet {
     pub skipped: AtomicU64,
 }
 
-/// Runs one world until it is closed or all its handles are gone.
-pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
-    let mut meter = shard.meter();
-    loop {
-        // Wait: for the deadline, for a command if the clock stands still, not at all if someone waits for steps.
-        let stopped = shard.paused || shard.failed.is_some();
-        let wait = match (stopped, shard.steps.is_empty()) {
-            (true, true) => PATIENCE,
-            (true, false) => Duration::ZERO,
-            (false, _) => shard
-                .clock
-                .deadline()
-                .saturating_duration_since(Instant::now())
-                .min(PATIENCE),
+impl Outlet {
+    /// Shows a new world, with so many frames and messages of events held for those who read late.
+    pub fn new(shard: &mut Shard, frames: usize, events: usize) -> Self {
+        let first = shard.snapshot();
+        let mut history = History::new(frames);
+        history.push(first.clone());
+        let described = Described {
+            world: shard.info(),
+            figures: shard.figures(),
+            controls: shard.controls(),
+            at: Instant::now(),
         };
-        if !inbox.wait(wait, stopped) {
-            break;
+        Self {
+            lost: watch::Sender::new(None),
+            latest: watch::Sender::new(first),
+            history: Mutex::new(history),
+            described: watch::Sender::new(Arc::new(described)),
+            events: broadcast::Sender::new(events),
+            times: Mutex::default(),
+            ticks: AtomicU64::new(0),
+            overruns: AtomicU64::new(0),
+            skipped: AtomicU64::new(0),
         }
+    }
+}
+
+/// When a world wants to be run again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Next {
+    /// Then; with true, a command makes it due at once.
+    At(Instant, bool),
+    /// When a command comes.
+    Idle,
+    /// It has ended.
+    Ended,
+}
+
+/// A world, and what it takes to run it.
+pub struct Runner {
+    shard: Shard,
+    inbox: Inbox,
+    outlet: Arc<Outlet>,
+    meter: Meter,
+    /// Its last round took long, or it was stepped by hand.
+    long: bool,
+    /// Processor time of the last round.
+    took: Duration,
+}
+
+impl Runner {
+    /// A world with the queue of its commands.
+    pub fn new(shard: Shard, commands: &Arc<Queue>, outlet: &Arc<Outlet>) -> Self {
+        Self {
+            meter: shard.meter(),
+            shard,
+            inbox: Inbox::new(commands.clone()),
+            outlet: outlet.clone(),
+            long: false,
+            took: Duration::ZERO,
+        }
+    }
+
+    /// The tick that it has come to.
+    pub fn tick(&self) -> u64 {
+        self.outlet.latest.borrow().tick
+    }
+
+    /// Whether its rounds should not keep those of others waiting: they take longer than `limit`, or were asked for by
+    /// hand.
+    pub fn is_long(&mut self, limit: Duration) -> bool {
+        if self.shard.paused {
+            self.long |= self.took > limit || !self.shard.steps.is_empty();
+        } else {
+            self.long = self.took > limit || (self.long && self.meter.mean() > limit / 2);
+        }
+        self.long
+    }
+
+    /// Does what is due: commands, a tick, none of both. Says when it wants to be called again.
+    pub fn round(&mut self) -> Next {
+        self.meter.begin();
+        let mut goes_on = self.inbox.fetch();
+        if goes_on {
+            self.step();
+            goes_on = self.shard.closing.is_none();
+        }
+        self.took = self.meter.end();
+        if !goes_on {
+            self.end();
+            return Next::Ended;
+        }
+        self.next()
+    }
+
+    /// When it wants to be called.
+    pub fn next(&self) -> Next {
+        let Self { shard, inbox, .. } = self;
+        let now = Instant::now();
+        if !shard.paused && shard.failed.is_none() {
+            return Next::At(shard.clock.deadline().min(now + PATIENCE), false);
+        }
+        let steps = shard.failed.is_none() && !shard.steps.is_empty();
+        if steps || inbox.left() > 0 {
+            Next::At(now, true)
+        } else if shard.needs_looks() {
+            Next::At(now + PATIENCE, true)
+        } else {
+            Next::Idle
+        }
+    }
+
+    /// Tells who still waits that there is no more.
+    fn end(&mut self) {
+        self.shard.send_replies();
+        let why = self.shard.closing.take().unwrap_or(Fault::Draining);
+        for step in self.shard.steps.drain(..) {
+            (step.done)(Err(why.clone()));
+        }
+    }
+
+    fn step(&mut self) {
+        let Self {
+            shard,
+            inbox,
+            outlet,
+            meter,
+            ..
+        } = self;
+        let stopped = shard.paused || shard.failed.is_some();
         let start = Instant::now();
         let late = start.saturating_duration_since(shard.clock.deadline());
 
         // Motion that drivers have left, then commands in (client, sequence) order.
-        guarded(&mut shard, "taking motion", Shard::collect_motion);
+        guarded(shard, "taking motion", Shard::collect_motion);
         let allowance = if stopped {
             PATIENCE
         } else {
@@ -89,20 +204,20 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
                 .max(COMMAND_LEAST)
         };
         while let Some(c) = inbox.take() {
-            guarded(&mut shard, "a command", |s| (c.action)(s));
+            guarded(shard, "a command", |s| (c.action)(s));
             shard.touch();
             if start.elapsed() >= allowance {
                 break;
             }
         }
         metrics::counter!("sinew_commands_deferred_total").increment(inbox.left() as u64);
-        guarded(&mut shard, "drives and plans", |s| {
+        guarded(shard, "drives and plans", |s| {
             s.expire_drives(start);
             s.offer_plans();
         });
         if shard.closing.is_some() {
-            publish_events(&mut shard, outlet); // that it was deleted is the last one
-            break;
+            publish_events(shard, outlet); // that it was deleted is the last one
+            return;
         }
         let commands_done = Instant::now();
 
@@ -116,26 +231,26 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
         };
         if !due {
             if shard.changed {
-                publish(&mut shard, outlet);
+                publish(shard, outlet);
             }
-            describe(&mut shard, outlet);
-            publish_events(&mut shard, outlet);
+            describe(shard, outlet);
+            publish_events(shard, outlet);
             shard.send_replies();
-            continue;
+            return;
         }
 
-        guarded(&mut shard, "sampling desired motion", Shard::sample_motion);
+        guarded(shard, "sampling desired motion", Shard::sample_motion);
         let motion_done = Instant::now();
         if shard.failed.is_none() {
-            guarded(&mut shard, "the physics", Shard::step_world);
+            guarded(shard, "the physics", Shard::step_world);
         }
         let step_done = Instant::now();
         let snapshot = match shard.failed {
-            None => publish(&mut shard, outlet),
+            None => publish(shard, outlet),
             Some(_) => None,
         };
-        describe(&mut shard, outlet);
-        publish_events(&mut shard, outlet);
+        describe(shard, outlet);
+        publish_events(shard, outlet);
 
         shard.send_replies();
 
@@ -166,13 +281,8 @@ pub fn run(mut shard: Shard, mut inbox: Inbox, outlet: &Outlet) {
             times.record(stages);
         }
         if let Some(snapshot) = snapshot {
-            finish_steps(&mut shard, &snapshot); // last, so that who waits finds everything done
+            finish_steps(shard, &snapshot); // last, so that who waits finds everything done
         }
-    }
-    shard.send_replies();
-    let why = shard.closing.take().unwrap_or(Fault::Draining);
-    for step in shard.steps.drain(..) {
-        (step.done)(Err(why.clone()));
     }
 }
 
@@ -214,6 +324,9 @@ fn publish(shard: &mut Shard, outlet: &Outlet) -> Option<Arc<Snapshot>> {
         s.publish_feedback();
         s.snapshot()
     })?;
+    if outlet.lost.borrow().is_some() {
+        return None;
+    }
     let mut history = outlet
         .history
         .lock()
@@ -228,7 +341,14 @@ fn publish(shard: &mut Shard, outlet: &Outlet) -> Option<Arc<Snapshot>> {
 /// Tells what changed of world and figures, before who changed it gets an answer.
 fn describe(shard: &mut Shard, outlet: &Outlet) {
     if let Some(described) = guarded(shard, "the description", Shard::describe).flatten() {
-        outlet.described.send_replace(described);
+        // Who gave it up says that it has failed, after `lost`: that stands.
+        outlet.described.send_if_modified(|shown| {
+            let goes_on = outlet.lost.borrow().is_none();
+            if goes_on {
+                *shown = described;
+            }
+            goes_on
+        });
     }
 }
 

@@ -1,5 +1,5 @@
-//! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by the world's
-//! thread; others send [`Command`](super::command::Command)s that call these methods between ticks.
+//! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by whatever
+//! thread runs it; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
 mod checkpoint;
 mod clips;
@@ -168,7 +168,22 @@ impl Shard {
         let _ = self.budget.set_pace(&self.account, 0.0);
     }
 
-    /// The meter of the thread that runs this world.
+    /// Its account, and the budget that has it.
+    pub(super) fn books(&self) -> (Arc<Account>, Arc<Budget>) {
+        (Arc::clone(&self.account), Arc::clone(&self.budget))
+    }
+
+    /// Lets its deadlines lie at a part of the period, counted from `start`.
+    pub(super) fn stagger(&mut self, start: Instant, part: f64) {
+        self.clock.stagger(start, part, Instant::now());
+    }
+
+    /// Something of it runs out by wall clock, or may come without a command, also while its clock stands still.
+    pub(super) fn needs_looks(&self) -> bool {
+        !self.drives.is_empty() || self.leases.are_held()
+    }
+
+    /// The meter of this world.
     pub(super) fn meter(&self) -> Meter {
         Meter::new(Arc::clone(&self.account), Arc::clone(&self.budget))
     }

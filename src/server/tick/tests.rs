@@ -1,22 +1,33 @@
 //! The loop of one world, with commands that take long and with commands that break it.
 
-use super::command::{Command, Inbox, Origin};
+use super::command::{Command, Origin, Queue};
 use super::planners::Planners;
+use super::scheduler::{Added, Plan, Priority, Scheduler};
 use super::shard::{Limits, Shard};
 use super::*;
 use crate::wire::convert;
 use crate::wire::types::WorldCondition;
-use std::sync::mpsc::{SyncSender, sync_channel};
-use std::thread::JoinHandle;
+use std::sync::mpsc::sync_channel;
 
-struct Running {
-    commands: SyncSender<Command>,
-    outlet: Arc<Outlet>,
-    thread: JoinHandle<()>,
+/// Workers of a test: plain threads, so that tests beside it are not kept waiting.
+pub(super) fn workers(workers: usize) -> Plan {
+    Plan {
+        workers,
+        priority: Priority::Plain,
+        slow: Duration::from_secs(60),
+        stuck: Duration::from_secs(60),
+    }
+}
+
+/// A world of a scheduler.
+pub(super) struct Running {
+    commands: Arc<Queue>,
+    pub(super) outlet: Arc<Outlet>,
+    pub(super) added: Added,
 }
 
 impl Running {
-    fn start(rate_hz: f64) -> Self {
+    pub(super) fn start(scheduler: &Scheduler, rate_hz: f64) -> Self {
         let settings = convert::world::settings(Some(crate::wire::pb::World {
             rate_hz,
             ..Default::default()
@@ -29,50 +40,64 @@ impl Running {
         let planners = Arc::new(Planners::start());
         let budget = Arc::new(budget::Budget::new(100.0));
         let mut shard = Shard::new("w".into(), settings, false, limits, planners, budget).unwrap();
-        let outlet = Arc::new(Outlet {
-            latest: watch::Sender::new(shard.snapshot()),
-            history: Mutex::new(History::new(4)),
-            described: watch::Sender::new(shard.describe().unwrap()),
-            events: broadcast::Sender::new(16),
-            times: Mutex::default(),
-            ticks: AtomicU64::new(0),
-            overruns: AtomicU64::new(0),
-            skipped: AtomicU64::new(0),
-        });
-        let (commands, queue) = sync_channel(1024);
-        let out = outlet.clone();
-        let thread = std::thread::spawn(move || run(shard, Inbox::new(queue, 1024), &out));
+        let outlet = Arc::new(Outlet::new(&mut shard, 4, 16));
+        let commands = Arc::new(Queue::new(1024));
+        let added = scheduler.add(shard, &commands, &outlet);
         Self {
             commands,
             outlet,
-            thread,
+            added,
         }
     }
 
-    fn send(&self, action: impl FnOnce(&mut Shard) + Send + 'static) {
+    pub(super) fn commands(&self) -> &Arc<Queue> {
+        &self.commands
+    }
+
+    pub(super) fn ticks(&self) -> u64 {
+        self.outlet.ticks.load(Ordering::Relaxed)
+    }
+
+    /// Median and largest lateness of recent ticks, µs.
+    pub(super) fn late(&self) -> [f64; 2] {
+        let late = self.outlet.times.lock().unwrap().summary()[0];
+        [late.p50, late.max]
+    }
+
+    /// False if it takes no commands any more.
+    pub(super) fn send(&self, action: impl FnOnce(&mut Shard) + Send + 'static) -> bool {
         let origin = Origin {
             client: "c".into(),
             sequence: 0,
         };
         let action = Box::new(action);
-        self.commands.send(Command { origin, action }).unwrap();
+        let sent = self.commands.push(Command { origin, action }).is_ok();
+        self.added.ticket.wake();
+        sent
     }
 
-    fn ask<T: Send + 'static>(&self, f: impl FnOnce(&mut Shard) -> T + Send + 'static) -> T {
+    pub(super) fn ask<T: Send + 'static>(
+        &self,
+        f: impl FnOnce(&mut Shard) -> T + Send + 'static,
+    ) -> T {
         let (tx, rx) = sync_channel(64);
-        self.send(move |s| tx.send(f(s)).unwrap());
-        rx.recv().expect("its thread lives")
+        assert!(self.send(move |s| tx.send(f(s)).unwrap()));
+        rx.recv().expect("it goes on")
     }
 
+    /// Waits until it has ended.
     fn end(self) {
         self.send(|s| s.close(Fault::Draining, None));
-        self.thread.join().unwrap();
+        while self.added.closed.has_changed().is_ok() {
+            std::thread::yield_now();
+        }
     }
 }
 
 #[test]
 fn commands_that_take_long_are_spread_over_ticks_in_order() {
-    let world = Running::start(50.0); // 5 ms of each tick are for commands
+    let scheduler = Scheduler::start(workers(1)).unwrap();
+    let world = Running::start(&scheduler, 50.0); // 5 ms of each tick are for commands
     let (tx, rx) = sync_channel(64);
     for n in 0..40 {
         let tx = tx.clone();
@@ -95,7 +120,8 @@ fn commands_that_take_long_are_spread_over_ticks_in_order() {
 
 #[test]
 fn a_frame_that_cannot_be_made_fails_the_world_and_not_its_thread() {
-    let world = Running::start(100.0);
+    let scheduler = Scheduler::start(workers(1)).unwrap();
+    let world = Running::start(&scheduler, 100.0);
     world.ask(|s| s.pause().unwrap()); // so that no tick comes before the frame
     let body = Arc::new(crate::sim::body::Body::adult_man());
     let settings = convert::figure::settings("figure", None).unwrap();

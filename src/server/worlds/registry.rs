@@ -1,4 +1,4 @@
-//! The worlds of this server, and how others talk to their threads.
+//! The worlds of this server, and how others talk to them.
 
 use crate::server::access::caller::Caller;
 use crate::server::access::grants::{Grant, Grants};
@@ -6,13 +6,14 @@ use crate::server::config::Config;
 use crate::server::fanout::hub::Hub;
 use crate::server::ingest::mailbox::Mailboxes;
 use crate::server::shares::{Client, check_part, part};
+use crate::server::tick::Outlet;
 use crate::server::tick::budget::Budget;
-use crate::server::tick::command::{Command, Inbox, Origin};
+use crate::server::tick::command::{Command, Origin, Queue, Refusal};
 use crate::server::tick::history::History;
 use crate::server::tick::planners::Planners;
+use crate::server::tick::scheduler::{Added, Plan, Priority, Scheduler, Ticket};
 use crate::server::tick::shard::{Limits, Restored, Shard};
 use crate::server::tick::stage_times::{Percentiles, STAGES};
-use crate::server::tick::{self, Outlet};
 use crate::server::worlds::usage::Usage;
 use crate::sim::body::Body;
 use crate::wire::status::Fault;
@@ -20,18 +21,16 @@ use crate::wire::types::{ControlInfo, Described, FigureInfo, Snapshot, WorldInfo
 use std::collections::{BTreeMap, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
-use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
-use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
-use tokio::sync::{broadcast, oneshot, watch};
+use tokio::sync::{oneshot, watch};
 
-/// One world, seen from outside its thread.
+/// One world, seen from outside the thread that runs it.
 #[derive(Debug)]
 pub struct WorldHandle {
     /// Last part of its name.
     pub id: Arc<str>,
-    /// What leaves its thread.
+    /// What leaves that thread.
     pub outlet: Arc<Outlet>,
     /// Its views.
     pub hub: Hub,
@@ -57,10 +56,10 @@ pub struct WorldHandle {
     told_refused: Mutex<Option<Instant>>,
     /// Commands of each client that wait.
     waiting: Waiting,
-    commands: SyncSender<Command>,
+    commands: Arc<Queue>,
+    ticket: Ticket,
     draining: Arc<AtomicBool>,
     queue: u64,
-    thread: Mutex<Option<JoinHandle<()>>>,
 }
 
 /// Least time between two events that tell of refusals.
@@ -140,14 +139,39 @@ pub struct WorldStats {
 
 impl WorldHandle {
     fn gone(&self) -> Fault {
+        if let Some(why) = self.lost() {
+            return why;
+        }
         if self.draining.load(Ordering::SeqCst) {
             return Fault::Draining;
         }
         Fault::not_found("world", format!("worlds/{}", self.id))
     }
 
+    /// Why nobody waits for the world any more, if its tick does not end.
+    fn lost(&self) -> Option<Fault> {
+        self.outlet.lost.borrow().clone()
+    }
+
+    /// Waits for an answer of the world, as long as that can give one.
+    ///
+    /// # Errors
+    /// Those of the answer; the world has ended, or its tick does not end.
+    pub async fn answer<T>(&self, answer: oneshot::Receiver<Result<T, Fault>>) -> Result<T, Fault> {
+        let mut lost = self.outlet.lost.subscribe();
+        tokio::select! {
+            biased;
+            answer = answer => answer.unwrap_or_else(|_| Err(self.ended())),
+            // Its sender lives as long as this handle.
+            _ = lost.wait_for(Option::is_some) => Err(self.ended()),
+        }
+    }
+
     /// What a request learns that the end of the world came in between of.
     pub fn ended(&self) -> Fault {
+        if let Some(why) = self.lost() {
+            return why;
+        }
         if self.draining.load(Ordering::SeqCst) {
             return Fault::Draining;
         }
@@ -207,8 +231,8 @@ impl WorldHandle {
                 action(shard);
             }),
         };
-        self.commands.try_send(command).map_err(|e| match e {
-            TrySendError::Full(_) => {
+        self.commands.push(command).map_err(|e| match e {
+            Refusal::Full => {
                 self.refused.fetch_add(1, Ordering::Relaxed);
                 metrics::counter!("sinew_commands_refused_total").increment(1);
                 Fault::Exhausted {
@@ -218,8 +242,10 @@ impl WorldHandle {
                     retry: Some(Duration::from_secs_f64((2.0 / self.rate_hz).max(0.01))),
                 }
             }
-            TrySendError::Disconnected(_) => self.gone(),
-        })
+            Refusal::Closed => self.gone(),
+        })?;
+        self.ticket.wake();
+        Ok(())
     }
 
     /// Does something at the start of the next tick and waits for its result.
@@ -247,7 +273,7 @@ impl WorldHandle {
                 }
             }
         })?;
-        rx.await.unwrap_or_else(|_| Err(self.ended()))
+        self.answer(rx).await
     }
 
     /// The world as it is now. Reading never waits for a tick.
@@ -358,26 +384,49 @@ pub struct Registry {
     ending: Arc<AtomicBool>,
     config: Arc<Config>,
     planners: Arc<Planners>,
+    scheduler: Scheduler,
     /// What the ticks of all worlds may cost.
     pub budget: Arc<Budget>,
 }
 
 impl Registry {
-    /// No worlds yet.
-    pub fn new(config: Arc<Config>) -> Self {
+    /// No worlds yet; starts the threads that will run them.
+    ///
+    /// # Errors
+    /// The system gives no threads.
+    pub fn new(config: Arc<Config>) -> Result<Self, Fault> {
         let budget = Arc::new(Budget::new(config.max_tick_budget));
-        Self {
+        let scheduler = Scheduler::start(Plan {
+            workers: config.tick_workers as usize,
+            priority: Priority::by_name(&config.tick_priority).unwrap_or(Priority::Fifo),
+            slow: Duration::from_secs_f64(config.slow_tick_s),
+            stuck: Duration::from_secs_f64(config.stuck_tick_s),
+        });
+        let scheduler = scheduler
+            .map_err(|e| Fault::Internal(format!("no threads for the ticks of worlds: {e}")))?;
+        Ok(Self {
             budget,
+            scheduler,
             worlds: RwLock::default(),
             next: AtomicU64::new(1),
             draining: AtomicBool::new(false),
             ending: Arc::default(),
             config,
             planners: Arc::new(Planners::start()),
-        }
+        })
     }
 
-    /// Creates a world for a client, with its grants, and starts its thread.
+    /// Workers for the ticks of worlds, and how urgent the system lets them be.
+    pub fn workers(&self) -> (usize, Priority) {
+        self.scheduler.workers()
+    }
+
+    /// Worlds whose ticks do not end.
+    pub fn stuck(&self) -> Vec<Arc<str>> {
+        self.scheduler.stuck()
+    }
+
+    /// Creates a world for a client, with its grants, and lets it run.
     ///
     /// # Errors
     /// The name is taken, there are too many worlds or too many of this client, there is no room for its ticks, or the
@@ -489,37 +538,14 @@ impl Registry {
         if let Some(from) = from {
             shard.restore(from)?;
         }
-        let (commands, queue) = sync_channel(self.config.command_queue as usize);
-        let first = shard.snapshot();
-        let mut history = History::new(self.config.history_ticks as usize);
-        history.push(first.clone());
-        let described = Described {
-            world: shard.info(),
-            figures: shard.figures(),
-            controls: shard.controls(),
-            at: Instant::now(),
-        };
-        let outlet = Arc::new(Outlet {
-            latest: watch::Sender::new(first),
-            history: Mutex::new(history),
-            described: watch::Sender::new(Arc::new(described)),
-            events: broadcast::Sender::new(self.config.event_queue as usize),
-            times: Mutex::default(),
-            ticks: AtomicU64::new(0),
-            overruns: AtomicU64::new(0),
-            skipped: AtomicU64::new(0),
-        });
+        let commands = Arc::new(Queue::new(self.config.command_queue as usize));
+        let outlet = Arc::new(Outlet::new(
+            &mut shard,
+            self.config.history_ticks as usize,
+            self.config.event_queue as usize,
+        ));
         let mailboxes = shard.mailboxes();
-        let (alive, closed) = watch::channel(());
-        let inbox = Inbox::new(queue, self.config.command_queue as usize);
-        let out = outlet.clone();
-        let thread = std::thread::Builder::new()
-            .name(format!("world {id}").chars().take(15).collect())
-            .spawn(move || {
-                tick::run(shard, inbox, &out);
-                drop(alive);
-            })
-            .map_err(|e| Fault::Internal(format!("no thread for the world: {e}")))?;
+        let Added { ticket, closed } = self.scheduler.add(shard, &commands, &outlet);
         let handle = Arc::new(WorldHandle {
             id: name,
             outlet,
@@ -544,9 +570,9 @@ impl Registry {
             viewers: AtomicI64::new(0),
             usage: Usage::default(),
             commands,
+            ticket,
             draining: Arc::clone(&self.ending),
             queue: self.config.command_queue,
-            thread: Mutex::new(Some(thread)),
         });
         worlds.insert(id.clone(), handle.clone());
         metrics::gauge!("sinew_worlds").set(worlds.len() as f64);
@@ -595,7 +621,8 @@ impl Registry {
             .collect()
     }
 
-    /// Ends a world and waits for its thread. `by`: who wants it, or why, for those who watch its events.
+    /// Ends a world and waits until it has ended. `by`: who wants it, or why, for those who watch its
+    /// events.
     ///
     /// # Errors
     /// There is none of that name.
@@ -662,13 +689,9 @@ async fn end(handle: &WorldHandle, why: Fault, by: Option<&str>) {
         tokio::time::sleep(Duration::from_millis(5)).await;
     }
     let mut closed = handle.closed.clone();
-    let _ = closed.changed().await; // an error: the thread has ended, as it should
-    let thread = handle
-        .thread
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
-        .take();
-    if let Some(thread) = thread {
-        let _ = thread.join(); // it has ended; a panic of it was reported where it happened
+    let mut lost = handle.outlet.lost.subscribe();
+    tokio::select! {
+        _ = closed.changed() => {} // an error: it has ended, as it should
+        _ = lost.wait_for(Option::is_some) => handle.ticket.abandon(),
     }
 }

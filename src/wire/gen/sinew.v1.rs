@@ -13495,6 +13495,12 @@ pub struct GetServerInfoResponse {
     /// Limits by name, as in the configuration.
     #[prost(message, repeated, tag = "7")]
     pub limits: ::prost::alloc::vec::Vec<ServerLimit>,
+    /// Workers that run short ticks of worlds; as many run long ones.
+    #[prost(int32, tag = "8")]
+    pub tick_worker_count: i32,
+    /// How urgent the system lets the workers of short ticks be.
+    #[prost(enumeration = "TickPriority", tag = "9")]
+    pub tick_priority: i32,
 }
 impl ::prost::Name for GetServerInfoResponse {
     const NAME: &'static str = "GetServerInfoResponse";
@@ -13641,6 +13647,43 @@ impl ::prost::Name for StageTime {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/sinew.v1.StageTime".into()
+    }
+}
+/// How urgent the threads of ticks are to the system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum TickPriority {
+    /// Not said.
+    Unspecified = 0,
+    /// Real time (`SCHED_FIFO`): before all threads that have none.
+    Fifo = 1,
+    /// A lower nice value: a larger part of the processor, and sooner.
+    Nice = 2,
+    /// As any other thread.
+    Plain = 3,
+}
+impl TickPriority {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "TICK_PRIORITY_UNSPECIFIED",
+            Self::Fifo => "TICK_PRIORITY_FIFO",
+            Self::Nice => "TICK_PRIORITY_NICE",
+            Self::Plain => "TICK_PRIORITY_PLAIN",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "TICK_PRIORITY_UNSPECIFIED" => Some(Self::Unspecified),
+            "TICK_PRIORITY_FIFO" => Some(Self::Fifo),
+            "TICK_PRIORITY_NICE" => Some(Self::Nice),
+            "TICK_PRIORITY_PLAIN" => Some(Self::Plain),
+            _ => None,
+        }
     }
 }
 /// Generated client implementations.

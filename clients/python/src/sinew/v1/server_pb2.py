@@ -28,7 +28,7 @@ from google.protobuf import timestamp_pb2 as google_dot_protobuf_dot_timestamp__
 from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15sinew/v1/server.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\"\x16\n\x14GetServerInfoRequest\"\xe6\x01\n\x15GetServerInfoResponse\x12\x0f\n\x07version\x18\x01 \x01(\t\x12.\n\nstart_time\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\x12\x12\n\nflag_names\x18\x03 \x03(\t\x12\x13\n\x0bview_fields\x18\x04 \x03(\t\x12&\n\rbuiltin_clips\x18\x05 \x03(\tB\x0f\xfa\x41\x0c\n\nsinew/Clip\x12\x14\n\x0c\x63\x61pabilities\x18\x06 \x03(\t\x12%\n\x06limits\x18\x07 \x03(\x0b\x32\x15.sinew.v1.ServerLimit\"*\n\x0bServerLimit\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\r\n\x05value\x18\x02 \x01(\x03\"<\n\x15GetServerStatsRequest\x12#\n\x05world\x18\x01 \x01(\tB\x14\xe2\x41\x01\x01\xfa\x41\r\n\x0bsinew/World\"\xbb\x01\n\x16GetServerStatsResponse\x12$\n\x06worlds\x18\x01 \x03(\x0b\x32\x14.sinew.v1.WorldStats\x12\x1a\n\x12watch_stream_count\x18\x02 \x01(\x05\x12\x1a\n\x12\x64rive_stream_count\x18\x03 \x01(\x05\x12\x18\n\x10simulation_count\x18\x04 \x01(\x05\x12\x13\n\x0b\x62udget_used\x18\x05 \x01(\x01\x12\x14\n\x0c\x62udget_limit\x18\x06 \x01(\x01\"\xf3\x01\n\nWorldStats\x12\x1f\n\x05world\x18\x01 \x01(\tB\x10\xfa\x41\r\n\x0bsinew/World\x12\x12\n\ntick_count\x18\x02 \x01(\x03\x12\x15\n\roverrun_count\x18\x03 \x01(\x03\x12\x15\n\rskipped_count\x18\x04 \x01(\x03\x12\x15\n\rrefused_count\x18\x05 \x01(\x03\x12\x1b\n\x13\x64ropped_frame_count\x18\x06 \x01(\x03\x12\x14\n\x0cviewer_count\x18\x07 \x01(\x05\x12\x13\n\x0b\x62udget_used\x18\x08 \x01(\x01\x12#\n\x06stages\x18\t \x03(\x0b\x32\x13.sinew.v1.StageTime\"J\n\tStageTime\x12\r\n\x05stage\x18\x01 \x01(\t\x12\x0e\n\x06p50_us\x18\x02 \x01(\x01\x12\x0e\n\x06p99_us\x18\x03 \x01(\x01\x12\x0e\n\x06max_us\x18\x04 \x01(\x01\x32\xc2\x01\n\rServerService\x12V\n\rGetServerInfo\x12\x1e.sinew.v1.GetServerInfoRequest\x1a\x1f.sinew.v1.GetServerInfoResponse\"\x04\xe8\xe0\x18\x06\x12Y\n\x0eGetServerStats\x12\x1f.sinew.v1.GetServerStatsRequest\x1a .sinew.v1.GetServerStatsResponse\"\x04\xe8\xe0\x18\x06\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x15sinew/v1/server.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x16sinew/v1/options.proto\"\x16\n\x14GetServerInfoRequest\"\xb0\x02\n\x15GetServerInfoResponse\x12\x0f\n\x07version\x18\x01 \x01(\t\x12.\n\nstart_time\x18\x02 \x01(\x0b\x32\x1a.google.protobuf.Timestamp\x12\x12\n\nflag_names\x18\x03 \x03(\t\x12\x13\n\x0bview_fields\x18\x04 \x03(\t\x12&\n\rbuiltin_clips\x18\x05 \x03(\tB\x0f\xfa\x41\x0c\n\nsinew/Clip\x12\x14\n\x0c\x63\x61pabilities\x18\x06 \x03(\t\x12%\n\x06limits\x18\x07 \x03(\x0b\x32\x15.sinew.v1.ServerLimit\x12\x19\n\x11tick_worker_count\x18\x08 \x01(\x05\x12-\n\rtick_priority\x18\t \x01(\x0e\x32\x16.sinew.v1.TickPriority\"*\n\x0bServerLimit\x12\x0c\n\x04name\x18\x01 \x01(\t\x12\r\n\x05value\x18\x02 \x01(\x03\"<\n\x15GetServerStatsRequest\x12#\n\x05world\x18\x01 \x01(\tB\x14\xe2\x41\x01\x01\xfa\x41\r\n\x0bsinew/World\"\xbb\x01\n\x16GetServerStatsResponse\x12$\n\x06worlds\x18\x01 \x03(\x0b\x32\x14.sinew.v1.WorldStats\x12\x1a\n\x12watch_stream_count\x18\x02 \x01(\x05\x12\x1a\n\x12\x64rive_stream_count\x18\x03 \x01(\x05\x12\x18\n\x10simulation_count\x18\x04 \x01(\x05\x12\x13\n\x0b\x62udget_used\x18\x05 \x01(\x01\x12\x14\n\x0c\x62udget_limit\x18\x06 \x01(\x01\"\xf3\x01\n\nWorldStats\x12\x1f\n\x05world\x18\x01 \x01(\tB\x10\xfa\x41\r\n\x0bsinew/World\x12\x12\n\ntick_count\x18\x02 \x01(\x03\x12\x15\n\roverrun_count\x18\x03 \x01(\x03\x12\x15\n\rskipped_count\x18\x04 \x01(\x03\x12\x15\n\rrefused_count\x18\x05 \x01(\x03\x12\x1b\n\x13\x64ropped_frame_count\x18\x06 \x01(\x03\x12\x14\n\x0cviewer_count\x18\x07 \x01(\x05\x12\x13\n\x0b\x62udget_used\x18\x08 \x01(\x01\x12#\n\x06stages\x18\t \x03(\x0b\x32\x13.sinew.v1.StageTime\"J\n\tStageTime\x12\r\n\x05stage\x18\x01 \x01(\t\x12\x0e\n\x06p50_us\x18\x02 \x01(\x01\x12\x0e\n\x06p99_us\x18\x03 \x01(\x01\x12\x0e\n\x06max_us\x18\x04 \x01(\x01*v\n\x0cTickPriority\x12\x1d\n\x19TICK_PRIORITY_UNSPECIFIED\x10\x00\x12\x16\n\x12TICK_PRIORITY_FIFO\x10\x01\x12\x16\n\x12TICK_PRIORITY_NICE\x10\x02\x12\x17\n\x13TICK_PRIORITY_PLAIN\x10\x03\x32\xc2\x01\n\rServerService\x12V\n\rGetServerInfo\x12\x1e.sinew.v1.GetServerInfoRequest\x1a\x1f.sinew.v1.GetServerInfoResponse\"\x04\xe8\xe0\x18\x06\x12Y\n\x0eGetServerStats\x12\x1f.sinew.v1.GetServerStatsRequest\x1a .sinew.v1.GetServerStatsResponse\"\x04\xe8\xe0\x18\x06\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
@@ -45,20 +45,22 @@ if not _descriptor._USE_C_DESCRIPTORS:
   _globals['_SERVERSERVICE'].methods_by_name['GetServerInfo']._serialized_options = b'\350\340\030\006'
   _globals['_SERVERSERVICE'].methods_by_name['GetServerStats']._loaded_options = None
   _globals['_SERVERSERVICE'].methods_by_name['GetServerStats']._serialized_options = b'\350\340\030\006'
+  _globals['_TICKPRIORITY']._serialized_start=1101
+  _globals['_TICKPRIORITY']._serialized_end=1219
   _globals['_GETSERVERINFOREQUEST']._serialized_start=152
   _globals['_GETSERVERINFOREQUEST']._serialized_end=174
   _globals['_GETSERVERINFORESPONSE']._serialized_start=177
-  _globals['_GETSERVERINFORESPONSE']._serialized_end=407
-  _globals['_SERVERLIMIT']._serialized_start=409
-  _globals['_SERVERLIMIT']._serialized_end=451
-  _globals['_GETSERVERSTATSREQUEST']._serialized_start=453
-  _globals['_GETSERVERSTATSREQUEST']._serialized_end=513
-  _globals['_GETSERVERSTATSRESPONSE']._serialized_start=516
-  _globals['_GETSERVERSTATSRESPONSE']._serialized_end=703
-  _globals['_WORLDSTATS']._serialized_start=706
-  _globals['_WORLDSTATS']._serialized_end=949
-  _globals['_STAGETIME']._serialized_start=951
-  _globals['_STAGETIME']._serialized_end=1025
-  _globals['_SERVERSERVICE']._serialized_start=1028
-  _globals['_SERVERSERVICE']._serialized_end=1222
+  _globals['_GETSERVERINFORESPONSE']._serialized_end=481
+  _globals['_SERVERLIMIT']._serialized_start=483
+  _globals['_SERVERLIMIT']._serialized_end=525
+  _globals['_GETSERVERSTATSREQUEST']._serialized_start=527
+  _globals['_GETSERVERSTATSREQUEST']._serialized_end=587
+  _globals['_GETSERVERSTATSRESPONSE']._serialized_start=590
+  _globals['_GETSERVERSTATSRESPONSE']._serialized_end=777
+  _globals['_WORLDSTATS']._serialized_start=780
+  _globals['_WORLDSTATS']._serialized_end=1023
+  _globals['_STAGETIME']._serialized_start=1025
+  _globals['_STAGETIME']._serialized_end=1099
+  _globals['_SERVERSERVICE']._serialized_start=1222
+  _globals['_SERVERSERVICE']._serialized_end=1416
 # @@protoc_insertion_point(module_scope)

@@ -8,6 +8,7 @@ from google.protobuf import descriptor as _descriptor
 from google.protobuf import message as _message
 from google.protobuf import timestamp_pb2 as _timestamp_pb2
 from google.protobuf.internal import containers as _containers
+from google.protobuf.internal import enum_type_wrapper as _enum_type_wrapper
 import builtins as _builtins
 import sys
 import typing as _typing
@@ -18,6 +19,34 @@ else:
     from typing_extensions import TypeAlias as _TypeAlias, Never as _Never
 
 DESCRIPTOR: _descriptor.FileDescriptor
+
+class _TickPriority:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _TickPriorityEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_TickPriority.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    TICK_PRIORITY_UNSPECIFIED: _TickPriority.ValueType  # 0
+    """Not said."""
+    TICK_PRIORITY_FIFO: _TickPriority.ValueType  # 1
+    """Real time (`SCHED_FIFO`): before all threads that have none."""
+    TICK_PRIORITY_NICE: _TickPriority.ValueType  # 2
+    """A lower nice value: a larger part of the processor, and sooner."""
+    TICK_PRIORITY_PLAIN: _TickPriority.ValueType  # 3
+    """As any other thread."""
+
+class TickPriority(_TickPriority, metaclass=_TickPriorityEnumTypeWrapper):
+    """How urgent the threads of ticks are to the system."""
+
+TICK_PRIORITY_UNSPECIFIED: TickPriority.ValueType  # 0
+"""Not said."""
+TICK_PRIORITY_FIFO: TickPriority.ValueType  # 1
+"""Real time (`SCHED_FIFO`): before all threads that have none."""
+TICK_PRIORITY_NICE: TickPriority.ValueType  # 2
+"""A lower nice value: a larger part of the processor, and sooner."""
+TICK_PRIORITY_PLAIN: TickPriority.ValueType  # 3
+"""As any other thread."""
+Global___TickPriority: _TypeAlias = TickPriority  # noqa: Y015
 
 @_typing.final
 class GetServerInfoRequest(_message.Message):
@@ -49,8 +78,14 @@ class GetServerInfoResponse(_message.Message):
     BUILTIN_CLIPS_FIELD_NUMBER: _builtins.int
     CAPABILITIES_FIELD_NUMBER: _builtins.int
     LIMITS_FIELD_NUMBER: _builtins.int
+    TICK_WORKER_COUNT_FIELD_NUMBER: _builtins.int
+    TICK_PRIORITY_FIELD_NUMBER: _builtins.int
     version: _builtins.str
     """Version of the server, for example `0.1.0`."""
+    tick_worker_count: _builtins.int
+    """Workers that run short ticks of worlds; as many run long ones."""
+    tick_priority: Global___TickPriority.ValueType
+    """How urgent the system lets the workers of short ticks be."""
     @_builtins.property
     def start_time(self) -> _timestamp_pb2.Timestamp:
         """When it started."""
@@ -85,10 +120,12 @@ class GetServerInfoResponse(_message.Message):
         builtin_clips: _abc.Iterable[_builtins.str] | None = ...,
         capabilities: _abc.Iterable[_builtins.str] | None = ...,
         limits: _abc.Iterable[Global___ServerLimit] | None = ...,
+        tick_worker_count: _builtins.int = ...,
+        tick_priority: Global___TickPriority.ValueType = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["start_time", b"start_time"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["builtin_clips", b"builtin_clips", "capabilities", b"capabilities", "flag_names", b"flag_names", "limits", b"limits", "start_time", b"start_time", "version", b"version", "view_fields", b"view_fields"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["builtin_clips", b"builtin_clips", "capabilities", b"capabilities", "flag_names", b"flag_names", "limits", b"limits", "start_time", b"start_time", "tick_priority", b"tick_priority", "tick_worker_count", b"tick_worker_count", "version", b"version", "view_fields", b"view_fields"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -2,8 +2,8 @@
 // @generated from file sinew/v1/server.proto (package sinew.v1, syntax proto3)
 /* eslint-disable */
 
-import type { GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
-import { fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import type { GenEnum, GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
+import { enumDesc, fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
 import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
 import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import type { Timestamp } from "@bufbuild/protobuf/wkt";
@@ -15,7 +15,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/server.proto.
  */
 export const file_sinew_v1_server: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9zZXJ2ZXIucHJvdG8SCHNpbmV3LnYxIhYKFEdldFNlcnZlckluZm9SZXF1ZXN0IuYBChVHZXRTZXJ2ZXJJbmZvUmVzcG9uc2USDwoHdmVyc2lvbhgBIAEoCRIuCgpzdGFydF90aW1lGAIgASgLMhouZ29vZ2xlLnByb3RvYnVmLlRpbWVzdGFtcBISCgpmbGFnX25hbWVzGAMgAygJEhMKC3ZpZXdfZmllbGRzGAQgAygJEiYKDWJ1aWx0aW5fY2xpcHMYBSADKAlCD/pBDAoKc2luZXcvQ2xpcBIUCgxjYXBhYmlsaXRpZXMYBiADKAkSJQoGbGltaXRzGAcgAygLMhUuc2luZXcudjEuU2VydmVyTGltaXQiKgoLU2VydmVyTGltaXQSDAoEbmFtZRgBIAEoCRINCgV2YWx1ZRgCIAEoAyI8ChVHZXRTZXJ2ZXJTdGF0c1JlcXVlc3QSIwoFd29ybGQYASABKAlCFOJBAQH6QQ0KC3NpbmV3L1dvcmxkIrsBChZHZXRTZXJ2ZXJTdGF0c1Jlc3BvbnNlEiQKBndvcmxkcxgBIAMoCzIULnNpbmV3LnYxLldvcmxkU3RhdHMSGgoSd2F0Y2hfc3RyZWFtX2NvdW50GAIgASgFEhoKEmRyaXZlX3N0cmVhbV9jb3VudBgDIAEoBRIYChBzaW11bGF0aW9uX2NvdW50GAQgASgFEhMKC2J1ZGdldF91c2VkGAUgASgBEhQKDGJ1ZGdldF9saW1pdBgGIAEoASLzAQoKV29ybGRTdGF0cxIfCgV3b3JsZBgBIAEoCUIQ+kENCgtzaW5ldy9Xb3JsZBISCgp0aWNrX2NvdW50GAIgASgDEhUKDW92ZXJydW5fY291bnQYAyABKAMSFQoNc2tpcHBlZF9jb3VudBgEIAEoAxIVCg1yZWZ1c2VkX2NvdW50GAUgASgDEhsKE2Ryb3BwZWRfZnJhbWVfY291bnQYBiABKAMSFAoMdmlld2VyX2NvdW50GAcgASgFEhMKC2J1ZGdldF91c2VkGAggASgBEiMKBnN0YWdlcxgJIAMoCzITLnNpbmV3LnYxLlN0YWdlVGltZSJKCglTdGFnZVRpbWUSDQoFc3RhZ2UYASABKAkSDgoGcDUwX3VzGAIgASgBEg4KBnA5OV91cxgDIAEoARIOCgZtYXhfdXMYBCABKAEywgEKDVNlcnZlclNlcnZpY2USVgoNR2V0U2VydmVySW5mbxIeLnNpbmV3LnYxLkdldFNlcnZlckluZm9SZXF1ZXN0Gh8uc2luZXcudjEuR2V0U2VydmVySW5mb1Jlc3BvbnNlIgTo4BgGElkKDkdldFNlcnZlclN0YXRzEh8uc2luZXcudjEuR2V0U2VydmVyU3RhdHNSZXF1ZXN0GiAuc2luZXcudjEuR2V0U2VydmVyU3RhdHNSZXNwb25zZSIE6OAYBmIGcHJvdG8z", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_timestamp, file_sinew_v1_options]);
+  fileDesc("ChVzaW5ldy92MS9zZXJ2ZXIucHJvdG8SCHNpbmV3LnYxIhYKFEdldFNlcnZlckluZm9SZXF1ZXN0IrACChVHZXRTZXJ2ZXJJbmZvUmVzcG9uc2USDwoHdmVyc2lvbhgBIAEoCRIuCgpzdGFydF90aW1lGAIgASgLMhouZ29vZ2xlLnByb3RvYnVmLlRpbWVzdGFtcBISCgpmbGFnX25hbWVzGAMgAygJEhMKC3ZpZXdfZmllbGRzGAQgAygJEiYKDWJ1aWx0aW5fY2xpcHMYBSADKAlCD/pBDAoKc2luZXcvQ2xpcBIUCgxjYXBhYmlsaXRpZXMYBiADKAkSJQoGbGltaXRzGAcgAygLMhUuc2luZXcudjEuU2VydmVyTGltaXQSGQoRdGlja193b3JrZXJfY291bnQYCCABKAUSLQoNdGlja19wcmlvcml0eRgJIAEoDjIWLnNpbmV3LnYxLlRpY2tQcmlvcml0eSIqCgtTZXJ2ZXJMaW1pdBIMCgRuYW1lGAEgASgJEg0KBXZhbHVlGAIgASgDIjwKFUdldFNlcnZlclN0YXRzUmVxdWVzdBIjCgV3b3JsZBgBIAEoCUIU4kEBAfpBDQoLc2luZXcvV29ybGQiuwEKFkdldFNlcnZlclN0YXRzUmVzcG9uc2USJAoGd29ybGRzGAEgAygLMhQuc2luZXcudjEuV29ybGRTdGF0cxIaChJ3YXRjaF9zdHJlYW1fY291bnQYAiABKAUSGgoSZHJpdmVfc3RyZWFtX2NvdW50GAMgASgFEhgKEHNpbXVsYXRpb25fY291bnQYBCABKAUSEwoLYnVkZ2V0X3VzZWQYBSABKAESFAoMYnVkZ2V0X2xpbWl0GAYgASgBIvMBCgpXb3JsZFN0YXRzEh8KBXdvcmxkGAEgASgJQhD6QQ0KC3NpbmV3L1dvcmxkEhIKCnRpY2tfY291bnQYAiABKAMSFQoNb3ZlcnJ1bl9jb3VudBgDIAEoAxIVCg1za2lwcGVkX2NvdW50GAQgASgDEhUKDXJlZnVzZWRfY291bnQYBSABKAMSGwoTZHJvcHBlZF9mcmFtZV9jb3VudBgGIAEoAxIUCgx2aWV3ZXJfY291bnQYByABKAUSEwoLYnVkZ2V0X3VzZWQYCCABKAESIwoGc3RhZ2VzGAkgAygLMhMuc2luZXcudjEuU3RhZ2VUaW1lIkoKCVN0YWdlVGltZRINCgVzdGFnZRgBIAEoCRIOCgZwNTBfdXMYAiABKAESDgoGcDk5X3VzGAMgASgBEg4KBm1heF91cxgEIAEoASp2CgxUaWNrUHJpb3JpdHkSHQoZVElDS19QUklPUklUWV9VTlNQRUNJRklFRBAAEhYKElRJQ0tfUFJJT1JJVFlfRklGTxABEhYKElRJQ0tfUFJJT1JJVFlfTklDRRACEhcKE1RJQ0tfUFJJT1JJVFlfUExBSU4QAzLCAQoNU2VydmVyU2VydmljZRJWCg1HZXRTZXJ2ZXJJbmZvEh4uc2luZXcudjEuR2V0U2VydmVySW5mb1JlcXVlc3QaHy5zaW5ldy52MS5HZXRTZXJ2ZXJJbmZvUmVzcG9uc2UiBOjgGAYSWQoOR2V0U2VydmVyU3RhdHMSHy5zaW5ldy52MS5HZXRTZXJ2ZXJTdGF0c1JlcXVlc3QaIC5zaW5ldy52MS5HZXRTZXJ2ZXJTdGF0c1Jlc3BvbnNlIgTo4BgGYgZwcm90bzM", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_timestamp, file_sinew_v1_options]);
 
 /**
  * Asks for version and capabilities.
@@ -86,6 +86,20 @@ export type GetServerInfoResponse = Message<"sinew.v1.GetServerInfoResponse"> & 
    * @generated from field: repeated sinew.v1.ServerLimit limits = 7;
    */
   limits: ServerLimit[];
+
+  /**
+   * Workers that run short ticks of worlds; as many run long ones.
+   *
+   * @generated from field: int32 tick_worker_count = 8;
+   */
+  tickWorkerCount: number;
+
+  /**
+   * How urgent the system lets the workers of short ticks be.
+   *
+   * @generated from field: sinew.v1.TickPriority tick_priority = 9;
+   */
+  tickPriority: TickPriority;
 };
 
 /**
@@ -319,6 +333,47 @@ export type StageTime = Message<"sinew.v1.StageTime"> & {
  */
 export const StageTimeSchema: GenMessage<StageTime> = /*@__PURE__*/
   messageDesc(file_sinew_v1_server, 6);
+
+/**
+ * How urgent the threads of ticks are to the system.
+ *
+ * @generated from enum sinew.v1.TickPriority
+ */
+export enum TickPriority {
+  /**
+   * Not said.
+   *
+   * @generated from enum value: TICK_PRIORITY_UNSPECIFIED = 0;
+   */
+  UNSPECIFIED = 0,
+
+  /**
+   * Real time (`SCHED_FIFO`): before all threads that have none.
+   *
+   * @generated from enum value: TICK_PRIORITY_FIFO = 1;
+   */
+  FIFO = 1,
+
+  /**
+   * A lower nice value: a larger part of the processor, and sooner.
+   *
+   * @generated from enum value: TICK_PRIORITY_NICE = 2;
+   */
+  NICE = 2,
+
+  /**
+   * As any other thread.
+   *
+   * @generated from enum value: TICK_PRIORITY_PLAIN = 3;
+   */
+  PLAIN = 3,
+}
+
+/**
+ * Describes the enum sinew.v1.TickPriority.
+ */
+export const TickPrioritySchema: GenEnum<TickPriority> = /*@__PURE__*/
+  enumDesc(file_sinew_v1_server, 0);
 
 /**
  * The server itself.

@@ -1,7 +1,11 @@
 //! Settings of the server: defaults, then a TOML file, then environment variables, then flags. Checked as a whole
 //! before a port is bound, and printed.
 
+pub mod check;
+
 use super::durable::store::Durability;
+use super::tick::scheduler::Priority;
+use std::collections::BTreeMap;
 use std::net::SocketAddr;
 use std::path::Path;
 
@@ -25,14 +29,14 @@ pub enum ConfigError {
         error: toml::de::Error,
     },
     /// There is no such setting.
-    #[error("{source_name}: there is no setting {name:?}; settings are {known}")]
+    #[error("{source_name}: there is no setting {name:?}{hint}; `sinew config show` lists all")]
     Unknown {
         /// File, environment or flag.
         source_name: String,
         /// What was given.
         name: String,
-        /// All names.
-        known: String,
+        /// What may have been meant.
+        hint: String,
     },
     /// A value is not what the setting needs.
     #[error("{source_name}: {name} must be {expected}, got {value}")]
@@ -90,7 +94,13 @@ macro_rules! settings {
                 [$(settings!(@limit $kind, stringify!($name), self.$name)),*].into_iter().flatten().collect()
             }
 
-            fn set(&mut self, source_name: &str, name: &str, value: &toml::Value) -> Result<(), ConfigError> {
+            /// Returns the name of the setting.
+            fn set(
+                &mut self,
+                source_name: &str,
+                name: &str,
+                value: &toml::Value,
+            ) -> Result<&'static str, ConfigError> {
                 match name {
                     $(stringify!($name) => {
                         self.$name = settings!(@parse $kind, value, $least, $most).ok_or_else(|| ConfigError::Value {
@@ -99,17 +109,22 @@ macro_rules! settings {
                             expected: settings!(@expected $kind, $least, $most),
                             value: value.to_string(),
                         })?;
+                        Ok(stringify!($name))
                     })*
-                    _ => return Err(ConfigError::Unknown {
+                    _ => Err(ConfigError::Unknown {
                         source_name: source_name.to_owned(),
                         name: name.to_owned(),
-                        known: [$(stringify!($name)),*].join(", "),
+                        hint: hint(source_name, name),
                     }),
                 }
-                Ok(())
             }
 
-            fn set_text(&mut self, source_name: &str, name: &str, text: &str) -> Result<(), ConfigError> {
+            fn set_text(
+                &mut self,
+                source_name: &str,
+                name: &str,
+                text: &str,
+            ) -> Result<&'static str, ConfigError> {
                 let value = match name {
                     $(stringify!($name) => settings!(@text $kind, text),)*
                     _ => toml::Value::String(text.to_owned()),
@@ -118,7 +133,6 @@ macro_rules! settings {
             }
         }
 
-        #[cfg(test)]
         const NAMES: &[&str] = &[$(stringify!($name)),*];
     };
     (@type int) => { u64 };
@@ -151,6 +165,25 @@ macro_rules! settings {
     (@expected flag, $least:expr, $most:expr) => { "true or false".to_owned() };
     (@expected addr, $least:expr, $most:expr) => { "an address and port, for example 127.0.0.1:7463".to_owned() };
     (@expected text, $least:expr, $most:expr) => { "a text".to_owned() };
+}
+
+/// How alike a name must be to one that there is to have been meant, 0…1.
+const ALIKE: f64 = 0.7;
+
+/// The setting that a misspelt name may have meant, as its source writes it.
+fn hint(source_name: &str, name: &str) -> String {
+    let environment = source_name.strip_prefix(PREFIX).is_some();
+    let others = OTHER_VARIABLES.iter().filter(|_| environment);
+    let known = NAMES.iter().chain(others);
+    let alike = known.map(|k| (strsim::normalized_damerau_levenshtein(k, name), *k));
+    let nearest = alike.max_by(|a, b| a.0.total_cmp(&b.0));
+    match nearest.filter(|(alike, _)| *alike >= ALIKE) {
+        Some((_, nearest)) if environment => {
+            format!("; did you mean {PREFIX}{}?", nearest.to_uppercase())
+        }
+        Some((_, nearest)) => format!("; did you mean {nearest}?"),
+        None => String::new(),
+    }
 }
 
 /// A text as TOML would read it; what TOML does not know stays text.
@@ -231,8 +264,18 @@ settings! {
     otlp_call_share: float = 1.0, 0.0, 1.0;
     /// Share of ticks that are traced.
     otlp_tick_share: float = 0.001, 0.0, 1.0;
-    /// Worlds at a time; each has a thread of its own.
-    max_worlds: int = 16, 1, 256;
+    /// Worlds at a time; an empty one takes some 40 kB and 10 µs per tick.
+    max_worlds: int = 1024, 1, 100_000;
+    /// Workers that run short ticks, and again as many for long ones; 0: one less than there are processors, and at
+    /// least one.
+    tick_workers: int = 0, 0, 1024;
+    /// As urgent as the system shall take these threads to be, if it allows: `fifo` (real time, for short ticks),
+    /// `nice` or `plain`.
+    tick_priority: text = "fifo", (), ();
+    /// A tick that takes longer is reported, s.
+    slow_tick_s: float = 0.5, 0.001, 3600.0;
+    /// A tick that takes longer is given up, s: its world has failed, and another thread goes on with the others.
+    stuck_tick_s: float = 10.0, 0.01, 86_400.0;
     /// Figures in one world; 60 of them fill one core at 60 Hz.
     max_figures_per_world: int = 64, 1, 1000;
     /// Streams of frames and events at a time.
@@ -314,12 +357,38 @@ settings! {
     keepalive_s: float = 20.0, 1.0, 3600.0;
     /// How long a ping may go unanswered, s.
     keepalive_timeout_s: float = 10.0, 1.0, 3600.0;
-    /// How long the server goes on when it is told to shut down, s: health and `/ready` say that it ends, so that load
+    /// Age at which a connection is asked to close, give or take a tenth, s; 0: never. Behind a load balancer, so that
+    /// clients spread over servers.
+    max_connection_age_s: float = 0.0, 0.0, 604_800.0;
+    /// How long the streams of such a connection may go on before it is closed, s.
+    connection_age_grace_s: float = 30.0, 0.0, 86_400.0;
+    /// How long the server goes on when it is told to shut down, s: health and `/readyz` say that it ends, so that load
     /// balancers send nobody any more, and no new world is created.
     lame_duck_s: float = 1.0, 0.0, 600.0;
-    /// How long open streams get to end when the server shuts down, s.
+    /// How long calls that are worked on get to end when the server shuts down, and then connections to close, s.
     shutdown_grace_s: float = 5.0, 0.0, 600.0;
 }
+
+/// An address without user and parameters; any other text as it is.
+fn without_secrets(value: &str) -> String {
+    let Some((scheme, rest)) = value.split_once("://") else {
+        return value.to_owned();
+    };
+    let end = rest.find(['/', '?', '#']).unwrap_or(rest.len());
+    let (authority, path) = rest.split_at(end);
+    let host = match authority.rsplit_once('@') {
+        Some((_, host)) => format!("…@{host}"),
+        None => authority.to_owned(),
+    };
+    let path = match path.find(['?', '#']) {
+        Some(at) => format!("{}?…", &path[..at]),
+        None => path.to_owned(),
+    };
+    format!("{scheme}://{host}{path}")
+}
+
+/// Which settings are not the defaults, and what gave them their values.
+pub type Sources = BTreeMap<&'static str, String>;
 
 impl Config {
     /// Settings from all sources. `flags` are pairs of name and value, as `--set` gives them.
@@ -331,7 +400,20 @@ impl Config {
         environment: impl Iterator<Item = (String, String)>,
         flags: &[(String, String)],
     ) -> Result<Self, ConfigError> {
+        Self::load_with_sources(file, environment, flags).map(|(config, _)| config)
+    }
+
+    /// As [`Config::load`], with where each setting comes from.
+    ///
+    /// # Errors
+    /// What is wrong and where it was given.
+    pub fn load_with_sources(
+        file: Option<&Path>,
+        environment: impl Iterator<Item = (String, String)>,
+        flags: &[(String, String)],
+    ) -> Result<(Self, Sources), ConfigError> {
         let mut config = Self::default();
+        let mut sources = Sources::new();
         if let Some(path) = file {
             let name = path.display().to_string();
             let text = std::fs::read_to_string(path).map_err(|error| ConfigError::File {
@@ -343,19 +425,21 @@ impl Config {
                 error,
             })?;
             for (key, value) in &table {
-                config.set(&name, key, value)?;
+                sources.insert(config.set(&name, key, value)?, name.clone());
             }
         }
         for (key, value) in environment {
-            let Some(name) = key.strip_prefix("SINEW_").map(str::to_lowercase) else {
+            let Some(name) = key.strip_prefix(PREFIX).map(str::to_lowercase) else {
                 continue;
             };
             if !is_no_setting(&name) {
-                config.set_text(&key, &name, &value)?;
+                sources.insert(config.set_text(&key, &name, &value)?, key);
             }
         }
         for (name, value) in flags {
-            config.set_text(&format!("--set {name}"), &name.replace('-', "_"), value)?;
+            let flag = format!("--set {name}");
+            let name = config.set_text(&flag, &name.replace('-', "_"), value)?;
+            sources.insert(name, "flag".to_owned());
         }
         if Durability::by_name(&config.durability).is_none() {
             return Err(ConfigError::Value {
@@ -365,13 +449,30 @@ impl Config {
                 value: config.durability,
             });
         }
+        if Priority::by_name(&config.tick_priority).is_none() {
+            return Err(ConfigError::Value {
+                source_name: "settings".to_owned(),
+                name: "tick_priority",
+                expected: "fifo, nice or plain".to_owned(),
+                value: config.tick_priority,
+            });
+        }
         let no_traces = cfg!(not(feature = "otlp")) && !config.otlp_endpoint.is_empty();
         if no_traces {
             let needs = "a server that is built with the feature otlp";
             return Err(ConfigError::Incomplete("otlp_endpoint", needs));
         }
         config.check_access()?;
-        Ok(config)
+        Ok((config, sources))
+    }
+
+    /// As [`Config::table`], without what may be a secret: addresses with names, passwords or parameters in them.
+    pub fn shown(&self) -> Vec<(&'static str, &'static str, String)> {
+        let mut table = self.table();
+        for (_, _, value) in &mut table {
+            *value = without_secrets(value);
+        }
+        table
     }
 
     /// Checks that what strangers can reach is protected.
@@ -420,9 +521,12 @@ impl Config {
     }
 }
 
+/// What names of settings have in front of them in the environment.
+const PREFIX: &str = "SINEW_";
+
 /// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
 /// read.
-const OTHER_VARIABLES: [&str; 20] = [
+const OTHER_VARIABLES: [&str; 22] = [
     "config",
     "token",
     "bin",
@@ -443,6 +547,8 @@ const OTHER_VARIABLES: [&str; 20] = [
     "soak_ticks",
     "abuse_seconds",
     "chaos_seconds",
+    "fuzz_cases",
+    "soak_seconds",
 ];
 
 /// True for a variable that is no setting. Kubernetes sets `SINEW_SERVICE_…` and `SINEW_PORT…` in every container next
@@ -455,102 +561,4 @@ fn is_no_setting(name: &str) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn pair(a: &str, b: &str) -> (String, String) {
-        (a.to_owned(), b.to_owned())
-    }
-
-    #[test]
-    fn later_sources_win() {
-        let dir = std::env::temp_dir().join(format!("sinew-config-{}", std::process::id()));
-        std::fs::write(&dir, "max_worlds = 3\nmax_clips = 7\nkeepalive_s = 5").unwrap();
-        let config = Config::load(
-            Some(&dir),
-            [
-                pair("SINEW_MAX_WORLDS", "4"),
-                pair("SINEW_LOG", "debug"),
-                pair("SINEW_MOCAP_DIR", "x"),
-            ]
-            .into_iter(),
-            &[pair("max_worlds", "5")],
-        )
-        .unwrap();
-        std::fs::remove_file(&dir).unwrap();
-        assert_eq!((config.max_worlds, config.max_clips), (5, 7));
-        assert_eq!((config.keepalive_s, config.log.as_str()), (5.0, "debug"));
-    }
-
-    #[test]
-    fn the_example_files_are_true() {
-        let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("deploy/config");
-        let load = |name: &str| Config::load(Some(&dir.join(name)), std::iter::empty(), &[]);
-        assert_eq!(load("sinew.toml").unwrap(), Config::default());
-        let text = std::fs::read_to_string(dir.join("sinew.toml")).unwrap();
-        for name in NAMES {
-            assert!(
-                text.contains(&format!("\n{name} = ")),
-                "{name} is missing from the example"
-            );
-        }
-        assert!(load("container.toml").unwrap().insecure_bind_any);
-    }
-
-    #[test]
-    fn the_manual_lists_every_setting_with_its_words() {
-        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/operations.md");
-        let page = std::fs::read_to_string(page).unwrap();
-        for (name, words, _) in Config::default().table() {
-            let row = page
-                .lines()
-                .find(|l| l.starts_with(&format!("| `{name}` |")));
-            let row = row.unwrap_or_else(|| panic!("{name} is missing from the manual"));
-            assert!(row.contains(words.trim()), "{name}: {row}");
-        }
-    }
-
-    #[test]
-    fn mistakes_are_named() {
-        let load = |flags: &[(String, String)]| Config::load(None, std::iter::empty(), flags);
-        assert!(
-            load(&[pair("max_world", "5")])
-                .unwrap_err()
-                .to_string()
-                .contains("max_worlds")
-        );
-        assert!(
-            load(&[pair("max_worlds", "0")])
-                .unwrap_err()
-                .to_string()
-                .contains("1…256")
-        );
-        assert!(load(&[pair("max_worlds", "many")]).is_err());
-        let environment = |name: &str| Config::load(None, [pair(name, "5")].into_iter(), &[]);
-        let fault = environment("SINEW_MAX_WORLD").unwrap_err().to_string();
-        assert!(fault.contains("SINEW_MAX_WORLD") && fault.contains("max_worlds"));
-        let traced = load(&[pair("otlp_endpoint", "http://127.0.0.1:4317")]);
-        assert_eq!(traced.is_ok(), cfg!(feature = "otlp"));
-        for other in [
-            "SINEW_CONFIG",
-            "SINEW_MOCAP_DIR",
-            "SINEW_SERVICE_HOST",
-            "SINEW_PORT",
-            "SINEW_PORT_7463_TCP",
-            "HOME",
-        ] {
-            assert_eq!(environment(other).unwrap(), Config::default(), "{other}");
-        }
-        assert!(matches!(
-            load(&[pair("listen", "0.0.0.0:1")]),
-            Err(ConfigError::NotLoopback(_))
-        ));
-        assert!(
-            load(&[
-                pair("listen", "0.0.0.0:1"),
-                pair("insecure-bind-any", "true")
-            ])
-            .is_ok()
-        );
-    }
-}
+mod tests;

@@ -1,0 +1,212 @@
+//! `sinew bench`: loads a server by a schedule and reports how late its ticks and frames are.
+//!
+//! The load is open: what is to be sent has its time beforehand, and each delay is counted from that time, whether or
+//! not the server kept up. A server that stalls for a second is charged with that second by everything that was due in
+//! it (no coordinated omission).
+
+mod load;
+mod own;
+mod page;
+mod report;
+
+use super::args::CredentialArgs;
+use super::terminal::{note, print_line};
+use super::{explain, page::progress};
+use crate::client::Client;
+use crate::wire::pb;
+use anyhow::Context as _;
+use load::{Load, Schedule};
+use own::OwnServer;
+use page::Page;
+use report::Report;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Streams over one connection: below what servers and proxies allow.
+const STREAMS_PER_CONNECTION: usize = 64;
+/// Worlds that are created at a time.
+const AT_A_TIME: usize = 8;
+/// Time in which what was sent last can still be shown, s.
+const TAIL: Duration = Duration::from_secs(1);
+/// Time in which the server counts what it has measured.
+const COUNTING: Duration = Duration::from_millis(500);
+
+/// Arguments of `sinew bench`.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Args {
+    /// Server, host:port [default: one that is started for this, in a process of its own]
+    address: Option<String>,
+    /// Worlds
+    #[arg(long, default_value_t = 120, value_parser = clap::value_parser!(u32).range(1..=100_000), value_name = "N")]
+    worlds: u32,
+    /// Figures in each, driven live; 0: empty worlds
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=1000), value_name = "M")]
+    figures: u32,
+    /// Viewers of each
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=1000), value_name = "V")]
+    viewers: u32,
+    /// Frames of desired motion per second and driver
+    #[arg(long, default_value_t = 60.0, value_parser = between(1.0, 1000.0), value_name = "HZ")]
+    rate: f64,
+    /// Reads of the latest frame per second, of all worlds in turn; 0: none
+    #[arg(long, default_value_t = 50.0, value_parser = between(0.0, 100_000.0), value_name = "N")]
+    calls: f64,
+    /// Time that is measured, s
+    #[arg(long, default_value_t = 30.0, value_parser = between(1.0, 86_400.0), value_name = "S")]
+    seconds: f64,
+    /// Time before that, s
+    #[arg(long, default_value_t = 5.0, value_parser = between(0.0, 3600.0), value_name = "S")]
+    warm_up: f64,
+    /// Playout delay of the drivers, ms: it is part of what is measured
+    #[arg(long, default_value_t = 0.0, value_parser = between(0.0, 2000.0), value_name = "MS")]
+    playout: f64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// A setting of the server that is started (repeatable)
+    #[arg(long = "set", value_name = "NAME=VALUE", conflicts_with = "address")]
+    set: Vec<String>,
+    #[command(flatten)]
+    credentials: CredentialArgs,
+}
+
+/// Parses a number within limits.
+fn between(least: f64, most: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| {
+        let value = text
+            .parse::<f64>()
+            .ok()
+            .filter(|v| (least..=most).contains(v));
+        value.ok_or_else(|| format!("expected a number in {least}…{most}"))
+    }
+}
+
+/// Loads the server, prints what was measured, and takes away what it made.
+///
+/// # Errors
+/// No server, a world that cannot be created, or nothing that was measured.
+pub fn run(args: &Args) -> anyhow::Result<()> {
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .enable_all()
+        .build()?;
+    runtime.block_on(async {
+        let own = match &args.address {
+            None => Some(OwnServer::start(args)?),
+            Some(_) => None,
+        };
+        let address = match (&own, &args.address) {
+            (Some(own), _) => own.address(),
+            (None, Some(address)) => address,
+            (None, None) => unreachable!("one of both is there"),
+        };
+        let report = bench(args, address).await;
+        drop(own);
+        let report = report?;
+        if args.json {
+            print_line(&serde_json::to_string_pretty(&report)?)
+        } else {
+            print_line(&report.text())
+        }
+    })
+}
+
+async fn bench(args: &Args, address: &str) -> anyhow::Result<Report> {
+    let streams = args.worlds as usize * (args.viewers as usize + usize::from(args.figures > 0));
+    let mut clients = Vec::new();
+    for _ in 0..streams.div_ceil(STREAMS_PER_CONNECTION).max(1) {
+        clients.push(args.credentials.connect(address).await?);
+    }
+    let names: Vec<String> = (0..args.worlds)
+        .map(|i| format!("bench-{}-{i}", std::process::id()))
+        .collect();
+    let made = create(args, &clients[0], &names).await;
+    let measured = match made {
+        Ok(()) => measure(args, &clients, &names).await,
+        Err(e) => Err(e),
+    };
+    if args.address.is_some() {
+        delete(&clients[0], &names).await;
+    }
+    measured
+}
+
+/// Makes worlds and figures.
+async fn create(args: &Args, client: &Client, names: &[String]) -> anyhow::Result<()> {
+    let bar = progress("worlds", names.len() as u64);
+    for some in names.chunks(AT_A_TIME) {
+        let bar = &bar;
+        let made = some.iter().map(|id| async move {
+            let request = pb::CreateWorldRequest {
+                world_id: id.clone(),
+                ..Default::default()
+            };
+            client.worlds().create_world(request).await?;
+            for i in 0..args.figures {
+                let request = pb::CreateFigureRequest {
+                    parent: format!("worlds/{id}"),
+                    figure_id: load::figure(i),
+                    ..Default::default()
+                };
+                client.figures().create_figure(request).await?;
+            }
+            bar.inc(1);
+            Ok::<_, tonic::Status>(())
+        });
+        for made in futures_util::future::join_all(made).await {
+            made.map_err(|e| explain(&e))
+                .with_context(|| format!("making {} worlds", names.len()))?;
+        }
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+/// Takes the worlds away again.
+async fn delete(client: &Client, names: &[String]) {
+    for some in names.chunks(AT_A_TIME) {
+        let gone = some.iter().map(|id| async move {
+            let name = format!("worlds/{id}");
+            client
+                .worlds()
+                .delete_world(pb::DeleteWorldRequest {
+                    name,
+                    ..Default::default()
+                })
+                .await
+        });
+        // Those that were not made are not there.
+        futures_util::future::join_all(gone).await;
+    }
+}
+
+async fn measure(args: &Args, clients: &[Client], names: &[String]) -> anyhow::Result<Report> {
+    let load = Arc::new(Load::new(Schedule {
+        warm_up: Duration::from_secs_f64(args.warm_up),
+        length: Duration::from_secs_f64(args.seconds),
+    })?);
+    let page = async || Page::read(&clients[0]).await;
+    page().await?; // a server without metrics is told at once
+    let work = load::start(&load, args, clients, names).await?;
+    let window = load.window();
+    tokio::time::sleep_until(window.start.into()).await;
+    let before = page().await?;
+    let bar = progress("measuring", args.seconds.ceil() as u64);
+    while !bar.is_finished() {
+        let left = window.end.saturating_duration_since(Instant::now());
+        tokio::time::sleep(left.min(Duration::from_secs(1))).await;
+        bar.inc(1);
+        if left.is_zero() {
+            bar.finish_and_clear();
+        }
+    }
+    tokio::time::sleep(COUNTING).await;
+    let after = page().await?;
+    tokio::time::sleep(TAIL.saturating_sub(COUNTING)).await;
+    load.stop();
+    for task in work {
+        if let Err(e) = task.await {
+            note(&format!("warning: a part of the load ended: {e}"));
+        }
+    }
+    Report::new(args, &load, &before, &after)
+}

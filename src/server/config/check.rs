@@ -1,0 +1,91 @@
+//! Whether what the settings name can be used: files, directories, addresses. Nothing is changed.
+
+use super::Config;
+use crate::server::access::keys::KeySource;
+use crate::server::access::tls::Tls;
+use crate::server::access::tokens::read_secret;
+use crate::server::durable::local::LocalStore;
+use crate::server::telemetry;
+use std::net::TcpListener;
+use std::path::Path;
+
+/// What is wrong, by setting.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Name of the setting.
+    pub setting: &'static str,
+    /// What is wrong with it.
+    pub what: String,
+}
+
+/// Everything that is wrong. An address of keys is asked for them; nothing else leaves this machine.
+pub async fn problems(config: &Config) -> Vec<Problem> {
+    let mut all = Vec::new();
+    let mut check = |setting: &'static str, result: Result<(), String>| {
+        if let Err(what) = result {
+            // What is told already begins with its setting.
+            let what = what.strip_prefix(&format!("{setting}: ")).unwrap_or(&what);
+            let what = super::without_secrets(what);
+            all.push(Problem { setting, what });
+        }
+    };
+    let tls = Tls::new(config).map(|_| ());
+    check(
+        named_in(&tls, &["tls_client_ca", "tls_key", "tls_cert"]),
+        tls,
+    );
+    if !config.jwt_secret_file.is_empty() {
+        check(
+            "jwt_secret_file",
+            read_secret(Path::new(&config.jwt_secret_file)).map(|_| ()),
+        );
+    }
+    if !config.jwt_keys.is_empty() {
+        check("jwt_keys", keys(config).await);
+    }
+    check("log", telemetry::log_filter(config).map(|_| ()));
+    check("data_dir", directory(&config.data_dir));
+    let free = TcpListener::bind(config.listen);
+    check(
+        "listen",
+        free.map(|_| ())
+            .map_err(|e| format!("{}: {e}", config.listen)),
+    );
+    all
+}
+
+/// The setting that a message is about: it begins with its name.
+fn named_in(result: &Result<(), String>, names: &[&'static str]) -> &'static str {
+    let Err(message) = result else {
+        return names[names.len() - 1];
+    };
+    let named = names.iter().find(|n| message.starts_with(**n));
+    named.copied().unwrap_or(names[names.len() - 1])
+}
+
+async fn keys(config: &Config) -> Result<(), String> {
+    KeySource::new(config)?.try_fetch().await
+}
+
+/// Whether worlds can be kept there. A server that runs may have it.
+fn directory(dir: &str) -> Result<(), String> {
+    if dir.is_empty() {
+        return Ok(());
+    }
+    let path = Path::new(dir);
+    // One that is not there yet is made in the nearest that is.
+    let there = path
+        .ancestors()
+        .find(|p| p.exists() || p.as_os_str().is_empty());
+    let there = match there {
+        Some(p) if !p.as_os_str().is_empty() => p,
+        _ => Path::new("."),
+    };
+    if !there.is_dir() {
+        return Err(format!("{}: is no directory", there.display()));
+    }
+    let probe = there.join(format!(".sinew-check-{}", std::process::id()));
+    let written = std::fs::write(&probe, b"").and_then(|()| std::fs::remove_file(&probe));
+    written.map_err(|e| format!("{}: cannot be written to: {e}", there.display()))?;
+    LocalStore::check_format(path).map_err(|e| e.to_string())
+}

@@ -1,0 +1,59 @@
+//! What probes are told over `grpc.health.v1`. `/livez` and `/readyz` say the same.
+//!
+//! The empty name and `readiness` say whether new clients are welcome; `liveness` whether the process answers; the name
+//! of a service whether that one does.
+
+use super::api::{self, App};
+use std::time::Duration;
+use tonic_health::ServingStatus::{self, NotServing, Serving};
+use tonic_health::server::HealthReporter;
+
+/// Answers as long as the process does.
+pub const LIVENESS: &str = "liveness";
+/// New clients are welcome.
+pub const READINESS: &str = "readiness";
+/// Names that say whether new clients are welcome.
+const READY: [&str; 2] = ["", READINESS];
+/// How often readiness is looked at.
+const EVERY: Duration = Duration::from_millis(250);
+
+/// Tells the health service.
+#[derive(Clone)]
+pub(super) struct Health(HealthReporter);
+
+impl Health {
+    /// Everything serves.
+    pub(super) async fn new(reporter: HealthReporter) -> Self {
+        let health = Self(reporter);
+        health.set(&[LIVENESS], Serving).await;
+        health.set(&READY, Serving).await;
+        health.set(&api::SERVICE_NAMES, Serving).await;
+        health
+    }
+
+    async fn set(&self, names: &[&str], status: ServingStatus) {
+        for name in names {
+            self.0.set_service_status(*name, status).await;
+        }
+    }
+
+    /// Follows the readiness of the server; never ends.
+    pub(super) async fn follow(&self, app: &App) {
+        let mut before = true;
+        loop {
+            tokio::time::sleep(EVERY).await;
+            let ready = app.unready().is_none();
+            if ready != before {
+                let status = if ready { Serving } else { NotServing };
+                self.set(&READY, status).await;
+                before = ready;
+            }
+        }
+    }
+
+    /// Nothing serves for long any more. The server must say that it is not ready before.
+    pub(super) async fn end(&self) {
+        self.set(&READY, NotServing).await;
+        self.set(&api::SERVICE_NAMES, NotServing).await;
+    }
+}

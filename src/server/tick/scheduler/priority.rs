@@ -1,0 +1,158 @@
+//! How urgent the threads of ticks are to the system: as urgent as it allows.
+
+use std::fmt;
+
+/// What a thread has been given, the most urgent first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Priority {
+    /// First in, first out, before all threads that have no real-time priority.
+    Fifo,
+    /// A larger part of the processor, and sooner.
+    Nice,
+    /// As any other thread.
+    Plain,
+}
+
+impl Priority {
+    /// By the name that the setting `tick_priority` gives it.
+    pub fn by_name(name: &str) -> Option<Self> {
+        [Self::Fifo, Self::Nice, Self::Plain]
+            .into_iter()
+            .find(|p| p.to_string() == name)
+    }
+}
+
+impl fmt::Display for Priority {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fifo => "fifo",
+            Self::Nice => "nice",
+            Self::Plain => "plain",
+        })
+    }
+}
+
+/// What a thread of this module does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Duty {
+    /// Watches over the others.
+    Watch,
+    /// Ticks that take little time.
+    Short,
+    /// Ticks that take long, and ticks that nobody waits for on a clock. Never in real time: they could keep the
+    /// network from being served.
+    Long,
+}
+
+#[cfg(target_os = "linux")]
+mod linux {
+    use super::{Duty, Priority};
+    use std::num::NonZeroU64;
+    use thread_priority::{
+        NormalThreadSchedulePolicy, RealtimeThreadSchedulePolicy, ThreadPriority,
+        ThreadSchedulePolicy, set_thread_priority_and_policy, thread_native_id,
+        thread_schedule_policy,
+    };
+
+    /// A thread, for others that change its priority while it lives.
+    #[derive(Clone, Copy, Debug)]
+    pub(in super::super) struct Id {
+        posix: thread_priority::ThreadId,
+        system: rustix::process::Pid,
+    }
+
+    impl Id {
+        /// This thread.
+        pub fn own() -> Self {
+            Self {
+                posix: thread_native_id(),
+                system: rustix::thread::gettid(),
+            }
+        }
+    }
+
+    const FIFO: ThreadSchedulePolicy =
+        ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
+
+    const OTHER: ThreadSchedulePolicy =
+        ThreadSchedulePolicy::Normal(NormalThreadSchedulePolicy::Other);
+
+    fn fifo(duty: Duty) -> bool {
+        let level = match duty {
+            Duty::Watch => 51_u8,
+            Duty::Short => 50,
+            Duty::Long => return false,
+        };
+        let level = ThreadPriority::try_from(level);
+        level.is_ok_and(|l| set_thread_priority_and_policy(thread_native_id(), l, FIFO).is_ok())
+    }
+
+    /// Makes this thread as urgent as it may be, but no more than `most`. Returns what it has become.
+    pub(in super::super) fn raise(duty: Duty, most: Priority) -> Priority {
+        // Waits end when they should, not up to 50 µs later.
+        if let Err(e) = rustix::thread::set_current_timer_slack(NonZeroU64::new(1)) {
+            tracing::debug!("the timers of a thread stay coarse: {e}");
+        }
+        if most == Priority::Fifo && fifo(duty) {
+            return Priority::Fifo;
+        }
+        let own = Some(rustix::thread::gettid());
+        // Threads inherit from the one that starts them.
+        if let Ok(ThreadSchedulePolicy::Realtime(_)) = thread_schedule_policy() {
+            let done =
+                set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Min, OTHER);
+            tracing::debug!(?done, "a thread is in real time no more");
+            let _ = rustix::process::setpriority_process(own, 0); // less urgent is always allowed
+        }
+        let level = if duty == Duty::Long { -5 } else { -10 };
+        if most <= Priority::Nice && rustix::process::setpriority_process(own, level).is_ok() {
+            return Priority::Nice;
+        }
+        Priority::Plain
+    }
+
+    /// Makes a thread that still lives the least urgent of all: it does not end its work and must not keep others from
+    /// theirs.
+    pub(in super::super) fn lower(id: Id, had: Priority) {
+        const IDLE: ThreadSchedulePolicy =
+            ThreadSchedulePolicy::Normal(NormalThreadSchedulePolicy::Idle);
+        if had == Priority::Fifo
+            && let Err(e) = set_thread_priority_and_policy(id.posix, ThreadPriority::Min, IDLE)
+        {
+            tracing::debug!("a thread that hangs keeps its priority: {e:?}");
+        }
+        if let Err(e) = rustix::process::setpriority_process(Some(id.system), 19) {
+            tracing::debug!("a thread that hangs keeps its priority: {e}");
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+pub(super) use linux::{Id, lower, raise};
+
+#[cfg(not(target_os = "linux"))]
+mod other {
+    use super::{Duty, Priority};
+
+    /// A thread.
+    #[derive(Clone, Copy, Debug)]
+    pub(in super::super) struct Id;
+
+    impl Id {
+        /// This thread.
+        pub fn own() -> Self {
+            Self
+        }
+    }
+
+    /// Threads stay as they are.
+    pub(in super::super) fn raise(_: Duty, _: Priority) -> Priority {
+        Priority::Plain
+    }
+
+    /// Threads stay as they are.
+    pub(in super::super) fn lower(_: Id, _: Priority) {}
+}
+
+#[cfg(not(target_os = "linux"))]
+pub(super) use other::{Id, lower, raise};

@@ -1,0 +1,111 @@
+//! Looks after rounds that do not end: reports them, then gives their worlds up, and lets a fresh thread go on with the
+//! others.
+//!
+//! Time counts while this thread runs: after a pause of the whole process nobody is taken for stuck.
+
+use super::priority::{self, Duty};
+use super::{Shared, lock};
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Weak};
+use std::thread;
+use std::time::Duration;
+
+/// Parts of the shorter limit in which it looks.
+const LOOKS: u32 = 8;
+/// Least and most time between two looks.
+const EVERY: (Duration, Duration) = (Duration::from_millis(1), Duration::from_millis(250));
+
+/// What it saw of one seat.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seen {
+    round: u64,
+    /// For how long it has seen this round.
+    time: Duration,
+    reported: bool,
+}
+
+/// Starts it. It ends with the scheduler.
+pub(super) fn start(shared: &Arc<Shared>) -> std::io::Result<()> {
+    let (slow, stuck) = (shared.plan.slow, shared.plan.stuck);
+    let every = (slow.min(stuck) / LOOKS).clamp(EVERY.0, EVERY.1);
+    let most = shared.plan.priority;
+    let shared = Arc::downgrade(shared);
+    let builder = thread::Builder::new().name("watchdog".into());
+    builder
+        .spawn(move || {
+            priority::raise(Duty::Watch, most);
+            watch(&shared, every);
+        })
+        .map(|_| ())
+}
+
+#[allow(
+    clippy::disallowed_methods,
+    reason = "it looks at regular times, and nobody waits for it"
+)]
+fn watch(shared: &Weak<Shared>, every: Duration) {
+    let mut seen: Vec<Seen> = Vec::new();
+    loop {
+        thread::sleep(every);
+        let Some(shared) = shared.upgrade() else {
+            return;
+        };
+        if shared.ending.load(Ordering::SeqCst) {
+            return;
+        }
+        seen.resize(shared.seats.len(), Seen::default());
+        for (seat, seen) in seen.iter_mut().enumerate() {
+            look(&shared, seat, seen, every);
+        }
+    }
+}
+
+fn look(shared: &Arc<Shared>, seat: usize, seen: &mut Seen, every: Duration) {
+    let mut queue = lock(&shared.seats[seat].queue);
+    let Some(slot) = queue.running.clone() else {
+        *seen = Seen::default();
+        return;
+    };
+    if queue.rounds != seen.round {
+        *seen = Seen {
+            round: queue.rounds,
+            ..Seen::default()
+        };
+        return;
+    }
+    seen.time += every;
+    let tick = slot.outside.outlet.latest.borrow().tick + 1;
+    let (world, seconds) = (&*slot.world, seen.time.as_secs_f64());
+    if seen.time >= shared.plan.stuck {
+        // The thread keeps this world. It sees at its end that it has no seat any more.
+        let lost = queue.epoch;
+        queue.running = None;
+        queue.epoch = 0;
+        drop(queue);
+        let mut stuck = lock(&shared.stuck);
+        stuck.push((lost, slot.world.clone()));
+        metrics::gauge!("sinew_stuck_worlds").set(stuck.len() as f64);
+        drop(stuck);
+        metrics::counter!("sinew_slow_ticks_total").increment(1);
+        tracing::error!(
+            world,
+            tick,
+            seconds,
+            "a tick does not end: the world is given up"
+        );
+        slot.give_up(&format!("tick {tick} did not end within {seconds:.1} s"));
+        if let Err(error) = shared.clone().spawn(seat) {
+            tracing::error!(%error, "no thread in place of one that does not come back");
+        }
+        *seen = Seen::default();
+    } else if seen.time >= shared.plan.slow && !seen.reported {
+        seen.reported = true;
+        if let Some((thread, had)) = queue.thread {
+            // It has the seat, so it lives. In real time it could keep all others from theirs.
+            priority::lower(thread, had);
+            queue.lowered = true;
+        }
+        drop(queue);
+        tracing::warn!(world, tick, seconds, "a tick takes long");
+    }
+}
