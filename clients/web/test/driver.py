@@ -17,9 +17,11 @@ parser.add_argument("world")
 parser.add_argument("figure")
 parser.add_argument("recording", help="a BVH file of somebody who walks")
 parser.add_argument("--token", required=True)
+parser.add_argument("--ca", required=True)
 parser.add_argument("--to", required=True, help="who gets the lease")
 parser.add_argument("--after", type=float, required=True, help="when it is offered, s")
 parser.add_argument("--window-ms", type=float, required=True)
+parser.add_argument("--playout-ms", type=float, required=True)
 parser.add_argument("--frames", required=True, help="file that the motion is written to, as the other driver sends it")
 args = parser.parse_args()
 
@@ -28,7 +30,7 @@ def say(**what: object) -> None:
     print(json.dumps(what), flush=True)
 
 
-with sinew.Client(args.address, token=args.token) as client:
+with sinew.Client(args.address, token=args.token, ca=args.ca) as client:
     motion = client.upload_bvh(args.recording, name="cleo-walk").motion()
     with open(args.frames, "w") as file:
         json.dump([json_format.MessageToDict(motion.pose(i).message()) for i in range(len(motion))], file)
@@ -43,6 +45,7 @@ with sinew.Client(args.address, token=args.token) as client:
             args.figure,
             rate_hz=motion.rate_hz,
             window_ms=args.window_ms,
+            playout_delay_ms=args.playout_ms,
             reset=True,
             control_tokens=[lease.control_token],
         ) as drive:

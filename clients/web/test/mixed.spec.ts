@@ -18,6 +18,8 @@ import { expect, live, program, root, shot, Sinew, test } from "./support.js";
 
 /** How far behind the newest frame motion is prepared, ms: both drivers the same, so that one can take over. */
 const WINDOW_MS = 500;
+/** How long frames may be on their way, ms: likewise. */
+const PLAYOUT_MS = 150;
 /** When the walk is handed over, s: its figure is on one foot. */
 const AFTER_S = 2.2;
 
@@ -50,6 +52,10 @@ class Lines {
   }
 }
 
+// The certificate is our own: Python and grpcurl are given it, the browser and Node cannot be.
+test.use({ ignoreHTTPSErrors: true });
+process.env.NODE_TLS_REJECT_UNAUTHORIZED = "0";
+
 test("strangers share a world from four kinds of clients, and a walk is handed over", async ({ page, server }) => {
   const work = mkdtempSync(join(tmpdir(), "sinew-mixed-"));
   const key = join(work, "key");
@@ -57,7 +63,17 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     execFileSync(program, ["token", "--key", key, "--for", name, ...roles], { encoding: "utf8" }).trim();
   execFileSync(program, ["token", "--key", key, "--new-key"]);
   const config = join(work, "sinew.toml");
-  writeFileSync(config, `jwt_secret_file = "${key}"\nmax_client_calls_per_s = 200\n`);
+  const ca = join(work, "server.pem");
+  const tls = join(work, "server.key");
+  execFileSync("openssl", [
+    ...["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "1"],
+    ...["-subj", "/CN=sinew", "-addext", "basicConstraints=critical,CA:FALSE"],
+    ...["-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1", "-keyout", tls, "-out", ca],
+  ]);
+  writeFileSync(
+    config,
+    `jwt_secret_file = "${key}"\ntls_cert = "${ca}"\ntls_key = "${tls}"\nmax_client_calls_per_s = 200\n`,
+  );
   await server.start("--no-demo", "--config", config);
   const url = server.url.replace(/\/$/, "");
   const tokens = {
@@ -105,7 +121,7 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
       })(),
     ].map((stream) => stream.catch((e: unknown) => (over.signal.aborted ? undefined : Promise.reject(e as Error))));
     const call = (name: keyof typeof tokens, method: string, request: object, ...options: string[]): string[] => [
-      ...["-plaintext", "-H", `authorization: Bearer ${tokens[name]}`, ...options, "-d", JSON.stringify(request)],
+      ...["-cacert", ca, "-H", `authorization: Bearer ${tokens[name]}`, ...options, "-d", JSON.stringify(request)],
       ...[server.address, `sinew.v1.${method}`],
     ];
     const watcher = spawn(grpcurl, call("vic", "StateService/WatchWorld", { world }), {
@@ -123,9 +139,9 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     const walk = join(root, "tests/corpus/walk-normal.vrm.bvh");
     const driver = spawn(
       python,
-      [join(root, "clients/web/test/driver.py"), server.address, "studio", "anna", walk].concat(
-        ["--token", tokens.cleo, "--to", "user:dora", "--after", String(AFTER_S)],
-        ["--window-ms", String(WINDOW_MS), "--frames", frames],
+      [join(root, "clients/web/test/driver.py"), url, "studio", "anna", walk].concat(
+        ["--token", tokens.cleo, "--ca", ca, "--to", "user:dora", "--after", String(AFTER_S)],
+        ["--window-ms", String(WINDOW_MS), "--playout-ms", String(PLAYOUT_MS), "--frames", frames],
       ),
       { stdio: ["ignore", "pipe", "inherit"] },
     );
@@ -145,7 +161,7 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     ): Promise<void> => {
       const header = {
         ...{ world, figureIds: [figureId], driverId: `dora-${figureId}`, nominalRateHz: 60, controlTokens },
-        ...{ playoutDelayMs: 150, preparationWindowMs: windowMs, holdLimitMs: 600_000, graceMs: 60_000 },
+        ...{ playoutDelayMs: PLAYOUT_MS, preparationWindowMs: windowMs, holdLimitMs: 600_000, graceMs: 60_000 },
       };
       const begun = performance.now();
       for (let sent = 0; !over.signal.aborted; await sleep(30)) {
@@ -195,7 +211,11 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     ];
     for (const refused of await Promise.all(hostile.map(refusal)))
       expect(refused).toBe("PermissionDenied ROLE_REQUIRED");
-    const flood = Array.from({ length: 2000 }, () => refusal(eve.worlds.getWorld({ name: world })));
+    const flood = Array.from({ length: 20 }, async () => {
+      const seen = new Set<string>();
+      for (let i = 0; i < 100; i++) seen.add(await refusal(eve.worlds.getWorld({ name: world })));
+      return [...seen];
+    });
     const garbage = Array.from({ length: 50 }, () =>
       fetch(`${url}/sinew.v1.MotionService/PushMotion`, {
         method: "POST",
@@ -217,7 +237,10 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     await sleep(2000);
     await shot(page, "mixed-clients");
 
-    expect([...new Set(await Promise.all(flood))].sort()).toEqual(["ResourceExhausted LIMIT_REACHED", "nothing"]);
+    expect([...new Set((await Promise.all(flood)).flat())].sort()).toEqual([
+      "ResourceExhausted LIMIT_REACHED",
+      "nothing",
+    ]);
     for (const answer of await Promise.all(garbage)) expect(answer.headers.get("grpc-status") ?? "200").not.toBe("13");
 
     // Nobody fell, and those who drive were told what happened.
