@@ -172,10 +172,6 @@ pub async fn serve(
     if let Some(traces) = traces {
         traces.close().await;
     }
-    #[cfg(feature = "otlp")]
-    if let Some(traces) = traces {
-        traces.close().await;
-    }
     tracing::info!("stopped");
     Ok(())
 }
