@@ -30,6 +30,20 @@ fn ball() -> pb::Obstacle {
     }
 }
 
+/// A frame of a clip.
+fn lifted(i: i64) -> Vec<pb::FigureMotion> {
+    let mut figures = arm_frame("", i).figures;
+    figures[0].root = Some(pb::Pose {
+        position_m: Some(pb::Vector3 {
+            x: 0.0,
+            y: 0.0,
+            z: 0.95,
+        }),
+        rotation: None,
+    });
+    figures
+}
+
 impl TestServer {
     async fn worlds(&self) -> Vec<String> {
         let request = pb::ListWorldsRequest::default();
@@ -338,7 +352,7 @@ async fn a_mask_says_what_an_update_takes() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn trying_out_answers_and_changes_nothing() {
-    let server = TestServer::with(&[("max_worlds", "2")]).await;
+    let server = TestServer::start().await;
     let world = server.paused_world("w").await;
     let figure = server.figure(&world, "a").await;
     let ball = server.ball(&world, "ball").await;
@@ -463,12 +477,10 @@ async fn trying_out_answers_and_changes_nothing() {
     assert_eq!(none.unwrap_err().code(), Code::NotFound);
 
     let clip = |frames: usize| pb::CreateClipRequest {
-        clip_id: "lift".into(),
+        clip_id: "raised".into(),
         source: Some(pb::create_clip_request::Source::Frames(pb::FrameSource {
             rate_hz: 60.0,
-            frames: (0..frames as i64)
-                .flat_map(|i| arm_frame("", i).figures)
-                .collect(),
+            frames: (0..frames as i64).flat_map(lifted).collect(),
         })),
         validate_only: true,
         ..Default::default()
@@ -479,7 +491,7 @@ async fn trying_out_answers_and_changes_nothing() {
     let bad = c.motions().create_clip(clip(1)).await.unwrap_err();
     assert_eq!(bad.code(), Code::InvalidArgument);
     let get = pb::GetClipRequest {
-        name: "clips/lift".into(),
+        name: "clips/raised".into(),
     };
     assert_eq!(
         c.motions().get_clip(get).await.unwrap_err().code(),
@@ -608,5 +620,41 @@ async fn a_world_that_nobody_uses_ends_and_says_so() {
         assert!(begun.elapsed() < Duration::from_secs(30));
         tokio::time::sleep(Duration::from_millis(100)).await;
     }
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_etag_outlives_the_server_that_stores_its_world() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("etags");
+    let _ = std::fs::remove_dir_all(&folder); // of an earlier run
+    let settings = [("data_dir", folder.to_str().unwrap())];
+    let server = TestServer::with(&settings).await;
+    let given = pb::World {
+        display_name: "studio".into(),
+        idle_ttl: Some(prost_types::Duration {
+            seconds: 600,
+            nanos: 0,
+        }),
+        ..Default::default()
+    };
+    let world = server.world("w", true, given).await;
+    let figure = server.figure(&world, "a").await;
+    let ball = server.ball(&world, "ball").await;
+    let before = server.get_world(&world).await;
+    server.stop().await;
+
+    let server = TestServer::with(&settings).await;
+    server.app.restore().await;
+    let after = server.get_world(&world).await;
+    assert_eq!(
+        (after.idle_ttl, &after.etag),
+        (before.idle_ttl, &before.etag)
+    );
+    assert_eq!(server.look(&figure.name).await.etag, figure.etag);
+    let get = pb::GetObstacleRequest {
+        name: ball.name.clone(),
+    };
+    let found = server.client.obstacles().get_obstacle(get).await.unwrap();
+    assert_eq!(found.into_inner().obstacle.unwrap().etag, ball.etag);
     server.stop().await;
 }

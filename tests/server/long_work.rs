@@ -13,10 +13,24 @@ fn lift(id: &str, frames: i64) -> pb::CreateClipRequest {
         clip_id: id.into(),
         source: Some(pb::create_clip_request::Source::Frames(pb::FrameSource {
             rate_hz: 60.0,
-            frames: (0..frames).flat_map(|i| arm_frame("", i).figures).collect(),
+            frames: (0..frames).flat_map(lifted).collect(),
         })),
         ..Default::default()
     }
+}
+
+/// A frame of a clip.
+fn lifted(i: i64) -> Vec<pb::FigureMotion> {
+    let mut figures = arm_frame("", i).figures;
+    figures[0].root = Some(pb::Pose {
+        position_m: Some(pb::Vector3 {
+            x: 0.0,
+            y: 0.0,
+            z: 0.95,
+        }),
+        rotation: None,
+    });
+    figures
 }
 
 fn simulation(duration_s: f64) -> pb::SimulateClipRequest {
@@ -64,7 +78,7 @@ impl TestServer {
 async fn operations_end_with_what_the_call_would_have_answered() {
     let server = TestServer::start().await;
     let made = server
-        .start_operation(Work::CreateClip(lift("lift", 60)))
+        .start_operation(Work::CreateClip(lift("raised", 60)))
         .await;
     assert_eq!(made.name, "operations/operation-1");
     let simulated = server
@@ -76,7 +90,7 @@ async fn operations_end_with_what_the_call_would_have_answered() {
     let Some(Done::CreateClip(clip)) = &made.result else {
         panic!("{made:?}");
     };
-    assert_eq!(clip.clip.as_ref().unwrap().name, "clips/lift");
+    assert_eq!(clip.clip.as_ref().unwrap().name, "clips/raised");
     let simulated = server.wait_operation(&simulated.name, 60).await;
     let Some(Done::SimulateClip(result)) = &simulated.result else {
         panic!("{simulated:?}");
@@ -94,7 +108,7 @@ async fn operations_end_with_what_the_call_would_have_answered() {
 
     // What fails says why, as the call would have.
     let taken = server
-        .start_operation(Work::CreateClip(lift("lift", 60)))
+        .start_operation(Work::CreateClip(lift("raised", 60)))
         .await;
     let taken = server.wait_operation(&taken.name, 60).await;
     assert_eq!(taken.state(), pb::OperationState::Failed);
@@ -304,7 +318,7 @@ async fn a_stream_that_is_left_gives_its_work_up() {
     assert!(after.is_ok(), "the only worker is free again: {after:?}");
 
     let stream = pb::StreamCreateClipRequest {
-        create_clip: Some(lift("lift", 60)),
+        create_clip: Some(lift("raised", 60)),
     };
     let mut motions = server.client.motions();
     let mut stream = motions
@@ -320,7 +334,7 @@ async fn a_stream_that_is_left_gives_its_work_up() {
             Message::CreateClip(clip) => made = clip.clip,
         }
     }
-    assert_eq!(made.unwrap().name, "clips/lift");
+    assert_eq!(made.unwrap().name, "clips/raised");
     server.stop().await;
 }
 

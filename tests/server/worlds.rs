@@ -445,8 +445,29 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
             .iter()
             .filter(|s| s.name.starts_with("sinew.v1."))
             .count(),
-        11
+        13
     );
+    // What errors are made of is described, too.
+    for file in ["google/rpc/error_details.proto", "sinew/v1/operation.proto"] {
+        let request = ServerReflectionRequest {
+            host: String::new(),
+            message_request: Some(MessageRequest::FileByFilename(file.into())),
+        };
+        let reply = ServerReflectionClient::new(channel.clone())
+            .server_reflection_info(tokio_stream::iter([request]))
+            .await
+            .unwrap()
+            .into_inner()
+            .message()
+            .await
+            .unwrap()
+            .unwrap();
+        let found = matches!(
+            reply.message_response,
+            Some(MessageResponse::FileDescriptorResponse(f)) if !f.file_descriptor_proto.is_empty()
+        );
+        assert!(found, "{file}");
+    }
 
     // A service that does not exist is a gRPC answer, not an HTTP one.
     let mut unknown = tonic::client::Grpc::new(channel);

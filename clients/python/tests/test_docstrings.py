@@ -17,7 +17,7 @@ UNIT = re.compile(
 )
 SHAPE = re.compile(r"\(\s*(n|\d+)(, ?(n|m|\d+))*,?\s*\)")
 # Numbers whose names end in their unit.
-SUFFIX = re.compile(r"_(s|m|ms|ns|hz|kg|n|ns|deg|mps)$")
+SUFFIX = re.compile(r"_(s|m|ms|ns|hz|kg|newtons|newton_seconds|deg|mps)$")
 # Numbers that count something or choose rows.
 COUNTS = {"count", "row", "tick", "resume_tick", "rate_divisor", "tick_count", "substeps", "state_hash"}
 

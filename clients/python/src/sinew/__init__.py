@@ -14,7 +14,7 @@ y left, z up; quaternions x, y, z, w.
 """
 
 from sinew import aio
-from sinew._client import Client, Clip, Drive, Events, Figure, Frames, Obstacle, ServerInfo, World
+from sinew._client import Client, Clip, Drive, Events, Figure, Frames, Obstacle, Operation, ServerInfo, World
 from sinew.body import Body, Mesh
 from sinew.errors import (
     AbortedError,
@@ -91,6 +91,7 @@ __all__ = [
     "NotFoundError",
     "Obstacle",
     "ObstacleState",
+    "Operation",
     "Paper",
     "PermissionDeniedError",
     "Plane",

@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from datetime import timedelta
 from pathlib import Path
 from types import TracebackType
 from typing import TypeAlias
@@ -19,7 +20,17 @@ from sinew import _requests as requests
 from sinew._sync_support import Duplex, Method, Request, Response, Stream, call, call_all, open_channel, pause
 from sinew._progress import Progress
 from sinew.body import Body
-from sinew.errors import NotFoundError, PreconditionError, SinewError, not_found, paused, with_names
+from sinew.errors import (
+    AbortedError,
+    DeadlineError,
+    NotFoundError,
+    PreconditionError,
+    SinewError,
+    from_status,
+    not_found,
+    paused,
+    with_names,
+)
 from sinew.frames import Event, FigureState, Frame
 from sinew.frames import frame as to_frame
 from sinew.motion import Motion, Pose, bvh_source, is_file
@@ -38,6 +49,7 @@ from sinew.v1 import (
     motion_pb2_grpc,
     obstacle_pb2,
     obstacle_pb2_grpc,
+    operation_pb2,
     operation_pb2_grpc,
     perturbation_pb2,
     perturbation_pb2_grpc,
@@ -81,6 +93,8 @@ _CHUNK = 16
 _RELEASE_TRIES = 200
 # A simulation may take its time.
 _LONG_S = 600.0
+# Longest wait of one call for an operation.
+_WAIT_S = 60.0
 # A watch that is silent for this long looks whether its world is paused.
 _QUIET_S = 0.25
 
@@ -450,6 +464,40 @@ class Client:
         out.report = r.report if r.HasField("report") else None
         return out
 
+    # Long work that nobody waits for.
+
+    def start(
+        self, work: motion_pb2.CreateClipRequest | simulation_pb2.SimulateClipRequest, *, request_id: str = ""
+    ) -> Operation:
+        """Starts long work on the server and returns at once: storing a clip, or simulating one.
+
+        It goes on without this client; `operation(name)` finds it again. A repeat under the same `request_id` starts
+        nothing anew.
+        """
+        request = operation_pb2.StartOperationRequest(request_id=request_id)
+        if isinstance(work, motion_pb2.CreateClipRequest):
+            request.create_clip.CopyFrom(work)
+        else:
+            request.simulate_clip.CopyFrom(work)
+        return Operation(self, (self._ask(self.operations_stub.StartOperation, request)).operation)
+
+    def operation(self, name: str) -> Operation:
+        """Long work that was started before, by this or another client of the same principal."""
+        request = operation_pb2.GetOperationRequest(name=resource("operations", name))
+        return Operation(self, (self._ask(self.operations_stub.GetOperation, request)).operation)
+
+    def operations(self) -> list[Operation]:
+        """All long work of this principal that the server still knows, in the order it was started, without results."""
+        out: list[Operation] = []
+        token = ""
+        while True:
+            request = operation_pb2.ListOperationsRequest(page_size=1000, page_token=token)
+            r = self._ask(self.operations_stub.ListOperations, request)
+            out.extend(Operation(self, o) for o in r.operations)
+            token = r.next_page_token
+            if not token:
+                return out
+
     def _body_of(self, body: str | Profile) -> Body:
         if isinstance(body, str):
             return self.body(body)
@@ -467,6 +515,78 @@ class Client:
     def _learn(self, roster: state_pb2.Roster) -> None:
         for entry in roster.figures:
             self.body(entry.body)
+
+
+class Operation:
+    """Long work on the server."""
+
+    def __init__(self, client: Client, message: operation_pb2.Operation) -> None:
+        self._client = client
+        self.message = message
+        """As the server described it last."""
+
+    def __repr__(self) -> str:
+        return f"Operation({self.name!r}, {self.state}, {self.progress:.0%})"
+
+    @property
+    def name(self) -> str:
+        """Last part of its resource name."""
+        return last(self.message.name)
+
+    @property
+    def state(self) -> str:
+        """How far it is: `queued`, `running`, `succeeded`, `failed` or `cancelled`."""
+        return operation_pb2.OperationState.Name(self.message.state).removeprefix("OPERATION_STATE_").lower()
+
+    @property
+    def progress(self) -> float:
+        """Share of the work that is done, 0 to 1."""
+        return self.message.progress
+
+    @property
+    def done(self) -> bool:
+        """Whether it has ended, in whatever way."""
+        return self.message.HasField("end_time")
+
+    def get(self) -> Self:
+        """This object, with how far it is now."""
+        request = operation_pb2.GetOperationRequest(name=self.message.name)
+        self.message = (self._client._ask(self._client.operations_stub.GetOperation, request)).operation
+        return self
+
+    def result(
+        self, timeout_s: float | None = None
+    ) -> motion_pb2.CreateClipResponse | simulation_pb2.SimulateClipResponse:
+        """What came of it; waits for its end for `timeout_s` (s), or as long as it takes.
+
+        Raises what the call would have raised, `AbortedError` if it was cancelled, `DeadlineError` if it goes on.
+        """
+        end = None if timeout_s is None else time.monotonic() + timeout_s
+        while not self.done or self.message.WhichOneof("result") is None:
+            left = _WAIT_S if end is None else min(_WAIT_S, end - time.monotonic())
+            request = operation_pb2.WaitOperationRequest(name=self.message.name)
+            request.timeout.FromTimedelta(timedelta(seconds=max(left, 0.0)))
+            stub = self._client.operations_stub
+            answer = self._client._ask(stub.WaitOperation, request, self._client.timeout_s + _WAIT_S)
+            self.message = answer.operation
+            if self.state == "cancelled":
+                raise AbortedError(f"operation {self.name!r} was cancelled", reason="CANCELLED")
+            if not self.done and end is not None and time.monotonic() >= end:
+                raise DeadlineError(f"operation {self.name!r} goes on after {timeout_s:g} s")
+        kind = self.message.WhichOneof("result")
+        if kind == "error":
+            raise from_status(self.message.error)
+        return self.message.create_clip if kind == "create_clip" else self.message.simulate_clip
+
+    def cancel(self) -> None:
+        """Gives it up, unless it has ended."""
+        request = operation_pb2.CancelOperationRequest(name=self.message.name)
+        self.message = (self._client._ask(self._client.operations_stub.CancelOperation, request)).operation
+
+    def delete(self) -> None:
+        """Forgets it with its result; it must have ended."""
+        request = operation_pb2.DeleteOperationRequest(name=self.message.name)
+        self._client._ask(self._client.operations_stub.DeleteOperation, request)
 
 
 class Clip:

@@ -8,6 +8,6 @@
 The arguments are the same, too.
 """
 
-from sinew._async_client import Client, Clip, Drive, Events, Figure, Frames, Obstacle, ServerInfo, World
+from sinew._async_client import Client, Clip, Drive, Events, Figure, Frames, Obstacle, Operation, ServerInfo, World
 
-__all__ = ["Client", "Clip", "Drive", "Events", "Figure", "Frames", "Obstacle", "ServerInfo", "World"]
+__all__ = ["Client", "Clip", "Drive", "Events", "Figure", "Frames", "Obstacle", "Operation", "ServerInfo", "World"]

@@ -5,7 +5,7 @@ Every refusal of the server becomes a `SinewError`; a refused request has change
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import grpc
@@ -164,9 +164,18 @@ def from_rpc(error: grpc.RpcError) -> SinewError:
 
     Both kinds of channel raise errors with `code`, `details` and `trailing_metadata`.
     """
-    code = error.code()
-    out = _BY_CODE.get(code, SinewError)(error.details() or code.name, code=code)
-    for detail in _details(error):
+    return _explained(error.code(), error.details() or "", _details(error))
+
+
+def from_status(status: status_pb2.Status) -> SinewError:
+    """The exception for a status in a message: that of an operation that has failed."""
+    code = next((c for c in grpc.StatusCode if c.value[0] == status.code), grpc.StatusCode.UNKNOWN)
+    return _explained(code, status.message, status.details)
+
+
+def _explained(code: grpc.StatusCode, message: str, details: Iterable[any_pb2.Any]) -> SinewError:
+    out = _BY_CODE.get(code, SinewError)(message or code.name, code=code)
+    for detail in details:
         info = error_details_pb2.ErrorInfo()
         bad = error_details_pb2.BadRequest()
         resource = error_details_pb2.ResourceInfo()
