@@ -216,6 +216,10 @@ impl Client {
         simulations: simulation_service_client::SimulationServiceClient;
         /// `CheckpointService`.
         checkpoints: checkpoint_service_client::CheckpointServiceClient;
+        /// `HistoryService`.
+        history: history_service_client::HistoryServiceClient;
+        /// `RecordingService`.
+        recordings: recording_service_client::RecordingServiceClient;
         /// `ObstacleService`.
         obstacles: obstacle_service_client::ObstacleServiceClient;
         /// `OperationService`.

@@ -2,41 +2,36 @@
 //! the server.
 //!
 //! ```text
-//!   magic 8 │ format u16 │ length of the server's part u32 │ checksum of it u64 │ server's part │ physics
+//!   magic 8 │ format u16 │ physics, with the server's part beside it
 //! ```
 
 use super::config::Config;
 use super::shares::{Client, check_part};
 use super::telemetry::metrics::CheckpointTimer;
-use super::tick::shard::{Restored, SavedShard};
+use super::tick::scene::{SavedScene, Scene};
 use crate::sim::world::checkpoint::{Capture, Checkpoint, CheckpointError, Definitions};
 use crate::wire::status::Fault;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
-use xxhash_rust::xxh3::xxh3_64;
 
 const MAGIC: [u8; 8] = *b"SINEWWLD";
 /// Version of the server's part.
-const FORMAT: u16 = 1;
-const HEADER: usize = 22;
+const FORMAT: u16 = 2;
+const HEADER: usize = 10;
 
 /// A state of a world as bytes.
 ///
 /// # Errors
 /// None for a world of this server.
-pub fn encode(shard: &SavedShard, capture: &Capture) -> Result<Vec<u8>, Fault> {
+pub fn encode(capture: &Capture) -> Result<Vec<u8>, Fault> {
     let _timed = CheckpointTimer::new("encode");
     let failed = |e: &dyn std::fmt::Display| Fault::Internal(format!("writing a checkpoint: {e}"));
-    let part = postcard::to_stdvec(shard).map_err(|e| failed(&e))?;
     let checkpoint = capture.checkpoint(&mut Definitions::default());
     let physics = checkpoint.map_err(|e| failed(&e))?.to_bytes();
-    let mut out = Vec::with_capacity(HEADER + part.len() + physics.len());
+    let mut out = Vec::with_capacity(HEADER + physics.len());
     out.extend(MAGIC);
     out.extend(FORMAT.to_le_bytes());
-    out.extend((part.len() as u32).to_le_bytes());
-    out.extend(xxh3_64(&part).to_le_bytes());
-    out.extend(part);
     out.extend(physics);
     Ok(out)
 }
@@ -45,7 +40,7 @@ pub fn encode(shard: &SavedShard, capture: &Capture) -> Result<Vec<u8>, Fault> {
 ///
 /// # Errors
 /// With `field` as their place in the request: they are no checkpoint, damaged, of another version or other numerics.
-pub fn decode(field: &str, bytes: &[u8]) -> Result<Restored, Fault> {
+pub fn decode(field: &str, bytes: &[u8]) -> Result<Scene, Fault> {
     let _timed = CheckpointTimer::new("decode");
     let lost = |message: String| Fault::DataLoss {
         reason: "CHECKPOINT_DAMAGED",
@@ -62,33 +57,21 @@ pub fn decode(field: &str, bytes: &[u8]) -> Result<Restored, Fault> {
             "{field}: a checkpoint of format {version}, this server reads format {FORMAT}"
         )));
     }
-    let length = u32::from_le_bytes(std::array::from_fn(|i| header[10 + i])) as usize;
-    let sum = u64::from_le_bytes(std::array::from_fn(|i| header[14 + i]));
-    let rest = &bytes[HEADER..];
-    let part = rest
-        .get(..length)
-        .ok_or_else(|| lost("it ends too soon".into()))?;
-    if xxh3_64(part) != sum {
-        return Err(lost("its checksum does not fit".into()));
-    }
-    let (shard, left): (SavedShard, _) =
-        postcard::take_from_bytes(part).map_err(|e| lost(e.to_string()))?;
-    if !left.is_empty() {
-        return Err(lost("bytes are left over".into()));
-    }
     let refused = |e: CheckpointError| match e {
         CheckpointError::Format { .. } => other_version(format!("{field}: {e}")),
         CheckpointError::TooLarge(_) => Fault::invalid(field, e.to_string()),
         e => lost(e.to_string()),
     };
-    let read = Checkpoint::from_bytes(&rest[length..]).map_err(refused)?;
+    let read = Checkpoint::from_bytes(&bytes[HEADER..]).map_err(refused)?;
     if !read.is_of_this_numerics() {
         return Err(other_version(format!(
             "{field}: a checkpoint of a program that computes otherwise: it would not go on bit for bit"
         )));
     }
-    let world = read.restore(|_| None).map_err(refused)?;
-    Restored::new(world, shard).map_err(|e| lost(e.to_owned()))
+    let (world, saved) = read
+        .restore_with::<SavedScene<'static>>(|_| None)
+        .map_err(refused)?;
+    Scene::restored(world, saved).map_err(|e| lost(e.to_owned()))
 }
 
 fn other_version(message: String) -> Fault {

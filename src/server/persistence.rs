@@ -7,7 +7,7 @@
 use super::api::{App, access};
 use super::checkpoints;
 use super::config::Config;
-use super::durable::keeper::{Keeper, Recorder, Sizes};
+use super::durable::keeper::{Keeper, Sizes};
 use super::durable::local::LocalStore;
 use super::durable::marks::Marks;
 use super::durable::recovery::{Recovered, recover};
@@ -16,7 +16,10 @@ use super::durable::store::{
 };
 use super::library::NewClip;
 use super::tick::command::Origin;
-use super::tick::shard::Restored;
+use super::tick::journal::{self, Logged};
+use super::tick::replay::Replay;
+use super::tick::scene::Scene;
+use super::tick::shard::Shard;
 use super::worlds::WorldHandle;
 use crate::wire::convert::{body, figure, motion, new_id, obstacle, world};
 use crate::wire::pb;
@@ -25,13 +28,12 @@ use crate::wire::types::WorldUpdate;
 use prost::Message;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// How often a world is looked at for changes that it does not announce.
 const LOOK_EVERY: Duration = Duration::from_secs(1);
-/// Time between two states of one world on disk.
-const CHECKPOINT_EVERY: Duration = Duration::from_secs(5);
 /// How long worlds note each step after an end that was not orderly.
 const NOTE_STEPS: Duration = Duration::from_secs(3);
 
@@ -157,13 +159,18 @@ impl Persistence {
     pub async fn checkpoint_all(&self, app: &App) {
         let worlds = app.worlds.list();
         let all = worlds.iter().map(|handle| async move {
-            let record = self.worlds().get(&*handle.id).cloned()?;
-            let recorder = self.keeper.recorder(&record);
-            let written = checkpoint(handle, &recorder, None).await;
+            let now = |s: &mut Shard| {
+                s.checkpoint_now();
+                Ok(())
+            };
+            let taken = handle.call(origin(), now).await;
+            let written = match taken {
+                Ok(()) => write_state(handle, None).await,
+                Err(error) => Err(error),
+            };
             if let Err(error) = &written {
                 tracing::error!(world = &*handle.id, %error, "the last state is not written");
             }
-            written.ok()
         });
         futures_util::future::join_all(all).await;
     }
@@ -236,7 +243,7 @@ impl Persistence {
         // Worlds of before belong to nobody who is connected.
         let owner = (format!("stored {}", record.name).into(), grants);
         let id = Some(record.name.clone());
-        let handle = match restored_state(record, history).await {
+        let handle = match replayed(record, history).await {
             Some(state) => {
                 let handle = app.worlds.fork(id, state, paused, owner)?;
                 let update = WorldUpdate {
@@ -323,6 +330,10 @@ impl Persistence {
             .map_err(storage)?;
         self.worlds().insert(record.name.clone(), record);
         self.follow(handle);
+        // What is done to it from now on follows this state.
+        if self.durability != Durability::None {
+            write_state(handle, None).await?;
+        }
         Ok(())
     }
 
@@ -364,7 +375,12 @@ impl Persistence {
             .worlds()
             .get(&*handle.id)
             .map(|w| self.keeper.recorder(w));
-        let mut written = (None, Instant::now());
+        let Some(recorder) = recorder else { return };
+        let writes = recorder.durability() != Durability::None;
+        if let Some(journal) = &handle.journal {
+            journal.write_to(recorder);
+        }
+        let mut written = None;
         let (this, handle) = (Arc::downgrade(self), Arc::downgrade(handle));
         tokio::spawn(async move {
             loop {
@@ -376,14 +392,9 @@ impl Persistence {
                 let (Some(this), Some(handle)) = (this.upgrade(), handle.upgrade()) else {
                     break;
                 };
-                if let Some(recorder) = &recorder
-                    && recorder.durability() != Durability::None
-                    && (written.0.is_none()
-                        || written.1.elapsed() >= CHECKPOINT_EVERY
-                        || recorder.needs_checkpoint())
-                {
-                    match checkpoint(&handle, recorder, written.0).await {
-                        Ok(state) => written = (Some(state), Instant::now()),
+                if writes {
+                    match write_state(&handle, written).await {
+                        Ok(state) => written = state,
                         Err(Fault::Draining) => break,
                         Err(error) => {
                             tracing::warn!(world = &*handle.id, %error, "a state is not written");
@@ -488,52 +499,87 @@ impl Persistence {
     }
 }
 
-/// Hands the state of a world in, unless tick and hash are those that were written before. Returns both.
-async fn checkpoint(
+/// Hands the latest checkpoint of a world to the disk, unless tick and hash are those that were written before. Returns
+/// both.
+async fn write_state(
     handle: &Arc<WorldHandle>,
-    recorder: &Recorder,
     before: Option<(u64, u64)>,
-) -> Result<(u64, u64), Fault> {
-    let latest = handle.latest();
-    let now = (latest.tick, latest.hash);
-    if before == Some(now) && !recorder.needs_checkpoint() {
-        return Ok(now);
+) -> Result<Option<(u64, u64)>, Fault> {
+    let Some(journal) = &handle.journal else {
+        return Ok(before);
+    };
+    // A world that goes back meanwhile has another one by then.
+    while let Some(capture) = journal.to_write(before) {
+        let encoded = Arc::clone(&capture);
+        let bytes = tokio::task::spawn_blocking(move || checkpoints::encode(&encoded));
+        let bytes = bytes.await.map_err(|e| Fault::Internal(e.to_string()))??;
+        if journal.write(&capture, bytes.into()) {
+            return Ok(Some((capture.tick(), capture.hash())));
+        }
     }
-    let (shard, capture) = handle.call(origin(), |s| s.capture()).await?;
-    let (tick, hash) = (capture.tick(), capture.hash());
-    let encoded = tokio::task::spawn_blocking(move || checkpoints::encode(&shard, &capture));
-    let bytes = encoded
-        .await
-        .map_err(|e| Fault::Internal(e.to_string()))??;
-    recorder.checkpoint(tick, bytes.into());
-    recorder.hash(tick, hash);
-    Ok((tick, hash))
+    Ok(before)
 }
 
-/// The last state of a world that is whole; `None`: there is none, or this program cannot go on from it.
-async fn restored_state(record: &WorldRecord, history: &History) -> Option<Restored> {
+/// The last state of a world that is whole: its checkpoint, and what was recorded behind it. `None`: there is none, or
+/// this program cannot go on from it.
+async fn replayed(record: &WorldRecord, history: &History) -> Option<Scene> {
     let (tick, bytes) = history.checkpoint.clone()?;
-    let expected = history.entries.iter().find_map(|e| match e.item {
-        Item::Hash(hash) if e.tick == tick => Some(hash),
-        _ => None,
-    });
-    let decoded = tokio::task::spawn_blocking(move || checkpoints::decode("checkpoint", &bytes));
-    let decoded = decoded.await.map_err(|e| Fault::Internal(e.to_string()));
     let world = &*record.name;
-    match decoded.and_then(|d| d) {
-        Ok(state) if expected.is_none_or(|hash| hash == state.world.state_hash()) => Some(state),
-        Ok(_) => {
+    let mut entries = Vec::with_capacity(history.entries.len());
+    for entry in &history.entries {
+        entries.push(match &entry.item {
+            Item::Hash(hash) => Logged::Hash(entry.tick, *hash),
+            Item::Input(bytes) => match journal::from_disk(entry.tick, bytes) {
+                Ok(record) => Logged::Record(record),
+                Err(why) => {
+                    let tick = entry.tick;
+                    tracing::error!(world, tick, why, "what follows is lost");
+                    break;
+                }
+            },
+            Item::Checkpoint { .. } => continue,
+        });
+    }
+    let entries = Arc::new(entries);
+    let mut until = u64::MAX;
+    loop {
+        let last = Arc::new(AtomicU64::new(tick));
+        let (bytes, entries, reached) = (bytes.clone(), entries.clone(), last.clone());
+        let done = tokio::task::spawn_blocking(move || {
+            let scene = checkpoints::decode("checkpoint", &bytes)?;
+            let mut replay = Replay::new(scene);
+            let through = replay.through(&*entries, until, &mut |scene| {
+                reached.store(scene.world().tick(), Ordering::Relaxed);
+                true
+            });
+            let compared = replay.compared;
+            Ok::<_, Fault>((replay.scene, through, compared))
+        });
+        let (why, state) = match done.await {
+            Ok(Ok((scene, Ok(()), compared))) => {
+                let (tick, hash) = (scene.world().tick(), scene.world().state_hash());
+                let hash = format!("{hash:016x}");
+                tracing::info!(world, tick, hash, compared, "world is as it was");
+                return Some(scene);
+            }
+            Ok(Ok((_, Err(why), _))) => (why.to_string(), last.load(Ordering::Relaxed)),
+            Ok(Err(why)) => {
+                tracing::error!(world, tick, %why, "the state is lost: the world begins anew");
+                return None;
+            }
+            Err(panic) => (panic.to_string(), last.load(Ordering::Relaxed)),
+        };
+        if state >= until || until == tick {
             tracing::error!(
                 world,
                 tick,
+                why,
                 "the state has another hash: the world begins anew"
             );
-            None
+            return None;
         }
-        Err(why) => {
-            tracing::error!(world, tick, %why, "the state is lost: the world begins anew");
-            None
-        }
+        tracing::error!(world, after_tick = state, why, "what follows is lost");
+        until = state;
     }
 }
 

@@ -36,15 +36,19 @@ repeatable! {
     DeleteFigureRequest
     DeleteGrantRequest
     DeleteObstacleRequest
+    DeleteRecordingRequest
     DeleteWorldRequest
     ForkWorldRequest
     PlayClipRequest
     ReleaseControlRequest
     ResetFigureRequest
     RestoreWorldRequest
+    SeekWorldRequest
     StartOperationRequest
+    StartRecordingRequest
     StepWorldRequest
     StopClipRequest
+    StopRecordingRequest
     TransferControlRequest
 }
 

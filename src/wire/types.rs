@@ -224,7 +224,7 @@ pub struct Described {
 }
 
 /// Changes of a figure; `None` leaves a setting as it is.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FigureUpdate {
     /// Name for people.
     pub display_name: Option<String>,
@@ -342,7 +342,7 @@ impl ObstacleUpdate {
 }
 
 /// What disturbs a figure.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Disturbance {
     /// A carried mass, kg.
     Load {
@@ -375,7 +375,7 @@ pub enum Disturbance {
 }
 
 /// A disturbance of one figure of a world.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FigureDisturbance {
     /// Last part of the figure's name.
     pub figure: String,
@@ -386,7 +386,7 @@ pub struct FigureDisturbance {
 }
 
 /// How a clip is played.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Playback {
     /// Speed factor.
     pub speed: f64,
@@ -401,7 +401,7 @@ pub struct Playback {
 }
 
 /// Delay between arrival and use of live motion.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Delay {
     /// Always this many seconds.
     Fixed(f64),
@@ -413,7 +413,7 @@ pub enum Delay {
 }
 
 /// How a drive answers when frames are late, and how long it lasts.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DriveSettings {
     /// Expected frames per second.
     pub rate_hz: f64,
@@ -473,7 +473,7 @@ pub struct MotionSample {
 }
 
 /// How the jitter buffer answered.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Supply {
     /// Nothing was asked yet.
     #[default]

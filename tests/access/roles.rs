@@ -56,6 +56,10 @@ fn name_things(message: &mut DynamicMessage, method: &str, world: &str) {
         "Body",
         "GetCheckpoint",
         "DeleteCheckpoint",
+        "StopRecording",
+        "GetRecording",
+        "DeleteRecording",
+        "ExportRecording",
     ];
     let kind = kind
         .into_iter()
@@ -66,6 +70,7 @@ fn name_things(message: &mut DynamicMessage, method: &str, world: &str) {
         "Obstacle" => format!("{world}/obstacles/o"),
         "Grant" => format!("{world}/grants/creator"),
         "GetCheckpoint" | "DeleteCheckpoint" => format!("{world}/checkpoints/c"),
+        k if k.ends_with("Recording") => format!("{world}/recordings/r"),
         "Clip" => "clips/wave".to_owned(),
         "Body" => "bodies/adult-man".to_owned(),
         _ => world.to_owned(),

@@ -13,6 +13,7 @@ mod drives;
 mod edge;
 mod ending;
 mod forecast;
+mod history;
 mod limits;
 mod live;
 mod long_work;

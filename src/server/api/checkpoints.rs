@@ -6,11 +6,14 @@ use crate::server::access::roles::Role;
 use crate::server::checkpoints::{self, Kept};
 use crate::server::shares::Client;
 use crate::server::tick::command::Origin;
-use crate::server::tick::shard::{Restored, SavedShard};
+use crate::server::tick::journal;
+use crate::server::tick::scene::Scene;
+use crate::server::tick::shard::Origin as Past;
+use crate::server::worlds::WorldHandle;
 use crate::sim::world::checkpoint::Capture;
 use crate::wire::convert::checkpoint::{CheckpointInfo, checkpoint_name, checkpoint_out};
 use crate::wire::convert::names::CHECKPOINT;
-use crate::wire::convert::{new_id, page, world, world_name};
+use crate::wire::convert::{new_id, not_negative, page, world, world_name};
 use crate::wire::pb::checkpoint_service_server::CheckpointService;
 use crate::wire::pb::{self, fork_world_request, restore_world_request};
 use crate::wire::status::Fault;
@@ -22,7 +25,8 @@ use tonic::{Request, Response, Status};
 enum Source {
     Kept(Arc<Kept>),
     Data(&'static str, bytes::Bytes),
-    Now(Box<(SavedShard, Capture)>),
+    Now(Box<Capture>),
+    Past(Box<Scene>),
 }
 
 fn out(kept: &Kept) -> pb::Checkpoint {
@@ -56,14 +60,14 @@ impl Api {
         &self,
         (caller, origin): (&Caller, Origin),
         (field, name): (&str, &str),
-    ) -> Result<(Arc<str>, SavedShard, Capture), Fault> {
+    ) -> Result<(Arc<WorldHandle>, Capture), Fault> {
         let handle = self.enter_as(caller, Role::Director, world_name(field, name)?)?;
-        let (shard, capture) = handle.call(origin, |s| s.capture()).await?;
-        Ok((Arc::clone(&handle.id), shard, capture))
+        let capture = handle.call(origin, |s| s.capture()).await?;
+        Ok((handle, capture))
     }
 
     /// The world of a source, made where there is time for it.
-    async fn restored(&self, client: &Client, source: Source) -> Result<Restored, Fault> {
+    async fn restored(&self, client: &Client, source: Source) -> Result<Scene, Fault> {
         let most = self.config.max_clip_bytes;
         let work = move || match source {
             Source::Kept(kept) => checkpoints::decode("checkpoint", &kept.bytes),
@@ -74,8 +78,8 @@ impl Api {
                 retry: None,
             }),
             Source::Data(field, data) => checkpoints::decode(field, &data),
-            Source::Now(both) => checkpoints::encode(&both.0, &both.1)
-                .and_then(|bytes| checkpoints::decode("world", &bytes)),
+            Source::Now(capture) => journal::scene_of(&capture),
+            Source::Past(scene) => Ok(*scene),
         };
         self.conversions.run(client, move |_| work()).await
     }
@@ -100,17 +104,17 @@ impl CheckpointService for Api {
             let r = request.into_inner();
             let id = new_id("checkpoint_id", &r.checkpoint_id)?.unwrap_or_default();
             let from = (&caller, origin);
-            let (world, shard, capture) = api.captured(from, ("name", &r.name)).await?;
+            let (handle, capture) = api.captured(from, ("name", &r.name)).await?;
             let app = api.0.clone();
             let (created, client) = (SystemTime::now(), owner.clone());
             let work = move || {
                 let new = Kept {
-                    world: world.to_string(),
+                    world: handle.id.to_string(),
                     id,
                     tick: capture.tick(),
-                    time: capture.tick() as f64 / shard.settings.rate_hz,
+                    time: capture.tick() as f64 / handle.rate_hz,
                     hash: capture.hash(),
-                    bytes: checkpoints::encode(&shard, &capture)?,
+                    bytes: checkpoints::encode(&capture)?,
                     created,
                     owner,
                 };
@@ -192,7 +196,7 @@ impl CheckpointService for Api {
             let cleared = handle.clone();
             let info = handle
                 .call(origin, move |s| {
-                    let info = s.restore(restored)?;
+                    let info = s.restore(restored, Past::Elsewhere)?;
                     // What viewers could resume with is of another time.
                     cleared.history().clear();
                     Ok(info)
@@ -220,10 +224,19 @@ impl CheckpointService for Api {
                     Source::Kept(api.kept(&caller, "checkpoint", &name)?)
                 }
                 Some(fork_world_request::Source::Data(data)) => Source::Data("data", data),
+                Some(fork_world_request::Source::World(name)) if r.tick.is_some() => {
+                    let tick = not_negative("tick", r.tick.unwrap_or_default())?;
+                    let of = world_name("world", &name)?;
+                    let handle = api.enter_as(&caller, Role::Director, of)?;
+                    Source::Past(Box::new(api.at_tick(&owner, &handle, tick).await?))
+                }
+                Some(_) if r.tick.is_some() => {
+                    return Err(Fault::invalid("tick", "needs world"));
+                }
                 Some(fork_world_request::Source::World(name)) => {
                     let from = (&caller, origin);
-                    let (_, shard, capture) = api.captured(from, ("world", &name)).await?;
-                    Source::Now(Box::new((shard, capture)))
+                    let (_, capture) = api.captured(from, ("world", &name)).await?;
+                    Source::Now(Box::new(capture))
                 }
                 None => return Err(Fault::invalid("source", "must be given")),
             };

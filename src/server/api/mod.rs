@@ -7,12 +7,14 @@ mod clips;
 mod control;
 mod drive;
 mod figures;
+mod history;
 mod info;
 mod long;
 mod obstacles;
 mod operations;
 mod permit;
 mod perturbations;
+mod recordings;
 mod simulation;
 mod state;
 mod watching;
@@ -27,6 +29,7 @@ use super::config::Config;
 use super::library::{Bodies, Clips};
 use super::operations::{self as long_work, Operations};
 use super::persistence::Persistence;
+use super::recordings::Recordings;
 use super::repeats::{self, Repeats};
 use super::shares::{Client, Place, Places};
 use super::tick::command::Origin;
@@ -47,7 +50,7 @@ use tonic::{Request, Response, Status};
 use xxhash_rust::xxh3::xxh3_64;
 
 /// Names of the services, for health checks; the empty name is the server as a whole.
-pub const SERVICE_NAMES: [&str; 14] = [
+pub const SERVICE_NAMES: [&str; 16] = [
     "",
     pb::world_service_server::SERVICE_NAME,
     pb::figure_service_server::SERVICE_NAME,
@@ -60,6 +63,8 @@ pub const SERVICE_NAMES: [&str; 14] = [
     pb::access_service_server::SERVICE_NAME,
     pb::control_service_server::SERVICE_NAME,
     pb::checkpoint_service_server::SERVICE_NAME,
+    pb::history_service_server::SERVICE_NAME,
+    pb::recording_service_server::SERVICE_NAME,
     pb::obstacle_service_server::SERVICE_NAME,
     pb::operation_service_server::SERVICE_NAME,
 ];
@@ -108,6 +113,8 @@ pub struct App {
     pub clips: Clips,
     /// Checkpoints of worlds.
     pub checkpoints: Checkpoints,
+    /// Parts of their past that are kept.
+    pub recordings: Recordings,
     /// Where files become clips.
     pub conversions: Pool,
     /// Where clips are simulated.
@@ -144,6 +151,7 @@ impl App {
             bodies,
             worlds: Registry::new(config.clone())?,
             checkpoints: Checkpoints::new(&config),
+            recordings: Recordings::new(config.max_recordings, config.max_recording_bytes, share),
             conversions: Pool::new(
                 "file conversion",
                 "max_waiting_conversions",
@@ -337,6 +345,7 @@ impl App {
     /// Forgets what is kept of a world that has ended; whether there was something on disk.
     async fn forget_world(&self, id: &str) -> Result<bool, Fault> {
         self.checkpoints.forget_world(id);
+        self.recordings.forget_world(id);
         match &self.persistence {
             Some(persistence) => persistence.deleted(id).await,
             None => Ok(false),
@@ -462,6 +471,8 @@ pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
         access_service_server::AccessServiceServer;
         control_service_server::ControlServiceServer;
         checkpoint_service_server::CheckpointServiceServer;
+        history_service_server::HistoryServiceServer;
+        recording_service_server::RecordingServiceServer;
         obstacle_service_server::ObstacleServiceServer;
         operation_service_server::OperationServiceServer;
     }

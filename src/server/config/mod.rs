@@ -245,6 +245,14 @@ settings! {
     durability: text = "group", (), ();
     /// Worlds that are let out of quarantine at this start; separated by commas.
     release_worlds: text = "", (), ();
+    /// Past of worlds that is kept in memory, s: as far back they can be put, forked and replayed; 0: none.
+    memory_s: float = 60.0, 0.0, 86_400.0;
+    /// Bytes of the past of one world in memory; 0: none.
+    max_world_memory_bytes: int = 67_108_864, 0, 1_099_511_627_776;
+    /// Recordings of all worlds at a time.
+    max_recordings: int = 64, 1, 100_000;
+    /// Bytes of one recording in memory; one that has more is ended.
+    max_recording_bytes: int = 134_217_728, 1_048_576, 1_099_511_627_776;
     /// History of worlds that is kept on disk, s.
     history_s: float = 60.0, 5.0, 86_400.0;
     /// Bytes of history of one world.

@@ -35,13 +35,34 @@ pub struct Sizes {
 
 type Request = Box<dyn FnOnce(&mut dyn CheckpointStore) + Send>;
 
+/// Bytes that are worked out when they are written, and how many they are, about.
+type Later = (usize, Box<dyn FnOnce() -> Bytes + Send>);
+
+/// An entry that waits.
+struct Queued {
+    entry: Entry,
+    world: Arc<WorldState>,
+    /// What it holds, if that is worked out when it is written.
+    later: Option<Box<dyn FnOnce() -> Bytes + Send>>,
+}
+
+impl Queued {
+    fn ready(self) -> (Entry, Arc<WorldState>) {
+        let mut entry = self.entry;
+        if let Some(later) = self.later {
+            entry.item = Item::Input(later());
+        }
+        (entry, self.world)
+    }
+}
+
 /// Place of an entry in the order of all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ticket(u64);
 
 #[derive(Default)]
 struct Queue {
-    entries: Vec<(Entry, Arc<WorldState>)>,
+    entries: Vec<Queued>,
     bytes: usize,
     /// When the first of them came.
     begun: Option<Instant>,
@@ -256,12 +277,26 @@ impl Recorder {
 
     /// Hands in what changed the world before a tick.
     pub fn input(&self, tick: u64, bytes: Bytes) -> Ticket {
-        self.push(tick, Item::Input(bytes))
+        self.push(tick, Item::Input(bytes), None)
+    }
+
+    /// The same, with bytes that are worked out by the thread that writes: `size` of them, about.
+    pub fn input_later(
+        &self,
+        tick: u64,
+        size: usize,
+        bytes: impl FnOnce() -> Bytes + Send + 'static,
+    ) -> Ticket {
+        self.push(
+            tick,
+            Item::Input(Bytes::new()),
+            Some((size, Box::new(bytes))),
+        )
     }
 
     /// Hands in the hash of the state after a tick.
     pub fn hash(&self, tick: u64, hash: u64) -> Ticket {
-        self.push(tick, Item::Hash(hash))
+        self.push(tick, Item::Hash(hash), None)
     }
 
     /// Hands in the state after a tick.
@@ -270,7 +305,7 @@ impl Recorder {
             bytes,
             after_gap: false,
         };
-        self.push(tick, item)
+        self.push(tick, item, None)
     }
 
     /// True if nothing is written until there is a new checkpoint, and one could be written now.
@@ -283,7 +318,7 @@ impl Recorder {
         room && queue.retry_at.is_none_or(|at| at <= Instant::now())
     }
 
-    fn push(&self, tick: u64, mut item: Item) -> Ticket {
+    fn push(&self, tick: u64, mut item: Item, later: Option<Later>) -> Ticket {
         let world = &self.world;
         let mut queue = locked(&self.shared.queue);
         queue.sent += 1;
@@ -305,7 +340,8 @@ impl Recorder {
             tick,
             item,
         };
-        if queue.bytes + entry.size() > self.shared.sizes.queue_bytes {
+        let size = entry.size() + later.as_ref().map_or(0, |l| l.0);
+        if queue.bytes + size > self.shared.sizes.queue_bytes {
             world.gap.store(true, Ordering::Relaxed);
             world.lose(ticket, ticket);
             drop(queue);
@@ -319,11 +355,15 @@ impl Recorder {
         if is_checkpoint {
             world.gap.store(false, Ordering::Relaxed);
         }
-        queue.bytes += entry.size();
+        queue.bytes += size;
         queue.urgent |= world.durability == Durability::Each;
         let first = queue.entries.is_empty();
         queue.begun.get_or_insert_with(Instant::now);
-        queue.entries.push((entry, world.clone()));
+        queue.entries.push(Queued {
+            entry,
+            world: world.clone(),
+            later: later.map(|l| l.1),
+        });
         let wake = first || queue.urgent;
         drop(queue);
         if wake {
@@ -367,7 +407,7 @@ struct Writer {
 
 /// What the thread takes out of the queue.
 struct Taken {
-    entries: Vec<(Entry, Arc<WorldState>)>,
+    entries: Vec<Queued>,
     requests: Vec<Request>,
     /// Tickets of the first entry and the last.
     tickets: (u64, u64),
@@ -431,9 +471,10 @@ impl Writer {
         }
     }
 
-    fn write(&mut self, entries: Vec<(Entry, Arc<WorldState>)>, first: u64) {
+    fn write(&mut self, entries: Vec<Queued>, first: u64) {
         let begun = Instant::now();
-        let (entries, states): (Vec<Entry>, Vec<Arc<WorldState>>) = entries.into_iter().unzip();
+        let (entries, states): (Vec<Entry>, Vec<Arc<WorldState>>) =
+            entries.into_iter().map(Queued::ready).unzip();
         let mut result = self.store.commit(&entries);
         if let Err(fault) = &result {
             // One more try where something could be done about it; a new log begins with checkpoints of all worlds.

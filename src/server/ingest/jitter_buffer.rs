@@ -12,9 +12,11 @@ pub use super::playout::Now;
 use super::playout::{Due as Pace, Playout};
 use crate::server::engine;
 use crate::sim::body::{Body, NV, Posture};
+use crate::sim::math::Quat;
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::plan::stream::is_same;
-use crate::wire::types::{DriveSettings, Supply};
+use crate::wire::types::{Delay, DriveSettings, Supply};
+use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -40,7 +42,7 @@ const SLOPE: f64 = 0.04;
 const JUMP: f64 = 0.02;
 
 /// A frame as it is held.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Frame {
     /// Sequence.
     pub sequence: i64,
@@ -49,6 +51,7 @@ pub struct Frame {
     /// Desired posture.
     pub posture: Posture,
     /// Desired velocity.
+    #[serde(with = "crate::server::ingest::saved::optional_array")]
     pub velocity: Option<Box<[f64; NV]>>,
     /// Planted feet, if the driver named them.
     pub planted: Option<[bool; 2]>,
@@ -56,14 +59,16 @@ pub struct Frame {
     /// driver who sends too many are never used.
     pub guess: Cell<Option<[bool; 2]>>,
     /// When it came.
+    #[serde(skip, default = "Instant::now")]
     pub arrival: Instant,
 }
 
 /// What acts now.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Applied {
     sequence: i64,
     source_ns: i64,
+    #[serde(skip, default = "Instant::now")]
     arrival: Instant,
     /// A frame of the world has shown it.
     shown: bool,
@@ -81,7 +86,7 @@ impl Applied {
 }
 
 /// Counters of one buffer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Ticks by answer: present, interpolated, extrapolated, held, relaxed.
     pub ticks: [u64; 5],
@@ -96,7 +101,7 @@ pub struct Counts {
 }
 
 /// Why a stream began anew.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Resync {
     /// Sequence or source time started again.
     Clock,
@@ -115,7 +120,7 @@ impl Resync {
 }
 
 /// New beginnings of a stream.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 struct Anew {
     /// Frames that may be one.
     restart: Option<Restart>,
@@ -126,7 +131,7 @@ struct Anew {
 }
 
 /// What a window was handed.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 struct Grid {
     /// Newest time, playout s.
     head: Option<f64>,
@@ -139,7 +144,7 @@ struct Grid {
 }
 
 /// Frames that may be the first of a clock that started again.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Restart {
     sequence: i64,
     source_ns: i64,
@@ -148,7 +153,7 @@ struct Restart {
 }
 
 /// The buffer.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct JitterBuffer {
     settings: DriveSettings,
     tick: f64,
@@ -161,11 +166,13 @@ pub struct JitterBuffer {
     /// What was asked for at the end of the last tick.
     last: Target,
     /// Difference to a jump of the desired motion, and when it began to fade (world s).
+    #[serde(with = "crate::server::ingest::saved::timed_array")]
     blend: Option<(Box<[f64; NV]>, f64)>,
     /// Time over which it fades, s.
     blend_time: f64,
     /// Quiet standing.
     stand: Posture,
+    #[serde(with = "crate::sim::saved::definition")]
     body: Arc<Body>,
     grid: Grid,
 }
@@ -215,10 +222,6 @@ fn on_curve(base: &Posture, x: &[f64; NV], v: [f64; NV], a: [f64; NV]) -> Target
     }
 }
 
-fn dropped(reason: &'static str) {
-    metrics::counter!("sinew_motion_frames_dropped_total", "reason" => reason).increment(1);
-}
-
 impl JitterBuffer {
     /// An empty buffer for ticks of `tick` seconds of a figure with this body. `now` is what is asked of the figure at
     /// present, `stand` its quiet standing posture.
@@ -245,6 +248,46 @@ impl JitterBuffer {
             body,
             grid: Grid::default(),
         }
+    }
+
+    /// Takes up after it was read. False: it cannot have been written for a figure with this body in a world with ticks
+    /// of `tick` seconds.
+    pub fn complete(&mut self, body: &Arc<Body>, tick: f64) -> bool {
+        let is_unit = |p: &Posture| {
+            let turns = p.ball.iter().chain([&p.root_rotation]);
+            let square = |q: &Quat| q.to_xyzw().iter().map(|c| c * c).sum::<f64>();
+            p.is_finite() && turns.map(square).all(|n| (0.998..1.002).contains(&n))
+        };
+        let grows = |a: &Frame, b: &Frame| a.sequence < b.sequence && a.source_ns < b.source_ns;
+        let frames = &self.frames;
+        let mut pairs = frames.iter().zip(frames.iter().skip(1));
+        let postures = frames.iter().map(|f| &f.posture);
+        let settings = &self.settings;
+        let delay = match settings.delay {
+            Delay::Fixed(d) | Delay::Adaptive { most: d } => d,
+        };
+        let times = [
+            delay,
+            settings.extrapolation,
+            settings.hold,
+            self.blend_time,
+        ];
+        let is_whole = frames.len() <= CAPACITY
+            && self.grid.held.len() <= CAPACITY
+            && pairs.all(|(a, b)| grows(a, b))
+            && postures
+                .chain([&self.last.posture, &self.stand])
+                .all(is_unit)
+            && times.iter().all(|t| (0.0..=1e6).contains(t))
+            && (1.0..=1e4).contains(&settings.rate_hz)
+            && self.tick == tick
+            && self.grid.head.is_none_or(f64::is_finite)
+            && self.grid.next.unsigned_abs() < 1 << 53
+            && self.pace.is_valid();
+        if is_whole {
+            self.body = Arc::clone(body);
+        }
+        is_whole
     }
 
     /// Newest desired posture, for frames that leave the pelvis where it is.
@@ -334,7 +377,6 @@ impl JitterBuffer {
             Order::Anew => self.resync(Resync::Clock),
             Order::Stale => {
                 self.counts.stale += 1;
-                dropped("stale");
                 return false;
             }
         }
@@ -343,12 +385,10 @@ impl JitterBuffer {
             // Fed faster than it is played: what is oldest of the unplayed matters least for where the motion is going.
             self.frames.pop_front();
             self.counts.overflow += 1;
-            dropped("overflow");
         }
         let at = self.pace.arrive(frame.source_ns, now);
         if at < self.pace.played {
             self.counts.late += 1;
-            dropped("late");
         }
         self.frames.push_back(frame);
         order == Order::Anew

@@ -4,3 +4,4 @@ pub mod admission;
 pub mod jitter_buffer;
 pub mod mailbox;
 pub mod playout;
+pub mod saved;

@@ -5,6 +5,7 @@
 //! in a world that leaves ticks out it falls behind and is never too fast for the body, and it catches up slowly.
 
 use crate::wire::types::{Delay, DriveSettings};
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// Arrivals that the jitter is measured over.
@@ -37,7 +38,7 @@ pub(super) enum Due {
 }
 
 /// Source time against world time.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Playout {
     /// Source time and scheduled time of the first frame.
     origin: Option<(i64, f64)>,
@@ -72,6 +73,16 @@ impl Default for Playout {
 }
 
 impl Playout {
+    /// True if it can have come about.
+    pub(super) fn is_valid(&self) -> bool {
+        let known = [self.arrived, self.behind];
+        let optional = [self.origin.map(|o| o.1), self.jitter, self.delay, self.lost];
+        self.transit.len() <= WINDOW
+            && known.iter().chain(&self.transit).all(|x| x.is_finite())
+            && optional.iter().flatten().all(|x| x.is_finite())
+            && (self.played.is_finite() || self.played == f64::NEG_INFINITY)
+    }
+
     /// A source time as seconds since the first frame.
     pub(super) fn seconds(&self, source_ns: i64) -> f64 {
         let (first, _) = self.origin.unwrap_or((source_ns, 0.0));

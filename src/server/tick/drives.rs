@@ -1,62 +1,21 @@
 //! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
 
-use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
-use crate::server::ingest::jitter_buffer::{Due, Frame, JitterBuffer, Now};
+use super::scene::{PlayerKey, Scene};
+use crate::server::ingest::jitter_buffer::{Counts, Frame};
 use crate::server::ingest::mailbox::{DriverId, Mailbox};
-use crate::sim::body::State;
-use crate::sim::motion::TargetPair;
-use crate::sim::plan::StreamPlan;
-use crate::sim::plan::stream::RATE;
 use crate::wire::status::Fault;
-use crate::wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample, Supply};
+use crate::wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample};
 use std::cell::Cell;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// Samples of standing before a stream begins, for a figure that is not put into it.
-const LEAD_IN: usize = 6;
 
 /// One driven figure.
 #[derive(Debug)]
 pub struct Slot {
     /// Last part of the figure's name.
     pub figure: String,
-    /// The figure; `None` once it was removed.
-    pub key: Option<FigureKey>,
-    /// Its desired motion.
-    pub buffer: JitterBuffer,
-    /// Its body, for a new window.
-    pub body: Arc<crate::sim::body::Body>,
-    /// The window that prepares its motion, if there is one.
-    pub window: Option<Window>,
-    /// It takes the figure over from another drive, over so many seconds, once its own motion is there.
-    pub takeover: Option<f64>,
-}
-
-/// A window between the buffer and its figure.
-#[derive(Debug)]
-pub struct Window {
-    /// Its length, s.
-    pub length: f64,
-    /// The stream until its figure begins to follow it.
-    waiting: Option<Box<LivePlayback>>,
-    /// The figure comes into the stream from what it does, whatever the driver asked for.
-    begun: bool,
-}
-
-impl Window {
-    /// A window of `length` seconds for a figure with this body.
-    pub fn new(body: &Arc<crate::sim::body::Body>, length: f64) -> Self {
-        let motion = StreamPlan::new(Arc::clone(body), length);
-        Self {
-            length: motion.window(),
-            waiting: Some(Box::new(LivePlayback {
-                motion,
-                offset: 0.0,
-            })),
-            begun: false,
-        }
-    }
+    /// What plays its motion; `None` once the figure was removed or taken away.
+    pub player: Option<PlayerKey>,
 }
 
 /// One driver with its figures.
@@ -128,7 +87,7 @@ impl Drive {
     pub fn has(&self, figure: &str) -> bool {
         self.slots
             .iter()
-            .any(|s| s.figure == figure && s.key.is_some())
+            .any(|s| s.figure == figure && s.player.is_some())
     }
 
     /// The fault that others get who want one of its figures.
@@ -147,7 +106,7 @@ impl Drive {
 
     /// Takes what came since the last tick, in order of sequence: calls that meet in one tick overtake each other on
     /// their way. `scheduled` tells the scheduled time of an arrival.
-    pub fn collect(&mut self, scheduled: impl Fn(Instant) -> f64, now: Instant) {
+    pub fn collect(&mut self, scene: &mut Scene, scheduled: impl Fn(Instant) -> f64, now: Instant) {
         let taken = self.mailbox.take();
         if taken.pushed {
             self.touch(None, now);
@@ -164,10 +123,15 @@ impl Drive {
         let mut anew = None;
         for ((at, arrival), sample) in samples {
             for f in sample.figures {
-                let slot = &mut self.slots[f.slot];
+                let Some(key) = self.slots[f.slot].player else {
+                    continue;
+                };
+                let Some(player) = scene.player(key) else {
+                    continue;
+                };
                 let mut posture = f.posture;
                 if !f.has_root {
-                    let newest = slot.buffer.newest_posture();
+                    let newest = player.buffer.newest_posture();
                     posture.root_position = newest.root_position;
                     posture.root_rotation = newest.root_rotation;
                 }
@@ -180,7 +144,10 @@ impl Drive {
                     guess: Cell::default(),
                     arrival,
                 };
-                if slot.buffer.push(frame, at) || anew.is_some() {
+                let before = player.buffer.counts();
+                let begins = scene.take_frame(key, frame, at);
+                count_dropped(before, scene.player(key).map(|p| p.buffer.counts()));
+                if begins || anew.is_some() {
                     anew = Some(sample.sequence);
                 }
             }
@@ -191,22 +158,22 @@ impl Drive {
     }
 
     /// What the driver is told.
-    pub fn feedback(&self, tick: u64) -> Feedback {
+    pub fn feedback(&self, scene: &Scene) -> Feedback {
         let (received, refused) = self.mailbox.counts();
         Feedback {
             driver: self.id.name.to_string(),
-            tick,
+            tick: scene.world().tick(),
             received_sequence: received,
             refused,
             figures: self
                 .slots
                 .iter()
-                .filter(|s| s.key.is_some())
-                .map(|s| {
+                .filter_map(|s| Some((s, scene.player(s.player?)?)))
+                .map(|(slot, s)| {
                     let counts = s.buffer.counts();
                     let applied = s.buffer.applied();
                     FigureFeedback {
-                        figure: s.figure.clone(),
+                        figure: slot.figure.clone(),
                         applied_sequence: applied.map_or(-1, |a| a.0),
                         applied_source_ns: applied.map_or(0, |a| a.1),
                         buffered: s.buffer.buffered(),
@@ -227,107 +194,17 @@ impl Drive {
     }
 }
 
-impl Window {
-    /// Continues from what is asked of the figure now: a stream that begins elsewhere is moved there.
-    pub fn lead_in(&mut self, posture: &crate::sim::body::Posture) {
-        self.begun = true;
-        if let Some(live) = &mut self.waiting {
-            for _ in 0..LEAD_IN {
-                live.motion.push(posture, Some([true; 2]));
-            }
-        }
-    }
-}
-
-impl Slot {
-    /// Takes a figure over from another drive, in the middle of what it does, over `blend` seconds.
-    pub fn join(&mut self, figure: &mut Figure, now: Now, blend: f64) {
-        self.buffer.begin_from(figure.target().next.clone(), blend);
-        let Some(window) = &mut self.window else {
-            return; // the buffer goes over by itself
-        };
-        // The stream that the figure follows goes on with what comes now.
-        let length = window.length;
-        match figure.stream_mut().filter(|l| l.motion.window() == length) {
-            Some(live) => {
-                live.motion.join(blend);
-                window.waiting = None;
-                window.begun = true;
-            }
-            None => {
-                // There is none like it: it finishes its step, and is led in from a stand.
-                figure.stop(now.time);
-                window.lead_in(&figure.target().next.posture);
-            }
-        }
-    }
-
-    /// Feeds the window with what is due in the tick that begins `now`; once there is enough of it, the figure
-    /// follows. Returns the state that the figure is to be put into, if its driver asked for that.
-    pub fn feed(&mut self, now: Now, figure: &mut Figure, reset: bool) -> Option<State> {
-        let window = self.window.as_mut()?;
-        let length = window.length;
-        let time = now.time;
-        if self.buffer.take_break() {
-            // What the window holds has no continuation.
-            if window.waiting.is_none() {
-                figure.stop(time);
-            } else {
-                let begun = window.begun;
-                *window = Window::new(&self.body, length);
-                if begun {
-                    window.lead_in(&figure.target().next.posture);
-                }
-            }
-            return None;
-        }
-        if window.waiting.is_none() && figure.stream_mut().is_none() {
-            // It stopped in a silence: a stream that comes again begins from where the figure is.
-            if !self.buffer.has_news() {
-                self.buffer.feed(now, (RATE, length), |_| ());
-                return None;
-            }
-            *window = Window::new(&self.body, length);
-            window.lead_in(&figure.target().next.posture);
-        }
-        let waits = window.waiting.is_some();
-        let live = match &mut window.waiting {
-            Some(waiting) => waiting,
-            None => figure.stream_mut()?,
-        };
-        let motion = &mut live.motion;
-        let mut silent = false;
-        let (head, next) = self.buffer.feed(now, (RATE, length), |due| match due {
-            Due::Sample(posture, planted) => motion.push(posture, planted),
-            Due::Silence => silent = true,
-        })?;
-        if silent {
-            // It finishes its step and stands.
-            if !waits {
-                figure.stop(time);
-            }
-            return None;
-        }
-        live.offset = head - length + (motion.fed() - next) as f64 / RATE - time;
-        let begins = waits && live.stream_time(time) >= 0.0;
-        let mut live = window.waiting.take_if(|_| begins)?;
-        live.motion.advance(live.stream_time(time) + 1.0 / RATE);
-        let first = live.motion.sample(live.stream_time(time));
-        figure.set_drive(engine::Drive::Live(live));
-        (reset && !window.begun).then_some(first.state())
-    }
-
-    /// The desired motion over the tick that begins `now`, and whether the figure is to be put into it at once.
-    pub fn sample(&mut self, now: Now) -> Option<(TargetPair, bool)> {
-        let pair = self.buffer.sample(now)?;
-        Some((pair, self.buffer.resets_now()))
-    }
-
-    /// Sequence and source time that act now.
-    pub fn applied(&self) -> Option<(i64, i64)> {
-        match self.buffer.supply() {
-            Supply::None | Supply::Waiting => None,
-            _ => self.buffer.applied(),
+/// Counts what a frame has led to that a buffer has dropped. Not the buffer itself: what is done again is not counted.
+fn count_dropped(before: Counts, after: Option<Counts>) {
+    let after = after.unwrap_or(before);
+    for (reason, dropped) in [
+        ("stale", after.stale - before.stale),
+        ("overflow", after.overflow - before.overflow),
+        ("late", after.late - before.late),
+    ] {
+        if dropped > 0 {
+            metrics::counter!("sinew_motion_frames_dropped_total", "reason" => reason)
+                .increment(dropped);
         }
     }
 }

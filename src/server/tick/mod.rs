@@ -9,8 +9,11 @@ pub mod clock;
 pub mod command;
 pub mod drives;
 pub mod history;
+pub mod journal;
 pub mod leases;
 pub mod planners;
+pub mod replay;
+pub mod scene;
 pub mod scheduler;
 pub mod shard;
 pub mod stage_times;
@@ -173,6 +176,9 @@ impl Runner {
 
     /// Tells who still waits that there is no more.
     fn end(&mut self) {
+        guarded(&mut self.shard, "the record", |s| {
+            s.note(false, Instant::now());
+        });
         self.shard.send_replies();
         let why = self.shard.closing.take().unwrap_or(Fault::Draining);
         for step in self.shard.steps.drain(..) {
@@ -230,6 +236,7 @@ impl Runner {
             shard.clock.deadline() <= start
         };
         if !due {
+            guarded(shard, "the record", |s| s.note(false, start));
             if shard.changed {
                 publish(shard, outlet);
             }
@@ -245,6 +252,7 @@ impl Runner {
             guarded(shard, "the physics", Shard::step_world);
         }
         let step_done = Instant::now();
+        guarded(shard, "the record", |s| s.note(true, start));
         let snapshot = match shard.failed {
             None => publish(shard, outlet),
             Some(_) => None,

@@ -9,22 +9,24 @@ mod figures;
 mod obstacles;
 mod perturbations;
 
-pub use checkpoint::{Restored, SavedShard};
+pub use checkpoint::Origin;
 
 use super::budget::{Account, Budget, Meter};
 use super::clock::Clock;
-use super::drives::{Drive, Slot};
+use super::drives::Drive;
+use super::journal::Journal;
 use super::leases::Leases;
 use super::planners::Planners;
+use super::scene::{Input, Scene};
 use crate::server::durable::marks::Mark;
-use crate::server::engine::{self, FigureKey, ObstacleKey, Planning, World};
+use crate::server::engine::{self, FigureKey, Planning};
 use crate::server::ingest::mailbox::Mailboxes;
 use crate::wire::status::Fault;
 use crate::wire::types::{
-    Described, EventKind, FigureSettings, RosterEntry, Snapshot, WorldCondition, WorldEvent,
-    WorldInfo, WorldSettings, WorldUpdate,
+    Described, EventKind, RosterEntry, Snapshot, WorldCondition, WorldEvent, WorldInfo,
+    WorldSettings, WorldUpdate,
 };
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
 
@@ -35,16 +37,6 @@ pub struct Limits {
     pub figures: u64,
     /// Window of live motion for drivers that do not say, s; 0: none.
     pub window: f64,
-}
-
-struct Member {
-    id: String,
-    key: FigureKey,
-    index: i32,
-    settings: FigureSettings,
-    clip: Option<String>,
-    /// The clip that events have told of.
-    told: Option<clips::Playing>,
 }
 
 /// Steps that a client waits for.
@@ -60,7 +52,6 @@ pub struct StepRequest {
 /// A world and what belongs to its clock.
 pub struct Shard {
     id: Arc<str>,
-    settings: WorldSettings,
     created: SystemTime,
     /// Counts the times that its past was replaced.
     epoch: i32,
@@ -68,11 +59,11 @@ pub struct Shard {
     planners: Arc<Planners>,
     budget: Arc<Budget>,
     account: Arc<Account>,
-    world: World,
-    members: Vec<Member>,
-    obstacles: Vec<(String, ObstacleKey)>,
-    next_obstacle: u64,
-    next_index: i32,
+    scene: Scene,
+    /// The clips that events have told of.
+    told: BTreeMap<FigureKey, clips::Playing>,
+    /// Where its past is kept.
+    journal: Option<Arc<Journal>>,
     roster: Arc<[RosterEntry]>,
     roster_version: i32,
     drives: Vec<Drive>,
@@ -108,7 +99,7 @@ impl Shard {
         planners: Arc<Planners>,
         budget: Arc<Budget>,
     ) -> Result<Self, Fault> {
-        let world = engine::new_world(&settings)?;
+        let scene = Scene::new(settings.clone())?;
         let pace = &settings.pace;
         let speed = if paused { 0.0 } else { pace.speed };
         let account = budget.open(settings.rate_hz * speed, settings.substeps)?;
@@ -121,11 +112,9 @@ impl Shard {
             planners,
             budget,
             account,
-            world,
-            members: Vec::new(),
-            obstacles: Vec::new(),
-            next_obstacle: 1,
-            next_index: 0,
+            scene,
+            told: BTreeMap::new(),
+            journal: None,
             roster: Arc::new([]),
             roster_version: 1,
             drives: Vec::new(),
@@ -143,7 +132,6 @@ impl Shard {
             changed: true,
             closing: None,
             step_notes: None,
-            settings,
         })
     }
 
@@ -159,7 +147,7 @@ impl Shard {
 
     /// Number of figures.
     pub(super) fn figure_count(&self) -> usize {
-        self.members.len()
+        self.scene.members().len()
     }
 
     /// Its clock stands still for good: it takes nothing of the budget.
@@ -199,15 +187,15 @@ impl Shard {
     pub fn info(&self) -> WorldInfo {
         WorldInfo {
             id: self.id.to_string(),
-            settings: self.settings.clone(),
+            settings: self.scene.settings().clone(),
             condition: match (&self.failed, self.paused) {
                 (Some(why), _) => WorldCondition::Failed(why.clone()),
                 (None, true) => WorldCondition::Paused,
                 (None, false) => WorldCondition::Running,
             },
-            tick: self.world.tick(),
-            time: self.world.time(),
-            figures: self.members.len(),
+            tick: self.scene.world().tick(),
+            time: self.scene.world().time(),
+            figures: self.scene.members().len(),
             epoch: self.epoch,
             created: self.created,
         }
@@ -227,9 +215,9 @@ impl Shard {
     }
 
     fn restart_clock(&mut self) {
-        let pace = &self.settings.pace;
+        let pace = &self.scene.settings().pace;
         self.clock.restart(
-            self.settings.rate_hz,
+            self.scene.settings().rate_hz,
             pace.speed,
             pace.overrun,
             Instant::now(),
@@ -240,7 +228,7 @@ impl Shard {
     pub fn would_update(&self, u: WorldUpdate) -> Result<WorldInfo, Fault> {
         self.working()?;
         if let Some(speed) = u.speed.filter(|_| !self.paused) {
-            let rate = self.settings.rate_hz;
+            let rate = self.scene.settings().rate_hz;
             self.budget.would_set_pace(&self.account, rate * speed)?;
         }
         let mut info = self.info();
@@ -253,10 +241,12 @@ impl Shard {
         self.working()?;
         if let Some(speed) = u.speed.filter(|_| !self.paused) {
             self.budget
-                .set_pace(&self.account, self.settings.rate_hz * speed)?;
+                .set_pace(&self.account, self.scene.settings().rate_hz * speed)?;
         }
         let timed = u.overrun.is_some() || u.catch_up_limit.is_some() || u.speed.is_some();
-        u.apply(&mut self.settings.pace);
+        let mut pace = self.scene.settings().pace.clone();
+        u.apply(&mut pace);
+        self.scene.apply(Input::Pace(pace))?;
         if timed {
             self.restart_clock();
         }
@@ -281,7 +271,7 @@ impl Shard {
     pub fn resume(&mut self) -> Result<WorldInfo, Fault> {
         self.working()?;
         if self.paused {
-            let pace = self.settings.rate_hz * self.settings.pace.speed;
+            let pace = self.scene.settings().rate_hz * self.scene.settings().pace.speed;
             self.budget.set_pace(&self.account, pace)?;
             self.paused = false;
             self.restart_clock();
@@ -318,9 +308,9 @@ impl Shard {
     /// World and figures as they are described to clients, if anything of it may have changed since the last call: by a
     /// command, or as clips follow each other and constraints run out.
     pub(super) fn describe(&mut self) -> Option<Arc<Described>> {
-        let passing = self.members.iter().any(|m| {
-            let f = self.world.figure(m.key);
-            f.is_some_and(|f| f.next_clip().is_some() || !f.constraints().is_empty())
+        let passing = self.scene.members().iter().any(|m| {
+            let f = self.scene.figure(m.key);
+            f.next_clip().is_some() || !f.constraints().is_empty()
         });
         let passing = passing || self.control_passes();
         let before = std::mem::replace(&mut self.passing, passing);
@@ -362,26 +352,69 @@ impl Shard {
 
     // ── the tick ──
 
+    /// Keeps the past of this world from now on.
+    pub fn keep_past(&mut self, journal: Arc<Journal>) {
+        self.scene.keep_records();
+        journal.begin(self.scene.capture(), Instant::now());
+        self.journal = Some(journal);
+    }
+
+    /// Hands what has changed the world since the last call to its journal.
+    pub(super) fn flush(&mut self) {
+        let record = self.scene.take_record();
+        if let (Some(journal), Some(record)) = (&self.journal, record) {
+            journal.append(record);
+        }
+    }
+
+    /// Notes what this round has come to: changes, a tick if there was one, a checkpoint if it is time for one. A world
+    /// that has failed keeps the past up to there.
+    pub(super) fn note(&mut self, stepped: bool, now: Instant) {
+        if self.failed.is_some() {
+            self.scene.discard_record();
+            return;
+        }
+        self.flush();
+        let Some(journal) = self.journal.clone() else {
+            return;
+        };
+        if stepped {
+            let world = self.scene.world();
+            journal.stepped(world.tick(), world.state_hash());
+        }
+        if journal.wants_checkpoint(now) {
+            journal.begin(self.scene.capture(), now);
+        }
+    }
+
+    /// Takes a checkpoint now, for its journal.
+    pub fn checkpoint_now(&mut self) {
+        self.flush();
+        if let Some(journal) = &self.journal {
+            journal.begin(self.scene.capture(), Instant::now());
+        }
+    }
+
     /// One tick of the physics.
     pub(super) fn step_world(&mut self) {
         // Steps that somebody waits for have no deadline: they are the same whatever the threads that plan do.
-        self.world.set_planning(if self.paused {
+        let planning = if self.paused {
             Planning::InTick
         } else {
             self.planners.planning()
-        });
+        };
         if let Some((mark, until)) = &self.step_notes {
             if Instant::now() < *until {
-                mark.begin(self.world.tick() + 1);
+                mark.begin(self.scene.world().tick() + 1);
             } else {
                 self.step_notes = None;
             }
         }
-        self.world.step();
+        self.scene.step(planning);
         if let Some((mark, _)) = &self.step_notes {
             mark.end();
         }
-        let late = self.world.late_plans();
+        let late = self.scene.world().late_plans();
         if late > 0 {
             metrics::counter!("sinew_plans_late_total").increment(late as u64);
             tracing::warn!(
@@ -391,15 +424,15 @@ impl Shard {
             );
         }
         self.offer_plans();
-        let (tick, time) = (self.world.tick(), self.world.time());
+        let (tick, time) = (self.scene.world().tick(), self.scene.world().time());
         let mut events = std::mem::take(&mut self.events);
-        for m in &self.members {
-            let f = self.world.figure(m.key).expect("members are in the world");
+        for m in self.scene.members() {
+            let f = self.scene.figure(m.key);
             events.extend(f.events().iter().map(|e| WorldEvent {
                 tick,
                 time,
                 figure: m.id.clone(),
-                kind: engine::event_kind(e, |o| self.name_of(o)),
+                kind: engine::event_kind(e, |o| self.scene.name_of(o)),
             }));
         }
         self.events = events;
@@ -409,14 +442,14 @@ impl Shard {
     /// ticks.
     pub(super) fn offer_plans(&self) {
         if !self.paused {
-            self.planners.offer(self.world.plan_requests());
+            self.planners.offer(self.scene.world().plan_requests());
         }
     }
 
     fn event(&mut self, figure: &str, kind: EventKind) {
         self.events.push(WorldEvent {
-            tick: self.world.tick(),
-            time: self.world.time(),
+            tick: self.scene.world().tick(),
+            time: self.scene.world().time(),
             figure: figure.to_owned(),
             kind,
         });
@@ -434,39 +467,18 @@ impl Shard {
 
     /// What the world looks like now.
     pub fn snapshot(&mut self) -> Arc<Snapshot> {
-        // When the last tick began, which is what its report is about.
-        let start = self.world.tick().saturating_sub(1) as f64 * self.world.dt();
-        let applied = |key: FigureKey| {
-            self.drives
-                .iter()
-                .flat_map(|d| &d.slots)
-                .find(|s| s.key == Some(key))
-                .and_then(Slot::applied)
-                .unwrap_or((-1, 0))
-        };
-        let figures = self
-            .members
-            .iter()
-            .map(|m| {
-                let f = self.world.figure(m.key).expect("members are in the world");
-                let mut shown = engine::snapshot(f, start, self.world.dt(), applied(m.key));
-                if let Some(r) = &shown.report {
-                    shown.touched = r.touches.iter().map(|t| self.name_of(t.other)).collect();
-                }
-                shown
-            })
-            .collect();
+        let figures = self.scene.figures();
         let obstacles = self.obstacles();
         let since = SystemTime::now()
             .duration_since(SystemTime::UNIX_EPOCH)
             .unwrap_or_default();
         let snapshot = Arc::new(Snapshot {
             world: self.id.clone(),
-            rate_hz: self.settings.rate_hz,
-            gravity: self.settings.gravity,
-            tick: self.world.tick(),
-            time: self.world.time(),
-            hash: self.world.state_hash(),
+            rate_hz: self.scene.settings().rate_hz,
+            gravity: self.scene.settings().gravity,
+            tick: self.scene.world().tick(),
+            time: self.scene.world().time(),
+            hash: self.scene.world().state_hash(),
             epoch: self.epoch,
             server_ns: i64::try_from(since.as_nanos()).unwrap_or(i64::MAX),
             roster_version: self.roster_version,

@@ -10,9 +10,11 @@ use crate::server::tick::Outlet;
 use crate::server::tick::budget::Budget;
 use crate::server::tick::command::{Command, Origin, Queue, Refusal};
 use crate::server::tick::history::History;
+use crate::server::tick::journal::{Journal, Room};
 use crate::server::tick::planners::Planners;
+use crate::server::tick::scene::Scene;
 use crate::server::tick::scheduler::{Added, Plan, Priority, Scheduler, Ticket};
-use crate::server::tick::shard::{Limits, Restored, Shard};
+use crate::server::tick::shard::{Limits, Origin as Past, Shard};
 use crate::server::tick::stage_times::{Percentiles, STAGES};
 use crate::server::worlds::usage::Usage;
 use crate::sim::body::Body;
@@ -36,6 +38,8 @@ pub struct WorldHandle {
     pub hub: Hub,
     /// Where its drivers leave their motion.
     pub mailboxes: Arc<Mailboxes>,
+    /// Its past, if that is kept.
+    pub journal: Option<Arc<Journal>>,
     /// Ends when the world does.
     pub closed: watch::Receiver<()>,
     /// Ticks per second.
@@ -273,7 +277,14 @@ impl WorldHandle {
                 }
             }
         })?;
-        self.answer(rx).await
+        let result = self.answer(rx).await?;
+        if let Some(journal) = &self.journal {
+            journal
+                .settled()
+                .await
+                .map_err(|e| Fault::Storage(e.to_string()))?;
+        }
+        Ok(result)
     }
 
     /// The world as it is now. Reading never waits for a tick.
@@ -448,11 +459,11 @@ impl Registry {
     pub fn fork(
         &self,
         id: Option<String>,
-        from: Restored,
+        from: Scene,
         paused: bool,
         owner: (Client, Vec<Grant>),
     ) -> Result<Arc<WorldHandle>, Fault> {
-        let settings = from.shard.settings.clone();
+        let settings = from.settings().clone();
         self.start(id, (settings, Some(from)), paused, owner)
     }
 
@@ -526,7 +537,7 @@ impl Registry {
     fn start(
         &self,
         id: Option<String>,
-        (settings, from): (WorldSettings, Option<Restored>),
+        (settings, from): (WorldSettings, Option<Scene>),
         paused: bool,
         (owner, grants): (Client, Vec<Grant>),
     ) -> Result<Arc<WorldHandle>, Fault> {
@@ -536,7 +547,16 @@ impl Registry {
         let name: Arc<str> = id.as_str().into();
         let mut shard = self.shard(name.clone(), settings, paused)?;
         if let Some(from) = from {
-            shard.restore(from)?;
+            shard.restore(from, Past::Elsewhere)?;
+        }
+        let room = Room {
+            bytes: self.config.max_world_memory_bytes,
+            age: Duration::from_secs_f64(self.config.memory_s),
+        };
+        let stored = !self.config.data_dir.is_empty();
+        let journal = (room.any() || stored).then(|| Arc::new(Journal::new(room)));
+        if let Some(journal) = &journal {
+            shard.keep_past(Arc::clone(journal));
         }
         let commands = Arc::new(Queue::new(self.config.command_queue as usize));
         let outlet = Arc::new(Outlet::new(
@@ -563,6 +583,7 @@ impl Registry {
                 share: self.config.max_client_share,
             },
             mailboxes,
+            journal,
             closed,
             rate_hz,
             dropped: AtomicU64::new(0),

@@ -6,7 +6,7 @@
 //!
 //! ```text
 //!   magic 8 │ format u16 │ kind u16 │ numerics u64 │ tick u64 │ length u64 │ checksum u64 │ content
-//!   content: definitions (kind, hash, bytes), state; by `postcard`, little-endian
+//!   content: definitions (kind, hash, bytes), state, what the caller has beside it; by `postcard`, little-endian
 //! ```
 //!
 //! The state refers to definitions by their place in the list, which has a hash of what each consists of: a store keeps
@@ -20,6 +20,7 @@ use crate::sim::figure::{Figure, FigureKey, Planning, SavedFigure};
 use crate::sim::motion::Clip;
 use crate::sim::plan::motion_transition::TransitionClip;
 use crate::sim::saved::{self, Definition};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -28,7 +29,7 @@ use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
 /// Version of the format. Another one is not read: a checkpoint lives as long as the program that wrote it, and a log
 /// of inputs beside it longer (`docs/checkpoints.md`).
-pub const FORMAT: u16 = 1;
+pub const FORMAT: u16 = 2;
 /// First bytes of a checkpoint.
 const MAGIC: [u8; 8] = *b"SINEWCKP";
 /// Bytes before the content.
@@ -124,6 +125,7 @@ enum Kind {
 struct Content {
     definitions: Vec<SavedDefinition>,
     state: Bytes,
+    beside: Bytes,
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -134,6 +136,7 @@ pub struct Capture {
     tick: u64,
     hash: u64,
     state: Vec<u8>,
+    beside: Vec<u8>,
     definitions: Vec<Definition>,
 }
 
@@ -263,6 +266,11 @@ impl World {
     /// The state between two ticks, for [`Capture::checkpoint`]. Short: some microseconds per figure, more for one with
     /// a live window.
     pub fn capture(&self) -> Capture {
+        self.capture_with(&())
+    }
+
+    /// The same, with what the caller keeps of the world beside it; both share bodies and clips.
+    pub fn capture_with(&self, beside: &impl Serialize) -> Capture {
         // Every part is named here, so that none that is added is forgotten.
         let Self {
             params,
@@ -275,7 +283,7 @@ impl World {
             neighbourhood,
         } = self;
         let (through, report) = neighbourhood.saved();
-        let (state, definitions) = saved::collecting(|| {
+        let ((state, beside), definitions) = saved::collecting(|| {
             let world = SavedWorld {
                 params: *params,
                 tick: *tick,
@@ -286,12 +294,15 @@ impl World {
                 through: Cow::Borrowed(through),
                 report: *report,
             };
-            postcard::to_stdvec(&world).expect("what a world consists of can be written")
+            let write = "what a world consists of can be written";
+            let state = postcard::to_stdvec(&world).expect(write);
+            (state, postcard::to_stdvec(beside).expect(write))
         });
         Capture {
             tick: *tick,
             hash: self.state_hash(),
             state,
+            beside,
             definitions,
         }
     }
@@ -354,6 +365,19 @@ impl Capture {
         self.hash
     }
 
+    /// Bytes of the state, without bodies and clips.
+    pub fn size(&self) -> usize {
+        self.state.len() + self.beside.len()
+    }
+
+    /// A world in this state that shares its bodies and clips, and what was captured beside it.
+    ///
+    /// # Errors
+    /// What was captured beside it is of another type.
+    pub fn restore_with<T: DeserializeOwned>(&self) -> Result<(World, T), CheckpointError> {
+        restored(self.definitions.clone(), &self.state, &self.beside)
+    }
+
     /// Makes a value of it. What `known` has need not be written again; what is new is added to it.
     ///
     /// # Errors
@@ -363,6 +387,7 @@ impl Capture {
         let content = Content {
             definitions: definitions.collect::<Result<_, _>>()?,
             state: Bytes(self.state.clone()),
+            beside: Bytes(self.beside.clone()),
         };
         Ok(Checkpoint {
             numerics: numerics(),
@@ -472,6 +497,17 @@ impl Checkpoint {
         &self,
         find: impl Fn(&DefinitionHash) -> Option<Vec<u8>>,
     ) -> Result<World, CheckpointError> {
+        self.restore_with::<()>(find).map(|(world, ())| world)
+    }
+
+    /// The same, and what was captured beside it.
+    ///
+    /// # Errors
+    /// Those of [`Self::restore`]; what was captured beside it is of another type.
+    pub fn restore_with<T: DeserializeOwned>(
+        &self,
+        find: impl Fn(&DefinitionHash) -> Option<Vec<u8>>,
+    ) -> Result<(World, T), CheckpointError> {
         let mut all = Vec::new();
         for d in &self.content.definitions {
             let found = match &d.bytes {
@@ -480,13 +516,43 @@ impl Checkpoint {
             };
             all.push(found);
         }
-        let saved: SavedWorld<'static> =
-            saved::with_definitions(all, || exactly(&self.content.state.0))?;
-        if saved.tick != self.tick {
+        let (world, beside) = restored(all, &self.content.state.0, &self.content.beside.0)?;
+        if world.tick != self.tick {
             return Err(content("a state of another tick"));
         }
-        World::restored(saved)
+        Ok((world, beside))
     }
+}
+
+fn restored<T: DeserializeOwned>(
+    all: Vec<Definition>,
+    state: &[u8],
+    beside: &[u8],
+) -> Result<(World, T), CheckpointError> {
+    let (world, beside) = saved::with_definitions(all, || {
+        Ok::<_, CheckpointError>((exactly::<SavedWorld<'static>>(state)?, exactly(beside)?))
+    })?;
+    Ok((World::restored(world)?, beside))
+}
+
+/// Bodies and clips as bytes, each with its kind and hash.
+///
+/// # Errors
+/// One is of a kind that is not written.
+pub fn write_definitions(all: &[Definition]) -> Result<Vec<u8>, CheckpointError> {
+    let all = all.iter().map(SavedDefinition::of);
+    postcard::to_stdvec(&all.collect::<Result<Vec<_>, _>>()?).map_err(content)
+}
+
+/// What [`write_definitions`] has written.
+///
+/// # Errors
+/// It cannot have been written.
+pub fn read_definitions(bytes: &[u8]) -> Result<Vec<Definition>, CheckpointError> {
+    let all: Vec<SavedDefinition> = exactly(bytes)?;
+    let missing = |d: &SavedDefinition| CheckpointError::Missing(d.hash);
+    let read = |d: &SavedDefinition| d.read(&d.bytes.as_ref().ok_or_else(|| missing(d))?.0);
+    all.iter().map(read).collect()
 }
 
 /// Of everything that a checkpoint says.

@@ -188,6 +188,15 @@ pub(crate) fn shortened(text: &str) -> &str {
     }
 }
 
+/// A count on the wire, where it has a sign.
+///
+/// # Errors
+/// It is negative.
+pub fn not_negative(field: &str, value: i64) -> Result<u64, Fault> {
+    u64::try_from(value)
+        .map_err(|_| Fault::invalid(field, format!("must not be negative, got {value}")))
+}
+
 /// A point in time for a response.
 pub fn timestamp(t: std::time::SystemTime) -> prost_types::Timestamp {
     t.into()

@@ -20,6 +20,8 @@ pub const OBSTACLE: Form<2> = Form([("worlds", "world"), ("obstacles", "obstacle
 pub const GRANT: Form<2> = Form([("worlds", "world"), ("grants", "grant")]);
 /// `worlds/{world}/checkpoints/{checkpoint}`.
 pub const CHECKPOINT: Form<2> = Form([("worlds", "world"), ("checkpoints", "checkpoint")]);
+/// `worlds/{world}/recordings/{recording}`.
+pub const RECORDING: Form<2> = Form([("worlds", "world"), ("recordings", "recording")]);
 /// `clips/{clip}`.
 pub const CLIP: Form<1> = Form([("clips", "clip")]);
 /// `bodies/{body}`.

@@ -3935,6 +3935,10 @@ pub struct ForkWorldRequest {
     /// Its clock stands still until it is resumed.
     #[prost(bool, tag = "5")]
     pub paused: bool,
+    /// With `world`: the tick of its past after which the state is taken, before anything changed it there. OUT_OF_RANGE
+    /// for one that is not held. Absent: now.
+    #[prost(int64, optional, tag = "6")]
+    pub tick: ::core::option::Option<i64>,
     /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
     /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
     #[prost(string, tag = "13")]
@@ -3954,7 +3958,7 @@ pub mod fork_world_request {
         /// Bytes of a checkpoint.
         #[prost(bytes, tag = "2")]
         Data(::prost::bytes::Bytes),
-        /// Resource name `worlds/{world}` of a world, whose state between two ticks is taken now.
+        /// Resource name `worlds/{world}` of a world, whose state between two ticks is taken now, or that after `tick`.
         #[prost(string, tag = "3")]
         World(::prost::alloc::string::String),
     }
@@ -4186,7 +4190,8 @@ pub mod checkpoint_service_client {
             self.inner.unary(req, path, codec).await
         }
         /// Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
-        /// event `EVENT_TYPE_WORLD_RESTORED`; drives end, and figures that were driven finish their step and stand. Speed,
+        /// event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure
+        /// goes over to the stream from what it does there. Figures that others drove finish their step and stand. Speed,
         /// overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
         /// FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
         pub async fn restore_world(
@@ -4213,8 +4218,9 @@ pub mod checkpoint_service_client {
                 .insert(GrpcMethod::new("sinew.v1.CheckpointService", "RestoreWorld"));
             self.inner.unary(req, path, codec).await
         }
-        /// Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
-        /// world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
+        /// Makes a new world in the state of a checkpoint, or of a world as it is now or was after a tick of its past that is
+        /// held (`HistoryService`); the caller must be a director of the world that it is of. A paused one can be changed
+        /// before it goes on: what if the load were 1 kg less?
         pub async fn fork_world(
             &mut self,
             request: impl tonic::IntoRequest<super::ForkWorldRequest>,
@@ -4288,7 +4294,8 @@ pub mod checkpoint_service_server {
             tonic::Status,
         >;
         /// Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
-        /// event `EVENT_TYPE_WORLD_RESTORED`; drives end, and figures that were driven finish their step and stand. Speed,
+        /// event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure
+        /// goes over to the stream from what it does there. Figures that others drove finish their step and stand. Speed,
         /// overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
         /// FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
         async fn restore_world(
@@ -4298,8 +4305,9 @@ pub mod checkpoint_service_server {
             tonic::Response<super::RestoreWorldResponse>,
             tonic::Status,
         >;
-        /// Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
-        /// world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
+        /// Makes a new world in the state of a checkpoint, or of a world as it is now or was after a tick of its past that is
+        /// held (`HistoryService`); the caller must be a director of the world that it is of. A paused one can be changed
+        /// before it goes on: what if the load were 1 kg less?
         async fn fork_world(
             &self,
             request: tonic::Request<super::ForkWorldRequest>,
@@ -7380,6 +7388,633 @@ impl ::prost::Name for AppliedForces {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/sinew.v1.AppliedForces".into()
+    }
+}
+/// Asks what is held.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetHistoryRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for GetHistoryRequest {
+    const NAME: &'static str = "GetHistoryRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetHistoryRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetHistoryRequest".into()
+    }
+}
+/// What is held.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetHistoryResponse {
+    /// The first tick whose state can be made; −1: none.
+    #[prost(int64, tag = "1")]
+    pub oldest_tick: i64,
+    /// The last one; −1: none.
+    #[prost(int64, tag = "2")]
+    pub newest_tick: i64,
+}
+impl ::prost::Name for GetHistoryResponse {
+    const NAME: &'static str = "GetHistoryResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetHistoryResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetHistoryResponse".into()
+    }
+}
+/// Puts a world back.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct SeekWorldRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Ticks done.
+    #[prost(int64, tag = "2")]
+    pub tick: i64,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+}
+impl ::prost::Name for SeekWorldRequest {
+    const NAME: &'static str = "SeekWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SeekWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SeekWorldRequest".into()
+    }
+}
+/// The world is in that state.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct SeekWorldResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub world: ::core::option::Option<World>,
+}
+impl ::prost::Name for SeekWorldResponse {
+    const NAME: &'static str = "SeekWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.SeekWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.SeekWorldResponse".into()
+    }
+}
+/// Does a part of the past again.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ReplayWorldRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Tick to begin with; the checkpoint before it is where it really begins. Absent: the oldest that is held.
+    #[prost(int64, optional, tag = "2")]
+    pub first_tick: ::core::option::Option<i64>,
+    /// Tick to end with. Absent: the newest.
+    #[prost(int64, optional, tag = "3")]
+    pub last_tick: ::core::option::Option<i64>,
+    /// Threads to step with, 1…64. 0: 1. The result does not depend on it.
+    #[prost(int32, tag = "4")]
+    pub thread_count: i32,
+}
+impl ::prost::Name for ReplayWorldRequest {
+    const NAME: &'static str = "ReplayWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ReplayWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ReplayWorldRequest".into()
+    }
+}
+/// What it came to.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ReplayWorldResponse {
+    /// Tick of the checkpoint that it began with.
+    #[prost(int64, tag = "1")]
+    pub first_tick: i64,
+    /// Tick that it ended with.
+    #[prost(int64, tag = "2")]
+    pub last_tick: i64,
+    /// Ticks whose states were compared.
+    #[prost(int64, tag = "3")]
+    pub compared_tick_count: i64,
+    /// The first tick whose state is another one; absent: all are equal.
+    #[prost(message, optional, tag = "4")]
+    pub difference: ::core::option::Option<ReplayDifference>,
+}
+impl ::prost::Name for ReplayWorldResponse {
+    const NAME: &'static str = "ReplayWorldResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ReplayWorldResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ReplayWorldResponse".into()
+    }
+}
+/// A state that is not the one that was recorded.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ReplayDifference {
+    /// Tick.
+    #[prost(int64, tag = "1")]
+    pub tick: i64,
+    /// Hash that was recorded.
+    #[prost(sfixed64, tag = "2")]
+    pub recorded_state_hash: i64,
+    /// Hash of the state.
+    #[prost(sfixed64, tag = "3")]
+    pub replayed_state_hash: i64,
+    /// What else is wrong: a record that is missing or cannot be read. Empty: only the hashes differ.
+    #[prost(string, tag = "4")]
+    pub detail: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ReplayDifference {
+    const NAME: &'static str = "ReplayDifference";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ReplayDifference".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ReplayDifference".into()
+    }
+}
+/// Generated client implementations.
+pub mod history_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    /// How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
+    /// OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
+    #[derive(Debug, Clone)]
+    pub struct HistoryServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl HistoryServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> HistoryServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> HistoryServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            HistoryServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// What is held of the past of a world.
+        pub async fn get_history(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetHistoryRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetHistoryResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.HistoryService/GetHistory",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.HistoryService", "GetHistory"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Puts a world back into the state that it had after a tick of its past, before anything changed it there. What came
+        /// later is no longer its past; fork the world first to keep it. Viewers get a full frame of the next epoch and the
+        /// event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that was there goes on driving it: the figure goes over to
+        /// the stream from what it did then. Speed, overrun policy and whether the world is paused stay as they are.
+        pub async fn seek_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::SeekWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::SeekWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.HistoryService/SeekWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.HistoryService", "SeekWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Does a part of the past again, beside the world, and compares the state after each tick with the one that was
+        /// recorded. It is given up when the call is cancelled.
+        pub async fn replay_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ReplayWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ReplayWorldResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.HistoryService/ReplayWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.HistoryService", "ReplayWorld"));
+            self.inner.unary(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod history_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with HistoryServiceServer.
+    #[async_trait]
+    pub trait HistoryService: std::marker::Send + std::marker::Sync + 'static {
+        /// What is held of the past of a world.
+        async fn get_history(
+            &self,
+            request: tonic::Request<super::GetHistoryRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetHistoryResponse>,
+            tonic::Status,
+        >;
+        /// Puts a world back into the state that it had after a tick of its past, before anything changed it there. What came
+        /// later is no longer its past; fork the world first to keep it. Viewers get a full frame of the next epoch and the
+        /// event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that was there goes on driving it: the figure goes over to
+        /// the stream from what it did then. Speed, overrun policy and whether the world is paused stay as they are.
+        async fn seek_world(
+            &self,
+            request: tonic::Request<super::SeekWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::SeekWorldResponse>,
+            tonic::Status,
+        >;
+        /// Does a part of the past again, beside the world, and compares the state after each tick with the one that was
+        /// recorded. It is given up when the call is cancelled.
+        async fn replay_world(
+            &self,
+            request: tonic::Request<super::ReplayWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ReplayWorldResponse>,
+            tonic::Status,
+        >;
+    }
+    /// The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    /// How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
+    /// OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
+    #[derive(Debug)]
+    pub struct HistoryServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> HistoryServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for HistoryServiceServer<T>
+    where
+        T: HistoryService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.HistoryService/GetHistory" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetHistorySvc<T: HistoryService>(pub Arc<T>);
+                    impl<
+                        T: HistoryService,
+                    > tonic::server::UnaryService<super::GetHistoryRequest>
+                    for GetHistorySvc<T> {
+                        type Response = super::GetHistoryResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetHistoryRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as HistoryService>::get_history(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetHistorySvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.HistoryService/SeekWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct SeekWorldSvc<T: HistoryService>(pub Arc<T>);
+                    impl<
+                        T: HistoryService,
+                    > tonic::server::UnaryService<super::SeekWorldRequest>
+                    for SeekWorldSvc<T> {
+                        type Response = super::SeekWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::SeekWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as HistoryService>::seek_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = SeekWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.HistoryService/ReplayWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct ReplayWorldSvc<T: HistoryService>(pub Arc<T>);
+                    impl<
+                        T: HistoryService,
+                    > tonic::server::UnaryService<super::ReplayWorldRequest>
+                    for ReplayWorldSvc<T> {
+                        type Response = super::ReplayWorldResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ReplayWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as HistoryService>::replay_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ReplayWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for HistoryServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.HistoryService";
+    impl<T> tonic::server::NamedService for HistoryServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
     }
 }
 /// A stored desired motion.
@@ -13455,6 +14090,1064 @@ pub mod operation_service_server {
     /// Generated gRPC service name
     pub const SERVICE_NAME: &str = "sinew.v1.OperationService";
     impl<T> tonic::server::NamedService for OperationServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
+/// A part of the past of a world that is kept.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct Recording {
+    /// Resource name `worlds/{world}/recordings/{recording}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Whether it goes on.
+    #[prost(enumeration = "RecordingState", tag = "2")]
+    pub state: i32,
+    /// Tick that it begins with.
+    #[prost(int64, tag = "3")]
+    pub first_tick: i64,
+    /// The last one so far.
+    #[prost(int64, tag = "4")]
+    pub last_tick: i64,
+    /// What it takes in memory, bytes.
+    #[prost(int64, tag = "5")]
+    pub size_bytes: i64,
+    /// When it was begun.
+    #[prost(message, optional, tag = "6")]
+    pub create_time: ::core::option::Option<::prost_types::Timestamp>,
+    /// Why it has ended: `STOPPED`, `MAX_RECORDING_BYTES`, `WORLD_RESTORED`.
+    #[prost(string, tag = "7")]
+    pub end_reason: ::prost::alloc::string::String,
+}
+impl ::prost::Name for Recording {
+    const NAME: &'static str = "Recording";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Recording".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Recording".into()
+    }
+}
+/// Begins a recording.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct StartRecordingRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub parent: ::prost::alloc::string::String,
+    /// Last part of its name, 1…63 characters of a…z, 0…9 and `-`. Empty: one that is free.
+    #[prost(string, tag = "2")]
+    pub recording_id: ::prost::alloc::string::String,
+    /// Tick of the past to begin with, if it is still held. Absent: now.
+    #[prost(int64, optional, tag = "3")]
+    pub first_tick: ::core::option::Option<i64>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+}
+impl ::prost::Name for StartRecordingRequest {
+    const NAME: &'static str = "StartRecordingRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StartRecordingRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StartRecordingRequest".into()
+    }
+}
+/// The recording.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct StartRecordingResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub recording: ::core::option::Option<Recording>,
+}
+impl ::prost::Name for StartRecordingResponse {
+    const NAME: &'static str = "StartRecordingResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StartRecordingResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StartRecordingResponse".into()
+    }
+}
+/// Ends a recording.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct StopRecordingRequest {
+    /// Resource name `worlds/{world}/recordings/{recording}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+}
+impl ::prost::Name for StopRecordingRequest {
+    const NAME: &'static str = "StopRecordingRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StopRecordingRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StopRecordingRequest".into()
+    }
+}
+/// The recording.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct StopRecordingResponse {
+    /// As it is kept.
+    #[prost(message, optional, tag = "1")]
+    pub recording: ::core::option::Option<Recording>,
+}
+impl ::prost::Name for StopRecordingResponse {
+    const NAME: &'static str = "StopRecordingResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StopRecordingResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StopRecordingResponse".into()
+    }
+}
+/// Asks for a recording.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetRecordingRequest {
+    /// Resource name `worlds/{world}/recordings/{recording}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for GetRecordingRequest {
+    const NAME: &'static str = "GetRecordingRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetRecordingRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetRecordingRequest".into()
+    }
+}
+/// The recording.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetRecordingResponse {
+    /// As it is now.
+    #[prost(message, optional, tag = "1")]
+    pub recording: ::core::option::Option<Recording>,
+}
+impl ::prost::Name for GetRecordingResponse {
+    const NAME: &'static str = "GetRecordingResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetRecordingResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetRecordingResponse".into()
+    }
+}
+/// Asks for the recordings of a world.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ListRecordingsRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub parent: ::prost::alloc::string::String,
+    /// Most recordings to return. 0: 100; more than 1000 are taken as 1000.
+    #[prost(int32, tag = "2")]
+    pub page_size: i32,
+    /// `next_page_token` of the page before. Empty: from the start.
+    #[prost(string, tag = "3")]
+    pub page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListRecordingsRequest {
+    const NAME: &'static str = "ListRecordingsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListRecordingsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListRecordingsRequest".into()
+    }
+}
+/// A page of recordings.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ListRecordingsResponse {
+    /// By name.
+    #[prost(message, repeated, tag = "1")]
+    pub recordings: ::prost::alloc::vec::Vec<Recording>,
+    /// Token of the next page; empty at the end.
+    #[prost(string, tag = "2")]
+    pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListRecordingsResponse {
+    const NAME: &'static str = "ListRecordingsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListRecordingsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListRecordingsResponse".into()
+    }
+}
+/// Forgets a recording.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteRecordingRequest {
+    /// Resource name `worlds/{world}/recordings/{recording}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+}
+impl ::prost::Name for DeleteRecordingRequest {
+    const NAME: &'static str = "DeleteRecordingRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteRecordingRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteRecordingRequest".into()
+    }
+}
+/// The recording is gone.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteRecordingResponse {}
+impl ::prost::Name for DeleteRecordingResponse {
+    const NAME: &'static str = "DeleteRecordingResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteRecordingResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteRecordingResponse".into()
+    }
+}
+/// Asks for a file.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ExportRecordingRequest {
+    /// Resource name `worlds/{world}/recordings/{recording}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Kind of file.
+    #[prost(enumeration = "RecordingFormat", tag = "2")]
+    pub format: i32,
+    /// Last part of the name of the figure, for BVH and CSV. Empty: the first one. Its file has the ticks in which it is
+    /// there.
+    #[prost(string, tag = "3")]
+    pub figure_id: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ExportRecordingRequest {
+    const NAME: &'static str = "ExportRecordingRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ExportRecordingRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ExportRecordingRequest".into()
+    }
+}
+/// A piece of the file.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ExportRecordingResponse {
+    /// Bytes; they follow those of the message before.
+    #[prost(bytes = "vec", tag = "1")]
+    pub data: ::prost::alloc::vec::Vec<u8>,
+    /// Ticks of the recording that are done.
+    #[prost(int64, tag = "2")]
+    pub done_tick_count: i64,
+}
+impl ::prost::Name for ExportRecordingResponse {
+    const NAME: &'static str = "ExportRecordingResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ExportRecordingResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ExportRecordingResponse".into()
+    }
+}
+/// Whether a recording goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum RecordingState {
+    /// Never sent.
+    Unspecified = 0,
+    /// It goes on.
+    Running = 1,
+    /// It has ended: `end_reason` says why.
+    Ended = 2,
+}
+impl RecordingState {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "RECORDING_STATE_UNSPECIFIED",
+            Self::Running => "RECORDING_STATE_RUNNING",
+            Self::Ended => "RECORDING_STATE_ENDED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "RECORDING_STATE_UNSPECIFIED" => Some(Self::Unspecified),
+            "RECORDING_STATE_RUNNING" => Some(Self::Running),
+            "RECORDING_STATE_ENDED" => Some(Self::Ended),
+            _ => None,
+        }
+    }
+}
+/// Kinds of files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum RecordingFormat {
+    /// MCAP.
+    Unspecified = 0,
+    /// MCAP with one `sinew.v1.WorldFrame` per tick, every field, on the topic of the world's name, and the roster as
+    /// metadata; schemas are in the file.
+    Mcap = 1,
+    /// BVH of one figure.
+    Bvh = 2,
+    /// Posture, torques and their limits of one figure as a table.
+    Csv = 3,
+}
+impl RecordingFormat {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "RECORDING_FORMAT_UNSPECIFIED",
+            Self::Mcap => "RECORDING_FORMAT_MCAP",
+            Self::Bvh => "RECORDING_FORMAT_BVH",
+            Self::Csv => "RECORDING_FORMAT_CSV",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "RECORDING_FORMAT_UNSPECIFIED" => Some(Self::Unspecified),
+            "RECORDING_FORMAT_MCAP" => Some(Self::Mcap),
+            "RECORDING_FORMAT_BVH" => Some(Self::Bvh),
+            "RECORDING_FORMAT_CSV" => Some(Self::Csv),
+            _ => None,
+        }
+    }
+}
+/// Generated client implementations.
+pub mod recording_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// Keeps a part of the past of a world that would be forgotten otherwise, and writes it as a file. What is kept is a
+    /// checkpoint and what changed the world since; files are made of it by simulating it again, so that they show whatever
+    /// frames can show.
+    #[derive(Debug, Clone)]
+    pub struct RecordingServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl RecordingServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> RecordingServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> RecordingServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            RecordingServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// Begins a recording. RESOURCE_EXHAUSTED when there are as many as there may be.
+        pub async fn start_recording(
+            &mut self,
+            request: impl tonic::IntoRequest<super::StartRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StartRecordingResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.RecordingService/StartRecording",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.RecordingService", "StartRecording"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Ends a recording, which is kept until it is deleted, its world is deleted, or the server ends. One that has ended
+        /// stays as it is.
+        pub async fn stop_recording(
+            &mut self,
+            request: impl tonic::IntoRequest<super::StopRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StopRecordingResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.RecordingService/StopRecording",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.RecordingService", "StopRecording"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// One recording.
+        pub async fn get_recording(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetRecordingResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.RecordingService/GetRecording",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.RecordingService", "GetRecording"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// The recordings of a world, by name.
+        pub async fn list_recordings(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ListRecordingsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListRecordingsResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.RecordingService/ListRecordings",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.RecordingService", "ListRecordings"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Forgets a recording.
+        pub async fn delete_recording(
+            &mut self,
+            request: impl tonic::IntoRequest<super::DeleteRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteRecordingResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.RecordingService/DeleteRecording",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.RecordingService", "DeleteRecording"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Writes a recording as a file, in pieces. One that goes on is written up to now. DATA_LOSS (`REPLAY_DIFFERS`) if a
+        /// state is not the one that was recorded.
+        pub async fn export_recording(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ExportRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<tonic::codec::Streaming<super::ExportRecordingResponse>>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.RecordingService/ExportRecording",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.RecordingService", "ExportRecording"));
+            self.inner.server_streaming(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod recording_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with RecordingServiceServer.
+    #[async_trait]
+    pub trait RecordingService: std::marker::Send + std::marker::Sync + 'static {
+        /// Begins a recording. RESOURCE_EXHAUSTED when there are as many as there may be.
+        async fn start_recording(
+            &self,
+            request: tonic::Request<super::StartRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StartRecordingResponse>,
+            tonic::Status,
+        >;
+        /// Ends a recording, which is kept until it is deleted, its world is deleted, or the server ends. One that has ended
+        /// stays as it is.
+        async fn stop_recording(
+            &self,
+            request: tonic::Request<super::StopRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StopRecordingResponse>,
+            tonic::Status,
+        >;
+        /// One recording.
+        async fn get_recording(
+            &self,
+            request: tonic::Request<super::GetRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetRecordingResponse>,
+            tonic::Status,
+        >;
+        /// The recordings of a world, by name.
+        async fn list_recordings(
+            &self,
+            request: tonic::Request<super::ListRecordingsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListRecordingsResponse>,
+            tonic::Status,
+        >;
+        /// Forgets a recording.
+        async fn delete_recording(
+            &self,
+            request: tonic::Request<super::DeleteRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteRecordingResponse>,
+            tonic::Status,
+        >;
+        /// Server streaming response type for the ExportRecording method.
+        type ExportRecordingStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<super::ExportRecordingResponse, tonic::Status>,
+            >
+            + std::marker::Send
+            + 'static;
+        /// Writes a recording as a file, in pieces. One that goes on is written up to now. DATA_LOSS (`REPLAY_DIFFERS`) if a
+        /// state is not the one that was recorded.
+        async fn export_recording(
+            &self,
+            request: tonic::Request<super::ExportRecordingRequest>,
+        ) -> std::result::Result<
+            tonic::Response<Self::ExportRecordingStream>,
+            tonic::Status,
+        >;
+    }
+    /// Keeps a part of the past of a world that would be forgotten otherwise, and writes it as a file. What is kept is a
+    /// checkpoint and what changed the world since; files are made of it by simulating it again, so that they show whatever
+    /// frames can show.
+    #[derive(Debug)]
+    pub struct RecordingServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> RecordingServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for RecordingServiceServer<T>
+    where
+        T: RecordingService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.RecordingService/StartRecording" => {
+                    #[allow(non_camel_case_types)]
+                    struct StartRecordingSvc<T: RecordingService>(pub Arc<T>);
+                    impl<
+                        T: RecordingService,
+                    > tonic::server::UnaryService<super::StartRecordingRequest>
+                    for StartRecordingSvc<T> {
+                        type Response = super::StartRecordingResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::StartRecordingRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as RecordingService>::start_recording(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = StartRecordingSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.RecordingService/StopRecording" => {
+                    #[allow(non_camel_case_types)]
+                    struct StopRecordingSvc<T: RecordingService>(pub Arc<T>);
+                    impl<
+                        T: RecordingService,
+                    > tonic::server::UnaryService<super::StopRecordingRequest>
+                    for StopRecordingSvc<T> {
+                        type Response = super::StopRecordingResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::StopRecordingRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as RecordingService>::stop_recording(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = StopRecordingSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.RecordingService/GetRecording" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetRecordingSvc<T: RecordingService>(pub Arc<T>);
+                    impl<
+                        T: RecordingService,
+                    > tonic::server::UnaryService<super::GetRecordingRequest>
+                    for GetRecordingSvc<T> {
+                        type Response = super::GetRecordingResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetRecordingRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as RecordingService>::get_recording(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetRecordingSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.RecordingService/ListRecordings" => {
+                    #[allow(non_camel_case_types)]
+                    struct ListRecordingsSvc<T: RecordingService>(pub Arc<T>);
+                    impl<
+                        T: RecordingService,
+                    > tonic::server::UnaryService<super::ListRecordingsRequest>
+                    for ListRecordingsSvc<T> {
+                        type Response = super::ListRecordingsResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ListRecordingsRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as RecordingService>::list_recordings(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ListRecordingsSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.RecordingService/DeleteRecording" => {
+                    #[allow(non_camel_case_types)]
+                    struct DeleteRecordingSvc<T: RecordingService>(pub Arc<T>);
+                    impl<
+                        T: RecordingService,
+                    > tonic::server::UnaryService<super::DeleteRecordingRequest>
+                    for DeleteRecordingSvc<T> {
+                        type Response = super::DeleteRecordingResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::DeleteRecordingRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as RecordingService>::delete_recording(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = DeleteRecordingSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.RecordingService/ExportRecording" => {
+                    #[allow(non_camel_case_types)]
+                    struct ExportRecordingSvc<T: RecordingService>(pub Arc<T>);
+                    impl<
+                        T: RecordingService,
+                    > tonic::server::ServerStreamingService<
+                        super::ExportRecordingRequest,
+                    > for ExportRecordingSvc<T> {
+                        type Response = super::ExportRecordingResponse;
+                        type ResponseStream = T::ExportRecordingStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ExportRecordingRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as RecordingService>::export_recording(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ExportRecordingSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.server_streaming(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for RecordingServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.RecordingService";
+    impl<T> tonic::server::NamedService for RecordingServiceServer<T> {
         const NAME: &'static str = SERVICE_NAME;
     }
 }

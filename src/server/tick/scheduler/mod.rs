@@ -370,7 +370,11 @@ impl Shared {
                 metrics::counter!("sinew_slow_ticks_total").increment(1);
                 tracing::warn!(world, tick, seconds, "a tick took long");
             }
-            let next = next.unwrap_or(Next::Ended);
+            let next = next.unwrap_or_else(|_| {
+                // What may panic is guarded where it is called: this is an error of the loop itself.
+                entry.slot.give_up("a round of its loop panicked");
+                Next::Ended
+            });
             if !self.give_back(&entry.slot, runner, next, (seat, epoch)) {
                 let mut stuck = lock(&self.stuck);
                 stuck.retain(|(thread, _)| *thread != epoch);

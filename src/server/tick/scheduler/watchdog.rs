@@ -3,7 +3,7 @@
 //!
 //! Time counts while this thread runs: after a pause of the whole process nobody is taken for stuck.
 
-use super::priority::{self, Duty};
+use super::priority::{self, Duty, Priority};
 use super::{Shared, lock};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Weak};
@@ -79,6 +79,9 @@ fn look(shared: &Arc<Shared>, seat: usize, seen: &mut Seen, every: Duration) {
     if seen.time >= shared.plan.stuck {
         // The thread keeps this world. It sees at its end that it has no seat any more.
         let lost = queue.epoch;
+        if let Some((thread, had)) = queue.thread {
+            priority::lower(thread, had); // for good
+        }
         queue.running = None;
         queue.epoch = 0;
         drop(queue);
@@ -100,8 +103,11 @@ fn look(shared: &Arc<Shared>, seat: usize, seen: &mut Seen, every: Duration) {
         *seen = Seen::default();
     } else if seen.time >= shared.plan.slow && !seen.reported {
         seen.reported = true;
-        if let Some((thread, had)) = queue.thread {
-            // It has the seat, so it lives. In real time it could keep all others from theirs.
+        if let Some((thread, had)) = queue.thread
+            && had != Priority::Plain
+        {
+            // It has the seat, so it lives. In real time it could keep all others from theirs. A plain thread might not
+            // be allowed to come back.
             priority::lower(thread, had);
             queue.lowered = true;
         }

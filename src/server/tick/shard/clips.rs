@@ -1,35 +1,44 @@
 //! When clips begin and end, for those who watch events.
 
-use super::{Member, Shard};
+use super::Shard;
 use crate::server::engine;
+use crate::server::tick::scene::Member;
 use crate::wire::types::EventKind;
 
 /// A clip that plays: its id, and the world time of its start, s.
 pub(super) type Playing = (String, f64);
 
 impl Shard {
-    /// The start of the clip that a figure plays now.
-    fn plays(&self, m: &Member) -> Option<f64> {
-        m.clip.as_ref()?;
-        let figure = self.world.figure(m.key)?;
-        engine::playing_since(figure, self.world.time())
+    /// The clip that a figure plays now.
+    fn plays(&self, m: &Member) -> Option<Playing> {
+        let id = m.clip.as_ref()?;
+        let world = self.scene.world();
+        let since = engine::playing_since(world.figure(m.key)?, world.time())?;
+        Some((id.clone(), since))
     }
 
     /// What figures play, as it was told last: after a restored state nothing is news.
     pub(super) fn note_clips(&mut self) {
-        for i in 0..self.members.len() {
-            let since = self.plays(&self.members[i]);
-            let m = &mut self.members[i];
-            m.told = since.and_then(|since| Some((m.clip.clone()?, since)));
-        }
+        let members = self.scene.members().iter();
+        let told = members.filter_map(|m| Some((m.key, self.plays(m)?)));
+        self.told = told.collect();
     }
 
     /// Tells of clips that have begun or ended since the last call.
     pub(super) fn tell_clips(&mut self) {
-        for i in 0..self.members.len() {
-            let since = self.plays(&self.members[i]);
-            let m = &mut self.members[i];
-            let same = match (&m.told, since) {
+        let members = self.scene.members();
+        // Figures that have gone are told of otherwise.
+        self.told
+            .retain(|key, _| members.iter().any(|m| m.key == *key));
+        for i in 0..self.scene.members().len() {
+            let m = &self.scene.members()[i];
+            let since = match &m.clip {
+                Some(_) => {
+                    engine::playing_since(self.scene.figure(m.key), self.scene.world().time())
+                }
+                None => None,
+            };
+            let same = match (self.told.get(&m.key), since) {
                 (None, None) => true,
                 (Some((id, told)), Some(since)) => *told == since && Some(id) == m.clip.as_ref(),
                 _ => false,
@@ -37,9 +46,12 @@ impl Shard {
             if same {
                 continue;
             }
-            let figure = m.id.clone();
-            let begun = since.and_then(|since| Some((m.clip.clone()?, since)));
-            let ended = std::mem::replace(&mut m.told, begun.clone());
+            let (figure, key) = (m.id.clone(), m.key);
+            let begun = self.plays(m);
+            let ended = match &begun {
+                Some(begun) => self.told.insert(key, begun.clone()),
+                None => self.told.remove(&key),
+            };
             if let Some((id, _)) = ended {
                 self.event(&figure, EventKind::ClipEnded(id));
             }

@@ -3,6 +3,7 @@
 use super::Shard;
 use crate::server::ingest::mailbox::DriverId;
 use crate::server::tick::leases::{Lease, Offer, controlled, fenced};
+use crate::server::tick::scene::Input;
 use crate::wire::status::Fault;
 use crate::wire::types::{Acquire, ControlInfo, ControlKey, EventKind, Transfer};
 use std::sync::Arc;
@@ -21,7 +22,7 @@ impl Shard {
     /// Who controls each figure, in their order.
     pub fn controls(&self) -> Vec<ControlInfo> {
         let now = Instant::now();
-        let members = self.members.iter();
+        let members = self.scene.members().iter();
         members.map(|m| self.control_of(&m.id, now)).collect()
     }
 
@@ -258,7 +259,7 @@ impl Shard {
     /// Leases do not expire while a stream or pushes of their holders use them.
     pub(super) fn use_leases(&mut self, now: Instant) {
         for drive in &self.drives {
-            for slot in drive.slots.iter().filter(|s| s.key.is_some()) {
+            for slot in drive.slots.iter().filter(|s| s.player.is_some()) {
                 let lease = self.leases.of_mut(&slot.figure);
                 // The drive of the holder before does not keep the lease of the one after.
                 let Some(lease) = lease.filter(|l| l.holder == drive.id.principal) else {
@@ -303,17 +304,22 @@ impl Shard {
             return false;
         };
         let drive = &mut self.drives[i];
+        let mut ended = None;
         for (n, slot) in drive.slots.iter_mut().enumerate() {
             if slot.figure == figure {
-                slot.key = None;
+                ended = slot.player.take();
                 drive.mailbox.fence(n);
             }
         }
         let name = drive.id.name.clone();
-        if drive.slots.iter().all(|s| s.key.is_none()) {
+        if drive.slots.iter().all(|s| s.player.is_none()) {
             let drive = self.drives.remove(i);
             drive.mailbox.close(fenced(figure));
             self.mailboxes.remove(&drive.id);
+        }
+        // It may have ended by itself: another player has taken the figure over.
+        if let Some(key) = ended.filter(|key| self.scene.player(*key).is_some()) {
+            let _ = self.scene.apply(Input::Unfollow(key)); // never refused
         }
         self.event(figure, EventKind::DriveEnded(format!("{name}: {why}")));
         self.touch();

@@ -1,18 +1,17 @@
 //! Figures of a world: members, their settings, what there is to tell of them.
 
-use super::{Member, Shard};
-use crate::server::engine::{self, Drive as Motion};
-use crate::sim::body::{Body, State};
-use crate::sim::figure::ControlParams;
+use super::Shard;
+use crate::server::engine;
+use crate::server::tick::scene::{Input, Member};
+use crate::sim::body::Body;
 use crate::wire::status::Fault;
-use crate::wire::types::{
-    ControlKey, EventKind, FigureInfo, FigureSettings, FigureUpdate, Place, RosterEntry,
-};
+use crate::wire::types::{ControlKey, EventKind, FigureInfo, FigureSettings, FigureUpdate, Place};
 use std::sync::Arc;
 
 impl Shard {
     pub(super) fn member(&self, figure: &str) -> Result<usize, Fault> {
-        self.members
+        self.scene
+            .members()
             .iter()
             .position(|m| m.id == figure)
             .ok_or_else(|| {
@@ -26,7 +25,7 @@ impl Shard {
     }
 
     pub(super) fn figure_info(&self, m: &Member) -> FigureInfo {
-        let f = self.world.figure(m.key).expect("members are in the world");
+        let f = self.scene.figure(m.key);
         // Of two clips the one that was asked for last is known by name: it plays, or the figure comes to a stand for
         // it.
         let (next_clip, clip) = match f.next_clip() {
@@ -45,38 +44,34 @@ impl Shard {
                 .find(|d| d.has(&m.id))
                 .map(|d| d.id.name.to_string()),
             index: m.index,
-            constraints: engine::constraints(f, self.world.time()),
+            constraints: engine::constraints(f, self.scene.world().time()),
         }
     }
 
     /// One figure.
     pub fn figure(&self, figure: &str) -> Result<FigureInfo, Fault> {
-        Ok(self.figure_info(&self.members[self.member(figure)?]))
+        Ok(self.figure_info(&self.scene.members()[self.member(figure)?]))
     }
 
     /// All figures, in the order of creation.
     pub fn figures(&self) -> Vec<FigureInfo> {
-        self.members.iter().map(|m| self.figure_info(m)).collect()
+        self.scene
+            .members()
+            .iter()
+            .map(|m| self.figure_info(m))
+            .collect()
     }
 
     pub(super) fn roster_changed(&mut self) {
         self.roster_version += 1;
         self.changed = true;
-        self.roster = self
-            .members
-            .iter()
-            .map(|m| RosterEntry {
-                index: m.index,
-                figure: m.id.clone(),
-                body: m.settings.body.id.clone(),
-            })
-            .collect();
+        self.roster = self.scene.roster();
     }
 
     /// The name of a new figure, one that is free if none is given; there must be room for it.
     fn new_figure_id(&self, id: Option<String>) -> Result<String, Fault> {
         self.working()?;
-        if self.members.len() as u64 >= self.limits.figures {
+        if self.scene.members().len() as u64 >= self.limits.figures {
             return Err(Fault::Exhausted {
                 limit: "max_figures_per_world",
                 value: self.limits.figures,
@@ -92,7 +87,7 @@ impl Shard {
                 });
             }
             Some(id) => id,
-            None => (self.next_index + 1..)
+            None => (self.scene.next_index() + 1..)
                 .map(|n| format!("figure-{n}"))
                 .find(|id| self.member(id).is_err())
                 .expect("there is a free number"),
@@ -117,7 +112,7 @@ impl Shard {
             clip: None,
             next_clip: None,
             driver: None,
-            index: self.next_index,
+            index: self.scene.next_index(),
         })
     }
 
@@ -130,22 +125,15 @@ impl Shard {
     ) -> Result<FigureInfo, Fault> {
         let id = self.new_figure_id(id)?;
         self.budget.add_figure(&self.account)?;
-        let key = match engine::add_figure(&mut self.world, &id, &settings, body) {
-            Ok(key) => key,
-            Err(fault) => {
-                self.budget.remove_figure(&self.account);
-                return Err(fault);
-            }
-        };
-        self.members.push(Member {
+        let added = self.scene.apply(Input::AddFigure {
             id: id.clone(),
-            key,
-            index: self.next_index,
-            settings,
-            clip: None,
-            told: None,
+            settings: Box::new(settings),
+            body: Some(body),
         });
-        self.next_index += 1;
+        if let Err(fault) = added {
+            self.budget.remove_figure(&self.account);
+            return Err(fault);
+        }
         self.roster_changed();
         self.event(&id, EventKind::FigureAdded);
         self.figure(&id)
@@ -180,43 +168,16 @@ impl Shard {
         self.working()?;
         let i = self.member(figure)?;
         who.map_or(Ok(()), |who| self.may_adjust(figure, who))?;
-        let m = &mut self.members[i];
-        if let Some(all) = &u.constraints {
-            engine::set_constraints(&mut self.world, m.key, all)?;
-        }
-        let steps = u.protective_steps;
-        if u.controller.is_some() || u.strength.is_some() || u.params.is_some() || steps.is_some() {
-            let controller = u.controller.unwrap_or(m.settings.controller);
-            let strength = u.strength.unwrap_or_else(|| m.settings.strength.clone());
-            // Whether it steps is no choice of the paper's controller.
-            let params = ControlParams {
-                protective_steps: steps.unwrap_or(m.settings.params.protective_steps),
-                ..u.params.unwrap_or_else(|| m.settings.params.clone())
-            };
-            let world = &mut self.world;
-            engine::retune(world, m.key, strength.clone(), controller, params.clone())?;
-            m.settings.controller = controller;
-            m.settings.params = params;
-            m.settings.strength = strength;
-        }
-        if u.fatigue_time_scale.is_some() || u.assist.is_some() {
-            let mut options = m.settings.options;
-            options.fatigue_time_scale = u.fatigue_time_scale.unwrap_or(options.fatigue_time_scale);
-            options.assist = u.assist.unwrap_or(options.assist);
-            engine::set_options(&mut self.world, m.key, options)?;
-            m.settings.options = options;
-        }
-        if let Some(name) = u.display_name {
-            m.settings.display_name = name;
-        }
+        let key = self.scene.members()[i].key;
+        self.scene.apply(Input::UpdateFigure(key, Box::new(u)))?;
         self.figure(figure)
     }
 
     /// Removes a figure.
     pub fn delete_figure(&mut self, figure: &str) -> Result<(), Fault> {
         let i = self.member(figure)?;
-        let m = self.members.remove(i);
-        self.world.remove_figure(m.key);
+        let key = self.scene.members()[i].key;
+        self.scene.apply(Input::RemoveFigure(key))?;
         self.budget.remove_figure(&self.account);
         self.take_from_driver(figure);
         self.leases.forget(figure);
@@ -233,10 +194,10 @@ impl Shard {
         };
         let drive = &mut self.drives[i];
         for slot in drive.slots.iter_mut().filter(|s| s.figure == figure) {
-            slot.key = None;
+            slot.player = None;
         }
         let ended = format!("{}: the figure was removed", drive.id.name);
-        if drive.slots.iter().all(|s| s.key.is_none()) {
+        if drive.slots.iter().all(|s| s.player.is_none()) {
             let drive = self.drives.remove(i);
             drive.mailbox.close(Fault::not_found("figure", name));
             self.mailboxes.remove(&drive.id);
@@ -254,18 +215,8 @@ impl Shard {
         self.working()?;
         let i = self.member(figure)?;
         self.may_direct(figure, who)?;
-        let m = &mut self.members[i];
-        let f = self
-            .world
-            .figure_mut(m.key)
-            .expect("members are in the world");
-        let posture = engine::standing(f.body(), place.unwrap_or(m.settings.place));
-        f.clear_perturbations();
-        f.clear_constraints();
-        f.set_drive(Motion::Hold(posture));
-        let state = State::at_rest(posture);
-        engine::reset(&mut self.world, m.key, state)?;
-        m.clip = None;
+        let key = self.scene.members()[i].key;
+        self.scene.apply(Input::ResetFigure(key, place))?;
         self.changed = true;
         self.figure(figure)
     }
@@ -274,7 +225,8 @@ impl Shard {
     #[cfg(test)]
     pub(in crate::server::tick) fn forget_in_physics(&mut self, figure: &str) {
         let i = self.member(figure).expect("it is there");
-        self.world.remove_figure(self.members[i].key);
+        let key = self.scene.members()[i].key;
+        self.scene.forget_in_physics(key);
         self.changed = true;
     }
 }

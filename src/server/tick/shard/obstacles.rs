@@ -1,39 +1,31 @@
 //! Obstacles of a world.
 
 use super::Shard;
-use crate::server::engine::{self, ObstacleKey};
-use crate::sim::collide::{ObstacleSetup, Other};
+use crate::server::engine;
+use crate::server::tick::scene::{Done, Input};
+use crate::sim::collide::ObstacleSetup;
 use crate::sim::math::Vec3;
 use crate::wire::status::Fault;
 use crate::wire::types::{EventKind, ObstacleInfo};
 
 impl Shard {
     pub(super) fn obstacle(&self, id: &str) -> Result<usize, Fault> {
-        let found = self.obstacles.iter().position(|(o, _)| o == id);
+        let found = self.scene.obstacles().iter().position(|(o, _)| o == id);
         found.ok_or_else(|| {
             Fault::not_found("obstacle", format!("worlds/{}/obstacles/{id}", self.id))
         })
     }
 
-    pub(super) fn obstacle_info(&self, (id, key): &(String, ObstacleKey)) -> ObstacleInfo {
-        let o = self.world.obstacle(*key).expect("it is in the world");
-        ObstacleInfo {
-            id: id.clone(),
-            number: key.0,
-            setup: o.setup().clone(),
-            force: o.force(),
-        }
-    }
-
     /// All obstacles, in the order they were added.
     pub fn obstacles(&self) -> Vec<ObstacleInfo> {
-        let all = self.obstacles.iter();
-        all.map(|o| self.obstacle_info(o)).collect()
+        let all = self.scene.obstacles().iter();
+        all.map(|o| self.scene.obstacle_info(o)).collect()
     }
 
     /// One obstacle.
     pub fn obstacle_now(&self, id: &str) -> Result<ObstacleInfo, Fault> {
-        Ok(self.obstacle_info(&self.obstacles[self.obstacle(id)?]))
+        let i = self.obstacle(id)?;
+        Ok(self.scene.obstacle_info(&self.scene.obstacles()[i]))
     }
 
     /// The name of a new obstacle; one that is free if none is given.
@@ -46,10 +38,7 @@ impl Shard {
                 });
             }
             Some(id) => id,
-            None => (self.next_obstacle..)
-                .map(|n| format!("obstacle-{n}"))
-                .find(|id| self.obstacle(id).is_err())
-                .expect("there is a free number"),
+            None => self.scene.free_obstacle(),
         })
     }
 
@@ -61,7 +50,7 @@ impl Shard {
     ) -> Result<ObstacleInfo, Fault> {
         self.working()?;
         let id = self.new_obstacle_id(id)?;
-        engine::check_obstacle(&self.world, &setup, true)?;
+        engine::check_obstacle(self.scene.world(), &setup, true)?;
         Ok(ObstacleInfo {
             id,
             number: 0,
@@ -78,12 +67,12 @@ impl Shard {
     ) -> Result<ObstacleInfo, Fault> {
         self.working()?;
         let id = self.new_obstacle_id(id)?;
-        let key = engine::add_obstacle(&mut self.world, setup)?;
-        self.next_obstacle += 1;
-        self.obstacles.push((id.clone(), key));
+        let Done::Obstacle(id, key) = self.scene.apply(Input::AddObstacle { id, setup })? else {
+            return Err(Fault::Internal("an obstacle was added".into()));
+        };
         self.changed = true;
         self.world_event(EventKind::ObstacleAdded(format!("obstacles/{id}")));
-        Ok(self.obstacle_info(&(id, key)))
+        Ok(self.scene.obstacle_info(&(id, key)))
     }
 
     /// The obstacle as [`Self::update_obstacle`] would leave it.
@@ -93,7 +82,7 @@ impl Shard {
         setup: ObstacleSetup,
     ) -> Result<ObstacleInfo, Fault> {
         self.working()?;
-        engine::check_obstacle(&self.world, &setup, false)?;
+        engine::check_obstacle(self.scene.world(), &setup, false)?;
         Ok(ObstacleInfo { setup, ..now })
     }
 
@@ -105,33 +94,20 @@ impl Shard {
     ) -> Result<ObstacleInfo, Fault> {
         self.working()?;
         let i = self.obstacle(id)?;
-        engine::update_obstacle(&mut self.world, self.obstacles[i].1, setup)?;
+        let key = self.scene.obstacles()[i].1;
+        self.scene.apply(Input::UpdateObstacle(key, setup))?;
         self.changed = true;
-        Ok(self.obstacle_info(&self.obstacles[i]))
+        Ok(self.scene.obstacle_info(&self.scene.obstacles()[i]))
     }
 
     /// Removes an obstacle.
     pub fn remove_obstacle(&mut self, id: &str) -> Result<(), Fault> {
         self.working()?;
         let i = self.obstacle(id)?;
-        let (_, key) = self.obstacles.remove(i);
-        self.world.remove_obstacle(key);
+        let key = self.scene.obstacles()[i].1;
+        self.scene.apply(Input::RemoveObstacle(key))?;
         self.changed = true;
         self.world_event(EventKind::ObstacleRemoved(format!("obstacles/{id}")));
         Ok(())
-    }
-
-    /// What a figure touches, as it is called outside; empty for something that has gone.
-    pub(super) fn name_of(&self, other: Other) -> String {
-        match other {
-            Other::Figure(key, _) => {
-                let m = self.members.iter().find(|m| m.key.0 == key);
-                m.map_or_else(String::new, |m| format!("figures/{}", m.id))
-            }
-            Other::Obstacle(key) => {
-                let o = self.obstacles.iter().find(|(_, k)| *k == key);
-                o.map_or_else(String::new, |(id, _)| format!("obstacles/{id}"))
-            }
-        }
     }
 }

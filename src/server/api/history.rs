@@ -1,0 +1,177 @@
+//! `HistoryService`.
+
+use super::{Api, answer, caller, client, origin};
+use crate::server::shares::Client;
+use crate::server::tick::journal::{Journal, Segment};
+use crate::server::tick::replay::{Replay, ReplayError};
+use crate::server::tick::scene::Scene;
+use crate::server::tick::shard::Origin as Past;
+use crate::server::workers::Turn;
+use crate::server::worlds::WorldHandle;
+use crate::wire::convert::{not_negative, world};
+use crate::wire::pb;
+use crate::wire::pb::history_service_server::HistoryService;
+use crate::wire::status::Fault;
+use std::sync::Arc;
+use tonic::{Request, Response, Status};
+
+/// The past of a world, if any is kept.
+pub(super) fn journal(handle: &WorldHandle) -> Result<Arc<Journal>, Fault> {
+    handle.journal.clone().ok_or(Fault::Expired {
+        asked: -1,
+        oldest: -1,
+        newest: -1,
+    })
+}
+
+/// The scene at the end of this part of the past, or after tick `until` of it.
+fn reached(past: &[Arc<Segment>], until: u64, turn: &Turn) -> Result<Scene, Fault> {
+    let first = past
+        .first()
+        .ok_or_else(|| Fault::Internal("no past".into()))?;
+    let mut replay = Replay::new(first.scene()?);
+    let entries = past.iter().flat_map(|s| &s.entries);
+    let done = replay.through(entries, until, &mut |_| !turn.stop());
+    match done {
+        Ok(()) => Ok(replay.scene),
+        Err(ReplayError::Stopped) => Err(Turn::gone()),
+        Err(why) => Err(Fault::DataLoss {
+            reason: "REPLAY_DIFFERS",
+            message: why.to_string(),
+        }),
+    }
+}
+
+impl Api {
+    /// The state of a world after a tick of its past.
+    pub(super) async fn at_tick(
+        &self,
+        client: &Client,
+        handle: &WorldHandle,
+        tick: u64,
+    ) -> Result<Scene, Fault> {
+        let past = journal(handle)?.past(tick, tick)?;
+        let work = move |turn: &Turn| reached(&past, tick, turn);
+        self.simulations.run(client, work).await
+    }
+}
+
+#[tonic::async_trait]
+impl HistoryService for Api {
+    async fn get_history(
+        &self,
+        request: Request<pb::GetHistoryRequest>,
+    ) -> Result<Response<pb::GetHistoryResponse>, Status> {
+        let get = || {
+            let handle = self.world(&request, "name", &request.get_ref().name)?;
+            let held = handle.journal.as_ref().and_then(|j| j.held());
+            let (oldest, newest) = held.map_or((-1, -1), |(a, b)| (a as i64, b as i64));
+            Ok(pb::GetHistoryResponse {
+                oldest_tick: oldest,
+                newest_tick: newest,
+            })
+        };
+        answer(get())
+    }
+
+    async fn seek_world(
+        &self,
+        request: Request<pb::SeekWorldRequest>,
+    ) -> Result<Response<pb::SeekWorldResponse>, Status> {
+        self.once(request, |api, request| async move {
+            let (client, origin) = (client(&request), origin(&request));
+            let handle = api.world(&request, "name", &request.get_ref().name)?;
+            let tick = not_negative("tick", request.get_ref().tick)?;
+            let scene = api.at_tick(&client, &handle, tick).await?;
+            let cleared = handle.clone();
+            let info = handle
+                .call(origin, move |s| {
+                    let info = s.restore(scene, Past::OwnPast)?;
+                    // What viewers could resume with is of another time.
+                    cleared.history().clear();
+                    Ok(info)
+                })
+                .await?;
+            Ok(pb::SeekWorldResponse {
+                world: Some(world::world_out(&info)),
+            })
+        })
+        .await
+    }
+
+    async fn replay_world(
+        &self,
+        request: Request<pb::ReplayWorldRequest>,
+    ) -> Result<Response<pb::ReplayWorldResponse>, Status> {
+        let result = async {
+            let client = client(&request);
+            caller(&request)?;
+            let r = request.get_ref();
+            let handle = self.world(&request, "name", &r.name)?;
+            let threads = match r.thread_count {
+                0 => 1,
+                n @ 1..=64 => n as usize,
+                n => {
+                    let why = format!("must be in 0…64, got {n}");
+                    return Err(Fault::invalid("thread_count", why));
+                }
+            };
+            let journal = journal(&handle)?;
+            let (oldest, newest) = journal.held().unwrap_or_default();
+            let tick = |field, tick: Option<i64>, default| match tick {
+                Some(tick) => not_negative(field, tick),
+                None => Ok(default),
+            };
+            let first = tick("first_tick", r.first_tick, oldest)?;
+            let last = tick("last_tick", r.last_tick, newest)?;
+            if first > last {
+                let why = format!("must be at most last_tick ({last}), got {first}");
+                return Err(Fault::invalid("first_tick", why));
+            }
+            let past = journal.past(first, last)?;
+            let work = move |turn: &Turn| replayed(&past, last, threads, turn);
+            self.simulations.run(&client, work).await
+        };
+        answer(result.await)
+    }
+}
+
+fn replayed(
+    past: &[Arc<Segment>],
+    last: u64,
+    threads: usize,
+    turn: &Turn,
+) -> Result<pb::ReplayWorldResponse, Fault> {
+    let first = past
+        .first()
+        .ok_or_else(|| Fault::Internal("no past".into()))?;
+    let mut replay = Replay::new(first.scene()?);
+    replay.scene.set_threads(threads);
+    let entries = past.iter().flat_map(|s| &s.entries);
+    let done = replay.through(entries, last, &mut |_| !turn.stop());
+    let difference = match done {
+        Ok(()) => None,
+        Err(ReplayError::Stopped) => return Err(Turn::gone()),
+        Err(ReplayError::Differs {
+            tick,
+            expected,
+            found,
+        }) => Some(pb::ReplayDifference {
+            tick: tick as i64,
+            recorded_state_hash: expected as i64,
+            replayed_state_hash: found as i64,
+            detail: String::new(),
+        }),
+        Err(ReplayError::Record { tick, why }) => Some(pb::ReplayDifference {
+            tick: tick as i64,
+            detail: why.to_owned(),
+            ..Default::default()
+        }),
+    };
+    Ok(pb::ReplayWorldResponse {
+        first_tick: first.start.tick() as i64,
+        last_tick: replay.scene.world().tick() as i64,
+        compared_tick_count: replay.compared as i64,
+        difference,
+    })
+}

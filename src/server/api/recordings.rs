@@ -1,0 +1,195 @@
+//! `RecordingService`.
+
+use super::history::journal;
+use super::{Api, answer, client, refusal};
+use crate::server::export::{Format, export};
+use crate::server::recordings::{NewRecording, Recording};
+use crate::server::tick::journal::PinEnd;
+use crate::wire::convert::names::RECORDING;
+use crate::wire::convert::{new_id, not_negative, page, timestamp};
+use crate::wire::pb;
+use crate::wire::pb::recording_service_server::RecordingService;
+use crate::wire::status::Fault;
+use std::sync::Arc;
+use tokio::sync::mpsc;
+use tokio_stream::wrappers::ReceiverStream;
+use tonic::{Request, Response, Status};
+
+/// Bytes of one piece of a file, at most.
+const PIECE: usize = 1 << 20;
+/// Pieces that wait for a client who does not read.
+const PIECES: usize = 2;
+
+fn out(recording: &Recording) -> pb::Recording {
+    let now = recording.now();
+    let end = match now.end {
+        None => "",
+        Some(PinEnd::Stopped) => "STOPPED",
+        Some(PinEnd::Full) => "MAX_RECORDING_BYTES",
+        Some(PinEnd::Restored) => "WORLD_RESTORED",
+    };
+    let state = match now.end {
+        None => pb::RecordingState::Running,
+        Some(_) => pb::RecordingState::Ended,
+    };
+    pb::Recording {
+        name: RECORDING.name([&recording.world, &recording.id]),
+        state: state.into(),
+        first_tick: now.ticks.0 as i64,
+        last_tick: now.ticks.1 as i64,
+        size_bytes: now.bytes as i64,
+        create_time: Some(timestamp(recording.created)),
+        end_reason: end.to_owned(),
+    }
+}
+
+impl Api {
+    /// A recording, for those who may make this call in its world.
+    fn recording<T>(&self, request: &Request<T>, name: &str) -> Result<Arc<Recording>, Fault> {
+        let [world, id] = RECORDING.ids("name", name)?;
+        let handle = self.world(request, "name", &format!("worlds/{world}"))?;
+        self.recordings.get(&handle.id, id)
+    }
+}
+
+#[tonic::async_trait]
+impl RecordingService for Api {
+    type ExportRecordingStream = ReceiverStream<Result<pb::ExportRecordingResponse, Status>>;
+
+    async fn start_recording(
+        &self,
+        request: Request<pb::StartRecordingRequest>,
+    ) -> Result<Response<pb::StartRecordingResponse>, Status> {
+        self.once(request, |api, request| async move {
+            let r = request.get_ref();
+            let handle = api.world(&request, "parent", &r.parent)?;
+            let first = r.first_tick.map(|t| not_negative("first_tick", t));
+            let new = NewRecording {
+                world: handle.id.to_string(),
+                id: new_id("recording_id", &r.recording_id)?,
+                first: first.transpose()?,
+                owner: client(&request),
+            };
+            let recording = api.recordings.start(journal(&handle)?, new)?;
+            Ok(pb::StartRecordingResponse {
+                recording: Some(out(&recording)),
+            })
+        })
+        .await
+    }
+
+    async fn stop_recording(
+        &self,
+        request: Request<pb::StopRecordingRequest>,
+    ) -> Result<Response<pb::StopRecordingResponse>, Status> {
+        self.once(request, |api, request| async move {
+            let recording = api.recording(&request, &request.get_ref().name)?;
+            recording.stop();
+            Ok(pb::StopRecordingResponse {
+                recording: Some(out(&recording)),
+            })
+        })
+        .await
+    }
+
+    async fn get_recording(
+        &self,
+        request: Request<pb::GetRecordingRequest>,
+    ) -> Result<Response<pb::GetRecordingResponse>, Status> {
+        let get = || {
+            let recording = self.recording(&request, &request.get_ref().name)?;
+            Ok(pb::GetRecordingResponse {
+                recording: Some(out(&recording)),
+            })
+        };
+        answer(get())
+    }
+
+    async fn list_recordings(
+        &self,
+        request: Request<pb::ListRecordingsRequest>,
+    ) -> Result<Response<pb::ListRecordingsResponse>, Status> {
+        let list = || {
+            let r = request.get_ref();
+            let handle = self.world(&request, "parent", &r.parent)?;
+            let all = self.recordings.of_world(&handle.id);
+            let items = all.into_iter().map(|k| (k.id.clone(), k));
+            let list = format!("{}/recordings", r.parent);
+            let (kept, next_page_token) = page(&list, items, r.page_size, &r.page_token)?;
+            Ok(pb::ListRecordingsResponse {
+                recordings: kept.iter().map(|k| out(k)).collect(),
+                next_page_token,
+            })
+        };
+        answer(list())
+    }
+
+    async fn delete_recording(
+        &self,
+        request: Request<pb::DeleteRecordingRequest>,
+    ) -> Result<Response<pb::DeleteRecordingResponse>, Status> {
+        self.once(request, |api, request| async move {
+            let recording = api.recording(&request, &request.get_ref().name)?;
+            api.recordings.remove(&recording.world, &recording.id)?;
+            Ok(pb::DeleteRecordingResponse {})
+        })
+        .await
+    }
+
+    async fn export_recording(
+        &self,
+        request: Request<pb::ExportRecordingRequest>,
+    ) -> Result<Response<Self::ExportRecordingStream>, Status> {
+        let start = || {
+            let r = request.get_ref();
+            let recording = self.recording(&request, &r.name)?;
+            let figure = Some(r.figure_id.clone()).filter(|f| !f.is_empty());
+            let format = match pb::RecordingFormat::try_from(r.format) {
+                Ok(pb::RecordingFormat::Unspecified | pb::RecordingFormat::Mcap) => Format::Mcap,
+                Ok(pb::RecordingFormat::Bvh) => Format::Bvh(figure),
+                Ok(pb::RecordingFormat::Csv) => Format::Csv(figure),
+                Err(_) => return Err(Fault::invalid("format", "is none that is known")),
+            };
+            Ok((recording, format))
+        };
+        let (recording, format) = start().map_err(refusal)?;
+        let client = client(&request);
+        let (send, receive) = mpsc::channel(PIECES);
+        let pool = self.simulations.clone();
+        tokio::spawn(async move {
+            let to = send.clone();
+            let done = pool.run(&client, move |turn| {
+                let recorded = recording.now();
+                let mut waiting = Vec::new();
+                let mut give = |piece: Vec<u8>, ticks: u64| {
+                    // Small pieces are put together; a client that is gone takes none.
+                    waiting.extend(piece);
+                    let whole = ticks > recorded.ticks.1 - recorded.ticks.0;
+                    let mut taken = !to.is_closed();
+                    while taken && (waiting.len() >= PIECE || whole && !waiting.is_empty()) {
+                        let rest = waiting.split_off(waiting.len().min(PIECE));
+                        let data = std::mem::replace(&mut waiting, rest);
+                        let message = pb::ExportRecordingResponse {
+                            data,
+                            done_tick_count: ticks as i64,
+                        };
+                        taken = to.blocking_send(Ok(message)).is_ok();
+                    }
+                    taken
+                };
+                export(
+                    &recording.world,
+                    &recorded,
+                    format,
+                    &|| turn.stop(),
+                    &mut give,
+                )
+            });
+            if let Err(fault) = done.await {
+                // Nobody may be there to hear it.
+                let _ = send.send(Err(refusal(fault))).await;
+            }
+        });
+        Ok(Response::new(ReceiverStream::new(receive)))
+    }
+}

@@ -1,0 +1,61 @@
+//! Derives of live motion that is written into a checkpoint.
+
+/// An array that may be missing, in a box: `#[serde(with = "crate::server::ingest::saved::optional_array")]`.
+pub mod optional_array {
+    use crate::sim::body::NV;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    pub(super) struct Array(#[serde(with = "crate::sim::saved::array")] pub(super) [f64; NV]);
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(
+        array: &Option<Box<[f64; NV]>>,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        array.as_ref().map(|a| Array(**a)).serialize(to)
+    }
+
+    /// Reads it.
+    ///
+    /// # Errors
+    /// Those of the deserializer.
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Option<Box<[f64; NV]>>, D::Error> {
+        Ok(Option::<Array>::deserialize(from)?.map(|a| Box::new(a.0)))
+    }
+}
+
+/// The same with a time beside it.
+pub mod timed_array {
+    use super::optional_array::Array;
+    use crate::sim::body::NV;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(
+        array: &Option<(Box<[f64; NV]>, f64)>,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        let written = array.as_ref().map(|(a, t)| (Array(**a), *t));
+        written.serialize(to)
+    }
+
+    /// Reads it.
+    ///
+    /// # Errors
+    /// Those of the deserializer.
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<Option<(Box<[f64; NV]>, f64)>, D::Error> {
+        let read = Option::<(Array, f64)>::deserialize(from)?;
+        Ok(read.map(|(a, t)| (Box::new(a.0), t)))
+    }
+}

@@ -1,0 +1,167 @@
+//! Recordings of worlds: parts of their past that are kept, in memory, and written as files on demand.
+
+use super::shares::{Client, check_part};
+use super::tick::journal::{Journal, Pin, PinEnd, Segment};
+use crate::wire::status::Fault;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
+
+/// A recording.
+#[derive(Debug)]
+pub struct Recording {
+    /// Last part of the name of its world.
+    pub world: String,
+    /// Last part of its name.
+    pub id: String,
+    /// When it was begun.
+    pub created: SystemTime,
+    owner: Client,
+    journal: Arc<Journal>,
+    pin: Arc<Pin>,
+}
+
+/// A recording as it is now.
+#[derive(Debug)]
+pub struct Recorded {
+    /// First tick and last.
+    pub ticks: (u64, u64),
+    /// What it takes, bytes.
+    pub bytes: u64,
+    /// Why it has ended.
+    pub end: Option<PinEnd>,
+    /// What is kept.
+    pub segments: Vec<Arc<Segment>>,
+}
+
+impl Recording {
+    /// As it is now.
+    pub fn now(&self) -> Recorded {
+        let (segments, last, bytes) = self.journal.pinned(&self.pin);
+        Recorded {
+            ticks: (self.pin.first_tick(), last),
+            bytes,
+            end: self.pin.end(),
+            segments,
+        }
+    }
+
+    /// Ends it, unless it has ended.
+    pub fn stop(&self) {
+        self.journal.unpin(&self.pin);
+    }
+}
+
+/// All recordings, by world and name.
+#[derive(Debug)]
+pub struct Recordings {
+    all: Mutex<BTreeMap<(String, String), Arc<Recording>>>,
+    most: u64,
+    most_bytes: u64,
+    share: f64,
+}
+
+/// A recording that is to be begun.
+#[derive(Debug)]
+pub struct NewRecording {
+    /// Last part of the name of its world.
+    pub world: String,
+    /// Last part of its name; `None`: one that is free.
+    pub id: Option<String>,
+    /// Tick to begin with; `None`: now.
+    pub first: Option<u64>,
+    /// Who begins it.
+    pub owner: Client,
+}
+
+impl Recordings {
+    /// None yet, and at most so many, of so many bytes each; one client may have `share` of them.
+    pub fn new(most: u64, most_bytes: u64, share: f64) -> Self {
+        Self {
+            all: Mutex::default(),
+            most,
+            most_bytes,
+            share,
+        }
+    }
+
+    fn all(&self) -> MutexGuard<'_, BTreeMap<(String, String), Arc<Recording>>> {
+        // Entries are whole.
+        self.all.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Begins one.
+    ///
+    /// # Errors
+    /// The name is taken, there are too many, of all or of this client, or the tick is not held.
+    pub fn start(&self, journal: Arc<Journal>, new: NewRecording) -> Result<Arc<Recording>, Fault> {
+        let mut all = self.all();
+        let key = |id: &str| (new.world.clone(), id.to_owned());
+        let id = match new.id {
+            Some(id) if all.contains_key(&key(&id)) => {
+                return Err(Fault::Exists {
+                    kind: "recording",
+                    name: format!("worlds/{}/recordings/{id}", new.world),
+                });
+            }
+            Some(id) => id,
+            None => (1..)
+                .map(|n| format!("recording-{n}"))
+                .find(|id| !all.contains_key(&key(id)))
+                .expect("there is a free number"),
+        };
+        if all.len() as u64 >= self.most {
+            return Err(Fault::Exhausted {
+                limit: "max_recordings",
+                value: self.most,
+                message: "one more recording".into(),
+                retry: None,
+            });
+        }
+        let own = all.values().filter(|r| r.owner == new.owner).count() as u64;
+        check_part("max_recordings", own, self.most, self.share)?;
+        let recording = Arc::new(Recording {
+            pin: journal.pin(new.first, self.most_bytes)?,
+            world: new.world.clone(),
+            id: id.clone(),
+            created: SystemTime::now(),
+            owner: new.owner,
+            journal,
+        });
+        all.insert((new.world, id), Arc::clone(&recording));
+        Ok(recording)
+    }
+
+    /// One.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn get(&self, world: &str, id: &str) -> Result<Arc<Recording>, Fault> {
+        let found = self.all().get(&(world.to_owned(), id.to_owned())).cloned();
+        found.ok_or_else(|| missing(world, id))
+    }
+
+    /// Those of a world, by name.
+    pub fn of_world(&self, world: &str) -> Vec<Arc<Recording>> {
+        let all = self.all();
+        all.values().filter(|r| r.world == world).cloned().collect()
+    }
+
+    /// Forgets one.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn remove(&self, world: &str, id: &str) -> Result<(), Fault> {
+        let gone = self.all().remove(&(world.to_owned(), id.to_owned()));
+        gone.map(drop).ok_or_else(|| missing(world, id))
+    }
+
+    /// Forgets those of a world.
+    pub fn forget_world(&self, world: &str) {
+        self.all().retain(|_, r| r.world != world);
+    }
+}
+
+fn missing(world: &str, id: &str) -> Fault {
+    Fault::not_found("recording", format!("worlds/{world}/recordings/{id}"))
+}

@@ -1,0 +1,540 @@
+//! The last minutes of a world: checkpoints, and behind each what changed the world and the hash of each tick.
+//!
+//! The world's thread appends; who seeks, forks, replays or records copies pointers. With a data directory the same
+//! entries go to the thread that writes (`durable`), in the same order. A checkpoint is encoded elsewhere and comes to
+//! it later than it was taken; what was appended meanwhile is handed in once more behind it, so that the disk always
+//! has a checkpoint with all that followed.
+
+use super::scene::{Record, SavedScene, Scene};
+use crate::server::durable::keeper::{Recorder, Ticket};
+use crate::server::durable::store::{Durability, StoreError};
+use crate::sim::saved::Definition;
+use crate::sim::world::checkpoint::{Capture, read_definitions, write_definitions};
+use crate::wire::status::Fault;
+use bytes::Bytes;
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::time::{Duration, Instant};
+use tokio::sync::Notify;
+
+/// Time between two checkpoints.
+pub const CHECKPOINT_EVERY: Duration = Duration::from_secs(5);
+/// About what an entry takes besides its bytes.
+const ENTRY_BYTES: usize = size_of::<Logged>();
+/// About what one frame of a clip takes, bytes.
+const CLIP_FRAME_BYTES: usize = 1200;
+
+/// What is noted of a world.
+#[derive(Clone, Debug)]
+pub enum Logged {
+    /// What changed it between two ticks.
+    Record(Record),
+    /// A tick was done: its number, and the hash of the state after it.
+    Hash(u64, u64),
+}
+
+/// How much is held.
+#[derive(Clone, Copy, Debug)]
+pub struct Room {
+    /// Bytes; 0: nothing.
+    pub bytes: u64,
+    /// Age of the oldest; 0: nothing.
+    pub age: Duration,
+}
+
+impl Room {
+    /// True if something is held.
+    pub fn any(&self) -> bool {
+        self.bytes > 0 && !self.age.is_zero()
+    }
+}
+
+/// A checkpoint and what followed, up to the next one.
+#[derive(Clone, Debug)]
+pub struct Segment {
+    /// The state at its beginning.
+    pub start: Arc<Capture>,
+    /// When that was.
+    pub begun: Instant,
+    /// What followed.
+    pub entries: Vec<Logged>,
+    bytes: usize,
+}
+
+impl Segment {
+    fn new(start: Arc<Capture>, begun: Instant) -> Self {
+        Self {
+            bytes: start.size() + 256,
+            start,
+            begun,
+            entries: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, entry: Logged) {
+        self.bytes += ENTRY_BYTES;
+        if let Logged::Record(r) = &entry {
+            self.bytes += r.bytes.len();
+        }
+        self.entries.push(entry);
+    }
+
+    /// Ticks done at its end.
+    pub fn last_tick(&self) -> u64 {
+        let hashes = self.entries.iter().rev().find_map(|e| match e {
+            Logged::Hash(tick, _) => Some(*tick),
+            Logged::Record(_) => None,
+        });
+        hashes.unwrap_or(self.start.tick())
+    }
+
+    /// The scene at its beginning.
+    ///
+    /// # Errors
+    /// None for a checkpoint of this program.
+    pub fn scene(&self) -> Result<Scene, Fault> {
+        scene_of(&self.start)
+    }
+}
+
+/// The scene of a capture.
+///
+/// # Errors
+/// None for one of this program.
+pub fn scene_of(capture: &Capture) -> Result<Scene, Fault> {
+    let failed = |e: &dyn std::fmt::Display| Fault::Internal(format!("a checkpoint: {e}"));
+    let (world, saved) = capture
+        .restore_with::<SavedScene<'static>>()
+        .map_err(|e| failed(&e))?;
+    Scene::restored(world, saved).map_err(|e| failed(&e))
+}
+
+/// Why a pinned part of the past has an end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PinEnd {
+    /// It was told to end.
+    Stopped,
+    /// It has as many bytes as it may.
+    Full,
+    /// The world has another past now.
+    Restored,
+}
+
+/// A part of the past that is kept as long as this is.
+#[derive(Debug)]
+pub struct Pin {
+    most_bytes: u64,
+    first: u64,
+    inside: Mutex<Pinned>,
+}
+
+#[derive(Debug, Default)]
+struct Pinned {
+    kept: Vec<Arc<Segment>>,
+    bytes: u64,
+    end: Option<PinEnd>,
+}
+
+impl Pin {
+    fn inside(&self) -> MutexGuard<'_, Pinned> {
+        // Every holder leaves it whole.
+        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Tick that it begins with.
+    pub fn first_tick(&self) -> u64 {
+        self.first
+    }
+
+    /// Why it has ended; `None`: it goes on.
+    pub fn end(&self) -> Option<PinEnd> {
+        self.inside().end
+    }
+
+    /// Keeps one more segment. False: it has ended.
+    fn keep(&self, segment: &Arc<Segment>, end: Option<PinEnd>) -> bool {
+        let mut inside = self.inside();
+        if inside.end.is_some() {
+            return false;
+        }
+        inside.bytes += segment.bytes as u64;
+        inside.kept.push(Arc::clone(segment));
+        let full = (inside.bytes > self.most_bytes).then_some(PinEnd::Full);
+        inside.end = end.or(full);
+        inside.end.is_none()
+    }
+}
+
+#[derive(Debug)]
+struct Inside {
+    /// From the oldest on.
+    sealed: VecDeque<Arc<Segment>>,
+    /// What is appended to.
+    current: Option<Segment>,
+    recorder: Option<Recorder>,
+    /// Nothing is handed to the recorder until a checkpoint is: the world has another past now.
+    holds: bool,
+    /// The last entry that was handed in.
+    ticket: Option<Ticket>,
+    /// Parts that are kept longer.
+    pins: Vec<Weak<Pin>>,
+}
+
+/// The last minutes of one world.
+#[derive(Debug)]
+pub struct Journal {
+    room: Room,
+    inside: Mutex<Inside>,
+    /// Tells that a checkpoint was handed to the recorder.
+    written: Notify,
+}
+
+impl Journal {
+    /// Nothing yet.
+    pub fn new(room: Room) -> Self {
+        Self {
+            room,
+            inside: Mutex::new(Inside {
+                sealed: VecDeque::new(),
+                current: None,
+                recorder: None,
+                holds: false,
+                ticket: None,
+                pins: Vec::new(),
+            }),
+            written: Notify::new(),
+        }
+    }
+
+    fn inside(&self) -> MutexGuard<'_, Inside> {
+        // Every holder leaves it whole.
+        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// How much is held.
+    pub fn room(&self) -> Room {
+        self.room
+    }
+
+    // ── the world's thread ──
+
+    /// Appends what changed the world.
+    pub fn append(&self, record: Record) {
+        let mut inside = self.inside();
+        inside.hand_in(&Logged::Record(record.clone()));
+        if let Some(current) = &mut inside.current {
+            current.push(Logged::Record(record));
+        }
+    }
+
+    /// Notes that a tick is done.
+    pub fn stepped(&self, tick: u64, hash: u64) {
+        let mut inside = self.inside();
+        inside.hand_in(&Logged::Hash(tick, hash));
+        if let Some(current) = &mut inside.current {
+            current.push(Logged::Hash(tick, hash));
+        }
+    }
+
+    /// True if it is time for a checkpoint, and something has happened since the last one.
+    pub fn wants_checkpoint(&self, now: Instant) -> bool {
+        let inside = self.inside();
+        match &inside.current {
+            None => true,
+            Some(current) => {
+                let full = self.room.any() && current.bytes as u64 > self.room.bytes / 4;
+                (now - current.begun >= CHECKPOINT_EVERY || full) && !current.entries.is_empty()
+            }
+        }
+    }
+
+    /// Begins a new segment with a checkpoint. What is too old is forgotten.
+    pub fn begin(&self, capture: Capture, now: Instant) {
+        let mut inside = self.inside();
+        let next = Segment::new(Arc::new(capture), now);
+        if let Some(before) = inside.current.replace(next) {
+            let before = Arc::new(before);
+            inside.pin(&before, None);
+            inside.sealed.push_back(before);
+        }
+        inside.cut(&self.room, now);
+    }
+
+    /// The world goes on from `capture`, and not from what it was. With `goes_back` what is held up to there is its
+    /// past still; `seq` is the last record of that.
+    pub fn begin_anew(&self, capture: Capture, goes_back: bool, now: Instant) {
+        let mut inside = self.inside();
+        let (tick, hash) = (capture.tick(), capture.hash());
+        if let Some(before) = inside.current.take().map(Arc::new) {
+            inside.pin(&before, Some(PinEnd::Restored));
+            inside.sealed.push_back(before);
+        }
+        if goes_back {
+            inside.sealed.retain(|s| s.start.tick() <= tick);
+            if let Some(last) = inside.sealed.pop_back() {
+                let mut last = Arc::unwrap_or_clone(last);
+                let there =
+                    |e: &Logged| matches!(e, Logged::Hash(t, h) if (*t, *h) == (tick, hash));
+                let end = last.entries.iter().position(there);
+                last.entries.truncate(end.map_or(0, |i| i + 1));
+                inside.sealed.push_back(Arc::new(last));
+            }
+        } else {
+            inside.sealed.clear();
+        }
+        inside.current = Some(Segment::new(Arc::new(capture), now));
+        inside.holds = inside.recorder.is_some();
+    }
+
+    // ── the disk ──
+
+    /// From now on everything goes to this recorder, too, from a checkpoint on.
+    pub fn write_to(&self, recorder: Recorder) {
+        let mut inside = self.inside();
+        inside.holds = true;
+        inside.recorder = Some(recorder);
+    }
+
+    /// The latest checkpoint; `None` if `written` is it, and the recorder does not need it once more.
+    pub fn to_write(&self, written: Option<(u64, u64)>) -> Option<Arc<Capture>> {
+        let inside = self.inside();
+        let (start, recorder) = (&inside.current.as_ref()?.start, inside.recorder.as_ref()?);
+        let known = written == Some((start.tick(), start.hash()));
+        let needed = inside.holds || !known || recorder.needs_checkpoint();
+        needed.then(|| Arc::clone(start))
+    }
+
+    /// Hands a checkpoint in that was encoded, and once more what followed it. False: the world has another past
+    /// meanwhile, or is further than that.
+    pub fn write(&self, capture: &Arc<Capture>, bytes: Bytes) -> bool {
+        let mut inside = self.inside();
+        let inside = &mut *inside;
+        let (Some(recorder), Some(current)) = (&inside.recorder, &inside.current) else {
+            return false;
+        };
+        if !Arc::ptr_eq(&current.start, capture) {
+            return false;
+        }
+        recorder.checkpoint(capture.tick(), bytes);
+        let mut ticket = recorder.hash(capture.tick(), capture.hash());
+        inside.holds = false;
+        for entry in &current.entries {
+            ticket = hand_in(recorder, entry);
+        }
+        inside.ticket = Some(ticket);
+        self.written.notify_waiters();
+        true
+    }
+
+    /// Waits until what has happened so far is on disk, in a world of which nothing that was answered may be lost.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub async fn settled(&self) -> Result<(), StoreError> {
+        loop {
+            let written = self.written.notified();
+            let (recorder, ticket) = {
+                let inside = self.inside();
+                let recorder = inside.recorder.clone();
+                let Some(recorder) = recorder.filter(|r| r.durability() == Durability::Each) else {
+                    return Ok(());
+                };
+                (recorder, inside.ticket.filter(|_| !inside.holds))
+            };
+            match ticket {
+                Some(ticket) => return recorder.durable(ticket).await,
+                // The checkpoint that it all follows comes first.
+                None => drop(tokio::time::timeout(CHECKPOINT_EVERY, written).await),
+            }
+        }
+    }
+
+    // ── the past ──
+
+    /// The first tick that is held and the last; `None`: nothing is.
+    pub fn held(&self) -> Option<(u64, u64)> {
+        self.inside().held(&self.room)
+    }
+
+    /// The segments that lead from the last checkpoint at or before `from` to `until`.
+    ///
+    /// # Errors
+    /// `from` is not held any more, or `until` is not reached yet.
+    pub fn past(&self, from: u64, until: u64) -> Result<Vec<Arc<Segment>>, Fault> {
+        self.inside().past(&self.room, from, until)
+    }
+}
+
+impl Journal {
+    /// Keeps the past from tick `first` on (`None`: from now on), at most `most_bytes` of it.
+    ///
+    /// # Errors
+    /// That tick is not held.
+    pub fn pin(&self, first: Option<u64>, most_bytes: u64) -> Result<Arc<Pin>, Fault> {
+        let mut inside = self.inside();
+        let (_, newest) = inside.held(&self.room).ok_or_else(|| expired(0, None))?;
+        let first = first.unwrap_or(newest);
+        let mut past = inside.past(&self.room, first, first.max(newest))?;
+        // What is appended to is kept when it is whole.
+        past.pop();
+        let pin = Arc::new(Pin {
+            most_bytes,
+            first,
+            inside: Mutex::new(Pinned {
+                bytes: past.iter().map(|s| s.bytes as u64).sum(),
+                kept: past,
+                end: None,
+            }),
+        });
+        inside.pins.push(Arc::downgrade(&pin));
+        Ok(pin)
+    }
+
+    /// Ends a pin, unless it has ended.
+    pub fn unpin(&self, pin: &Pin) {
+        let inside = self.inside();
+        if let Some(current) = &inside.current {
+            pin.keep(&Arc::new(current.clone()), Some(PinEnd::Stopped));
+        }
+    }
+
+    /// What a pin keeps, up to now, its last tick, and its bytes.
+    pub fn pinned(&self, pin: &Pin) -> (Vec<Arc<Segment>>, u64, u64) {
+        let inside = self.inside();
+        let pinned = pin.inside();
+        let (mut kept, mut bytes) = (pinned.kept.clone(), pinned.bytes);
+        if pinned.end.is_none()
+            && let Some(current) = &inside.current
+        {
+            bytes += current.bytes as u64;
+            kept.push(Arc::new(current.clone()));
+        }
+        let last = kept.last().map_or(pin.first, |s| s.last_tick());
+        (kept, last.max(pin.first), bytes)
+    }
+}
+
+fn expired(asked: u64, held: Option<(u64, u64)>) -> Fault {
+    let tick = |t: u64| i64::try_from(t).unwrap_or(i64::MAX);
+    Fault::Expired {
+        asked: tick(asked),
+        oldest: held.map_or(-1, |h| tick(h.0)),
+        newest: held.map_or(-1, |h| tick(h.1)),
+    }
+}
+
+impl Inside {
+    fn held(&self, room: &Room) -> Option<(u64, u64)> {
+        let current = self.current.as_ref().filter(|_| room.any())?;
+        let first = self.sealed.front().map_or(&current.start, |s| &s.start);
+        Some((first.tick(), current.last_tick()))
+    }
+
+    fn past(&self, room: &Room, from: u64, until: u64) -> Result<Vec<Arc<Segment>>, Fault> {
+        let held = self.held(room);
+        if held.is_none_or(|(oldest, newest)| from < oldest || until > newest || from > until) {
+            return Err(expired(from, held));
+        }
+        let mut all: Vec<Arc<Segment>> = self.sealed.iter().cloned().collect();
+        all.extend(self.current.clone().map(Arc::new));
+        let first = all.partition_point(|s| s.start.tick() <= from).max(1) - 1;
+        let last = all.partition_point(|s| s.start.tick() <= until);
+        Ok(all.drain(first..last.max(first + 1)).collect())
+    }
+
+    /// Lets those that keep the past keep this, too.
+    fn pin(&mut self, segment: &Arc<Segment>, end: Option<PinEnd>) {
+        let keeps = |pin: &Weak<Pin>| pin.upgrade().is_some_and(|p| p.keep(segment, end));
+        self.pins.retain(keeps);
+    }
+
+    fn hand_in(&mut self, entry: &Logged) {
+        if let Some(recorder) = self.recorder.as_ref().filter(|_| !self.holds) {
+            self.ticket = Some(hand_in(recorder, entry));
+        }
+    }
+
+    fn cut(&mut self, room: &Room, now: Instant) {
+        let mut bytes: u64 = self.sealed.iter().map(|s| s.bytes as u64).sum();
+        let room = if room.any() {
+            *room
+        } else {
+            Room {
+                bytes: 0,
+                age: Duration::ZERO,
+            }
+        };
+        // A segment is as old as its end.
+        while let Some(first) = self.sealed.front()
+            && (bytes > room.bytes || now - first.begun > room.age + CHECKPOINT_EVERY)
+        {
+            bytes -= first.bytes as u64;
+            self.sealed.pop_front();
+        }
+    }
+}
+
+fn hand_in(recorder: &Recorder, entry: &Logged) -> Ticket {
+    match entry {
+        Logged::Hash(tick, hash) => recorder.hash(*tick, *hash),
+        Logged::Record(r) if r.definitions.is_empty() => recorder.input(r.tick, r.bytes.clone()),
+        Logged::Record(r) => {
+            let size = r.bytes.len() + r.definitions.iter().map(size_of_definition).sum::<usize>();
+            let r = r.clone();
+            recorder.input_later(r.tick, size, move || with_clips(&r))
+        }
+    }
+}
+
+fn size_of_definition(definition: &Definition) -> usize {
+    let clip = definition.downcast_ref::<crate::server::engine::Clip>();
+    clip.map_or(0, |c| c.len() * CLIP_FRAME_BYTES)
+}
+
+/// A record as it is handed to the disk.
+#[cfg(test)]
+pub(super) fn on_disk(record: &Record) -> Bytes {
+    if record.definitions.is_empty() {
+        record.bytes.clone()
+    } else {
+        with_clips(record)
+    }
+}
+
+/// A record and behind it the clips that it refers to, after a zero, which no record begins with, and its length.
+fn with_clips(record: &Record) -> Bytes {
+    // What cannot be written cannot be read, which is found when it is.
+    let definitions = write_definitions(&record.definitions).unwrap_or_default();
+    let mut out = Vec::with_capacity(record.bytes.len() + definitions.len() + 5);
+    out.push(0);
+    out.extend_from_slice(&(record.bytes.len() as u32).to_le_bytes());
+    out.extend_from_slice(&record.bytes);
+    out.extend_from_slice(&definitions);
+    out.into()
+}
+
+/// A record as it was handed to the disk.
+///
+/// # Errors
+/// It cannot have been written.
+pub fn from_disk(tick: u64, bytes: &Bytes) -> Result<Record, String> {
+    let ends = || "a record that ends too soon".to_owned();
+    let (bytes, definitions) = match bytes.first() {
+        Some(0) => {
+            let head = bytes.get(1..5).ok_or_else(ends)?;
+            let length = u32::from_le_bytes(head.try_into().expect("four bytes")) as usize;
+            let end = length.saturating_add(5);
+            let rest = bytes.get(end..).ok_or_else(ends)?;
+            let definitions = read_definitions(rest).map_err(|e| e.to_string())?;
+            (bytes.slice(5..end), definitions)
+        }
+        _ => (bytes.clone(), Vec::new()),
+    };
+    let seq = super::scene::Reader::seq(&bytes).map_err(|e| e.to_string())?;
+    Ok(Record {
+        seq,
+        tick,
+        bytes,
+        definitions,
+    })
+}

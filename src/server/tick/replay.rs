@@ -1,0 +1,154 @@
+//! Does again what was recorded of a world.
+
+use super::journal::Logged;
+use super::scene::{Item, Reader, Scene, Unreadable};
+use crate::server::engine::Planning;
+
+/// Why a world is not what was recorded.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ReplayError {
+    /// Its state is another one.
+    #[error("after tick {tick} the state has hash {found:016x}, recorded was {expected:016x}")]
+    Differs {
+        /// The first such tick.
+        tick: u64,
+        /// Hash that was recorded.
+        expected: u64,
+        /// Hash of the state.
+        found: u64,
+    },
+    /// A record that cannot be read, or of another time.
+    #[error("before tick {tick}: {why}")]
+    Record {
+        /// Ticks done.
+        tick: u64,
+        /// Why.
+        why: &'static str,
+    },
+    /// It was told to stop.
+    #[error("it was stopped")]
+    Stopped,
+}
+
+impl From<Unreadable> for ReplayError {
+    fn from(e: Unreadable) -> Self {
+        Self::Record { tick: 0, why: e.0 }
+    }
+}
+
+/// A scene that goes through records.
+#[derive(Debug)]
+pub struct Replay {
+    /// The scene.
+    pub scene: Scene,
+    reader: Reader,
+    /// World time that the clock has left out so far, s.
+    lost: f64,
+    /// Hashes that were compared.
+    pub compared: u64,
+}
+
+impl Replay {
+    /// Begins at a checkpoint.
+    pub fn new(scene: Scene) -> Self {
+        Self {
+            scene,
+            reader: Reader::default(),
+            lost: 0.0,
+            compared: 0,
+        }
+    }
+
+    /// Goes through what was logged behind the checkpoint, as far as the state after tick `until`; what changed it
+    /// there is not done. `each` sees the scene after each tick, and says whether to go on.
+    ///
+    /// # Errors
+    /// The first thing that is not as it was recorded; `each` had enough.
+    pub fn through<'a>(
+        &mut self,
+        logged: impl IntoIterator<Item = &'a Logged>,
+        until: u64,
+        each: &mut dyn FnMut(&Scene) -> bool,
+    ) -> Result<(), ReplayError> {
+        for entry in logged {
+            let now = self.scene.world().tick();
+            match entry {
+                // Written twice: a checkpoint came in between.
+                Logged::Record(r) if r.seq <= self.scene.seq() => {}
+                Logged::Record(r) => {
+                    let why = match (r.seq == self.scene.seq() + 1, r.tick == now) {
+                        (true, true) => None,
+                        (false, _) => Some("a record is missing"),
+                        (_, false) => Some("a record of another tick"),
+                    };
+                    if let Some(why) = why {
+                        return Err(ReplayError::Record { tick: now, why });
+                    }
+                    if now >= until {
+                        return Ok(());
+                    }
+                    self.record(&r.bytes, &r.definitions).map_err(|e| match e {
+                        ReplayError::Record { why, .. } => ReplayError::Record { tick: now, why },
+                        e => e,
+                    })?;
+                    self.scene.passed(r.seq);
+                }
+                Logged::Hash(tick, _) if *tick < now => {}
+                Logged::Hash(tick, hash) => {
+                    if *tick > now + 1 {
+                        let why = "a tick is missing";
+                        return Err(ReplayError::Record { tick: now, why });
+                    }
+                    if *tick > now {
+                        if now >= until {
+                            return Ok(());
+                        }
+                        self.scene.sample(self.lost);
+                        self.scene.step(Planning::InTick);
+                    }
+                    let found = self.scene.world().state_hash();
+                    self.compared += 1;
+                    if found != *hash {
+                        return Err(ReplayError::Differs {
+                            tick: *tick,
+                            expected: *hash,
+                            found,
+                        });
+                    }
+                    if *tick > now && !each(&self.scene) {
+                        return Err(ReplayError::Stopped);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn record(
+        &mut self,
+        bytes: &[u8],
+        definitions: &[crate::sim::saved::Definition],
+    ) -> Result<(), ReplayError> {
+        let Self {
+            scene,
+            reader,
+            lost,
+            ..
+        } = self;
+        reader.read(bytes, definitions, |item| {
+            match item {
+                // What was refused then is refused now.
+                Item::Input(input) => drop(scene.apply(*input)),
+                Item::Frame(player, frame, at) => {
+                    scene.take_frame(player, *frame, at);
+                }
+                Item::Tick(left_out) => *lost = left_out,
+                Item::Late(figure, late) => scene.delay_plans(figure, late),
+            }
+            Ok(())
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,416 @@
+//! A world as far as it is the same when it is done again: physics, figures and obstacles by name, what plays live
+//! motion to figures. Clocks, connections, leases and who may do what lie around it (`shard`).
+//!
+//! A scene is changed by [`Scene::apply`], by frames that arrive ([`Scene::take_frame`]) and by ticks
+//! ([`Scene::sample`], [`Scene::step`]). Each notes what it did in a record. A scene of before that is put through the
+//! same records has the same states, bit for bit (`replay`).
+
+mod input;
+mod motion;
+mod player;
+mod record;
+mod saved;
+mod shown;
+
+pub use input::{Done, Input, PlayerKey};
+pub use player::{Player, Window};
+pub use record::{Item, Reader, Record, Unreadable};
+pub use saved::SavedScene;
+
+use crate::server::engine::{self, Drive as Motion, FigureKey, ObstacleKey, Planning, World};
+use crate::server::ingest::jitter_buffer::{Frame, Now, Resync};
+use crate::sim::body::{Body, State};
+use crate::sim::figure::loads::MAX_PERTURBATIONS;
+use crate::sim::figure::{ControlParams, LatePlans, Perturbation};
+use crate::wire::status::Fault;
+use crate::wire::types::{FigureDisturbance, FigureSettings, FigureUpdate, Place, WorldSettings};
+use record::Writer;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A figure with what is known of it besides its physics.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Member {
+    /// Last part of its name.
+    pub id: String,
+    /// The figure.
+    pub key: FigureKey,
+    /// Index in frames.
+    pub index: i32,
+    /// Settings.
+    pub settings: FigureSettings,
+    /// Last part of the name of the clip that was asked for last.
+    pub clip: Option<String>,
+}
+
+/// A world that can be done again.
+#[derive(Debug)]
+pub struct Scene {
+    world: World,
+    settings: WorldSettings,
+    members: Vec<Member>,
+    obstacles: Vec<(String, ObstacleKey)>,
+    next_obstacle: u64,
+    next_index: i32,
+    players: Vec<Player>,
+    next_player: PlayerKey,
+    record: Writer,
+}
+
+impl Scene {
+    /// An empty world.
+    ///
+    /// # Errors
+    /// Settings that the physics refuses.
+    pub fn new(settings: WorldSettings) -> Result<Self, Fault> {
+        Ok(Self {
+            world: engine::new_world(&settings)?,
+            settings,
+            members: Vec::new(),
+            obstacles: Vec::new(),
+            next_obstacle: 1,
+            next_index: 0,
+            players: Vec::new(),
+            next_player: 1,
+            record: Writer::default(),
+        })
+    }
+
+    /// Its physics.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// Its settings.
+    pub fn settings(&self) -> &WorldSettings {
+        &self.settings
+    }
+
+    /// Its figures, in the order of creation.
+    pub fn members(&self) -> &[Member] {
+        &self.members
+    }
+
+    /// Its obstacles, in the order they were added.
+    pub fn obstacles(&self) -> &[(String, ObstacleKey)] {
+        &self.obstacles
+    }
+
+    /// Index of the next figure.
+    pub fn next_index(&self) -> i32 {
+        self.next_index
+    }
+
+    /// What plays live motion.
+    pub fn player(&self, key: PlayerKey) -> Option<&Player> {
+        self.players.iter().find(|p| p.key == key)
+    }
+
+    /// All that play live motion.
+    pub fn players(&self) -> &[Player] {
+        &self.players
+    }
+
+    /// The physics of a member.
+    pub fn figure(&self, key: FigureKey) -> &engine::Figure {
+        self.world.figure(key).expect("members are in the world")
+    }
+
+    fn figure_mut(&mut self, key: FigureKey) -> Result<&mut engine::Figure, Fault> {
+        let found = self.world.figure_mut(key);
+        found.ok_or_else(|| Fault::Internal(format!("there is no figure {}", key.0)))
+    }
+
+    fn member_mut(&mut self, key: FigureKey) -> Result<&mut Member, Fault> {
+        let found = self.members.iter_mut().find(|m| m.key == key);
+        found.ok_or_else(|| Fault::Internal(format!("there is no figure {}", key.0)))
+    }
+
+    /// Writes records from now on.
+    pub fn keep_records(&mut self) {
+        self.record.turn_on();
+    }
+
+    /// What has changed it since the last call.
+    pub fn take_record(&mut self) -> Option<Record> {
+        self.record.take()
+    }
+
+    /// Forgets what has changed it since the last call of [`Self::take_record`]: it did not come to an end.
+    pub fn discard_record(&mut self) {
+        self.record.discard();
+    }
+
+    /// Records so far.
+    pub fn seq(&self) -> u64 {
+        self.record.seq()
+    }
+
+    /// Notes that it is past a record that was read.
+    pub(super) fn passed(&mut self, seq: u64) {
+        self.record.passed(seq);
+    }
+
+    /// Changes the world. The one place where that is done, whoever asks for it and whenever.
+    ///
+    /// # Errors
+    /// What the physics refuses, with the place of the input in the request.
+    pub fn apply(&mut self, input: Input) -> Result<Done, Fault> {
+        self.record.input(self.world.tick(), &input);
+        match input {
+            Input::Pace(pace) => {
+                self.settings.pace = pace;
+                Ok(Done::Changed)
+            }
+            Input::AddFigure { id, settings, body } => self.add_figure(id, *settings, body),
+            Input::RemoveFigure(key) => {
+                self.members.retain(|m| m.key != key);
+                self.players.retain(|p| p.figure != key);
+                self.world.remove_figure(key);
+                Ok(Done::Changed)
+            }
+            Input::UpdateFigure(key, update) => self.update_figure(key, *update),
+            Input::ResetFigure(key, place) => self.reset_figure(key, place),
+            Input::Play {
+                figure,
+                name,
+                clip,
+                playback,
+            } => self.play(figure, name, clip, playback),
+            Input::Stop(key) => {
+                self.member_mut(key)?.clip = None;
+                let time = self.world.time();
+                // It finishes its step and stands.
+                self.figure_mut(key)?.stop(time);
+                Ok(Done::Changed)
+            }
+            Input::Perturb(batch) => self.perturb(&batch),
+            Input::ClearPerturbations(key) => {
+                self.figure_mut(key)?.clear_perturbations();
+                Ok(Done::Changed)
+            }
+            Input::AddObstacle { id, setup } => {
+                let key = engine::add_obstacle(&mut self.world, setup)?;
+                self.next_obstacle += 1;
+                self.obstacles.push((id.clone(), key));
+                Ok(Done::Obstacle(id, key))
+            }
+            Input::UpdateObstacle(key, setup) => {
+                engine::update_obstacle(&mut self.world, key, setup)?;
+                Ok(Done::Changed)
+            }
+            Input::RemoveObstacle(key) => {
+                self.obstacles.retain(|(_, k)| *k != key);
+                self.world.remove_obstacle(key);
+                Ok(Done::Changed)
+            }
+            Input::Follow {
+                figure,
+                settings,
+                window,
+                takeover,
+            } => self.follow(figure, settings, window, takeover),
+            Input::Unfollow(key) => {
+                self.players.retain(|p| p.key != key);
+                Ok(Done::Changed)
+            }
+        }
+    }
+
+    /// A name for a new obstacle.
+    pub fn free_obstacle(&self) -> String {
+        (self.next_obstacle..)
+            .map(|n| format!("obstacle-{n}"))
+            .find(|id| self.obstacles.iter().all(|(o, _)| o != id))
+            .expect("there is a free number")
+    }
+
+    fn add_figure(
+        &mut self,
+        id: String,
+        settings: FigureSettings,
+        body: Option<Arc<Body>>,
+    ) -> Result<Done, Fault> {
+        let same = |m: &&Member| m.settings.body == settings.body;
+        let known = || self.members.iter().find(same).map(|m| m.key);
+        let body = match body.or_else(|| Some(Arc::clone(self.figure(known()?).body()))) {
+            Some(body) => body,
+            None => Arc::new(engine::build_body(settings.body.profile)?),
+        };
+        let key = engine::add_figure(&mut self.world, &id, &settings, body)?;
+        self.members.push(Member {
+            id,
+            key,
+            index: self.next_index,
+            settings,
+            clip: None,
+        });
+        self.next_index += 1;
+        Ok(Done::Figure(key))
+    }
+
+    fn update_figure(&mut self, key: FigureKey, u: FigureUpdate) -> Result<Done, Fault> {
+        if let Some(all) = &u.constraints {
+            engine::set_constraints(&mut self.world, key, all)?;
+        }
+        let steps = u.protective_steps;
+        let found = self.members.iter_mut().find(|m| m.key == key);
+        let m = found.ok_or_else(|| Fault::Internal(format!("there is no figure {}", key.0)))?;
+        if u.controller.is_some() || u.strength.is_some() || u.params.is_some() || steps.is_some() {
+            let controller = u.controller.unwrap_or(m.settings.controller);
+            let strength = u.strength.unwrap_or_else(|| m.settings.strength.clone());
+            // Whether it steps is no choice of the paper's controller.
+            let params = ControlParams {
+                protective_steps: steps.unwrap_or(m.settings.params.protective_steps),
+                ..u.params.unwrap_or_else(|| m.settings.params.clone())
+            };
+            let world = &mut self.world;
+            engine::retune(world, key, strength.clone(), controller, params.clone())?;
+            m.settings.controller = controller;
+            m.settings.params = params;
+            m.settings.strength = strength;
+        }
+        if u.fatigue_time_scale.is_some() || u.assist.is_some() {
+            let mut options = m.settings.options;
+            options.fatigue_time_scale = u.fatigue_time_scale.unwrap_or(options.fatigue_time_scale);
+            options.assist = u.assist.unwrap_or(options.assist);
+            engine::set_options(&mut self.world, key, options)?;
+            m.settings.options = options;
+        }
+        if let Some(name) = u.display_name {
+            m.settings.display_name = name;
+        }
+        Ok(Done::Changed)
+    }
+
+    fn reset_figure(&mut self, key: FigureKey, place: Option<Place>) -> Result<Done, Fault> {
+        let place = place.unwrap_or(self.member_mut(key)?.settings.place);
+        let f = self.figure_mut(key)?;
+        let posture = engine::standing(f.body(), place);
+        f.clear_perturbations();
+        f.clear_constraints();
+        f.set_drive(Motion::Hold(posture));
+        engine::reset(&mut self.world, key, State::at_rest(posture))?;
+        self.member_mut(key)?.clip = None;
+        Ok(Done::Changed)
+    }
+
+    /// What a batch comes to.
+    ///
+    /// # Errors
+    /// It is refused.
+    pub fn would_perturb(
+        &self,
+        batch: &[FigureDisturbance],
+    ) -> Result<Vec<(FigureKey, Perturbation)>, Fault> {
+        let (tick, now, dt) = (self.world.tick(), self.world.time(), self.world.dt());
+        let mut plan = Vec::with_capacity(batch.len());
+        for (n, d) in batch.iter().enumerate() {
+            let found = self.members.iter().find(|m| m.id == d.figure);
+            let key = found.map(|m| m.key);
+            let key = key.ok_or_else(|| Fault::not_found("figure", d.figure.clone()))?;
+            let from = match d.tick {
+                None => now,
+                Some(at) if at < tick as i64 => {
+                    return Err(Fault::invalid(
+                        format!("perturbations[{n}].tick"),
+                        format!("must be at least {tick}, the next tick, got {at}"),
+                    ));
+                }
+                // A year of ticks ahead is a mistake, and time must stay exact.
+                Some(at) if at - tick as i64 > 31_536_000_000 => {
+                    return Err(Fault::invalid(
+                        format!("perturbations[{n}].tick"),
+                        format!("is too far ahead of {tick}, the next tick"),
+                    ));
+                }
+                Some(at) => at as f64 * dt,
+            };
+            let f = self.figure(key);
+            let planned = plan.iter().filter(|(k, _)| *k == key).count();
+            if planned >= engine::perturbation_room(f) {
+                return Err(Fault::Exhausted {
+                    limit: "max_perturbations_per_figure",
+                    value: MAX_PERTURBATIONS as u64,
+                    message: format!("one more perturbation of figure {:?}", d.figure),
+                    retry: None,
+                });
+            }
+            plan.push((key, engine::perturbation(f.body(), &d.what, from)));
+        }
+        Ok(plan)
+    }
+
+    /// Applies a batch, all or nothing.
+    fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<Done, Fault> {
+        for (key, p) in self.would_perturb(batch)? {
+            engine::perturb(&mut self.world, key, p)?;
+        }
+        Ok(Done::Changed)
+    }
+
+    // ── live motion and ticks ──
+
+    /// Takes a frame for a player that arrived at scheduled time `at`, s. True if its stream begins anew with it.
+    pub fn take_frame(&mut self, key: PlayerKey, frame: Frame, at: f64) -> bool {
+        self.record.frame(self.world.tick(), key, &frame, at);
+        let player = self.players.iter_mut().find(|p| p.key == key);
+        player.is_some_and(|p| p.buffer.push(frame, at))
+    }
+
+    /// Why the stream of a player began anew since the last call, if it did.
+    pub fn take_notice(&mut self, key: PlayerKey) -> Option<Resync> {
+        let player = self.players.iter_mut().find(|p| p.key == key);
+        player?.buffer.take_notice()
+    }
+
+    /// When the frames came that act now, once for each: what they do has been published.
+    pub fn take_shown(&mut self) -> impl Iterator<Item = Instant> + '_ {
+        self.players
+            .iter_mut()
+            .filter_map(|p| p.buffer.take_shown())
+    }
+
+    /// Hands the desired motion of the next tick to figures with players. The clock has left out `lost` seconds of
+    /// world time so far. Returns players that have ended because others have taken over.
+    pub fn sample(&mut self, lost: f64) -> Vec<PlayerKey> {
+        if self.players.is_empty() {
+            return Vec::new();
+        }
+        self.record.sampled(self.world.tick(), lost);
+        let now = Now {
+            time: self.world.time(),
+            lost,
+        };
+        let ended = self.take_over(now);
+        self.play_live(now);
+        ended
+    }
+
+    /// One tick of the physics.
+    pub fn step(&mut self, planning: Planning) {
+        let tick = self.world.tick();
+        self.world.set_planning(planning);
+        self.world.step();
+        for (key, late) in self.world.late_plans_of_figures() {
+            self.record.late(tick, key, late);
+        }
+    }
+
+    /// The next tick does without these plans of a figure.
+    pub(super) fn delay_plans(&mut self, key: FigureKey, late: LatePlans) {
+        self.world.delay_plans(key, late);
+    }
+
+    /// Steps with so many threads from now on. The result does not depend on it.
+    pub fn set_threads(&mut self, threads: usize) {
+        self.world.set_threads(threads);
+    }
+
+    /// Breaks the world: the physics has lost a figure that is shown.
+    #[cfg(test)]
+    pub(super) fn forget_in_physics(&mut self, key: FigureKey) {
+        self.world.remove_figure(key);
+    }
+}

@@ -1,0 +1,144 @@
+//! What figures are asked to do: clips, and live motion.
+
+use super::player::{Player, Window};
+use super::{Done, PlayerKey, Scene};
+use crate::server::engine::{self, Clip, Drive as Motion, FigureKey};
+use crate::server::ingest::jitter_buffer::{JitterBuffer, Now};
+use crate::wire::status::Fault;
+use crate::wire::types::{DriveSettings, Place, Playback};
+use std::sync::Arc;
+
+impl Scene {
+    pub(super) fn play(
+        &mut self,
+        key: FigureKey,
+        name: String,
+        clip: Arc<Clip>,
+        p: Playback,
+    ) -> Result<Done, Fault> {
+        let now = self.world.time();
+        let begin = p.start.unwrap_or(now);
+        let f = self.figure_mut(key)?;
+        let place = p
+            .place
+            .unwrap_or_else(|| engine::place_of(&f.state().posture));
+        let state = engine::first_state(&clip, place);
+        // A figure that is put into the clip is in motion at once; one that stands comes into it by the clip's lead-in,
+        // and one that moves comes to a stand before that.
+        let playback = engine::playback(clip, begin, p.speed, p.looped, (place, !p.reset));
+        let mut start = playback.start;
+        if p.reset {
+            f.set_drive(Motion::Clip(playback));
+            engine::reset(&mut self.world, key, state)?;
+        } else {
+            start = f.play(playback, p.place.is_some(), now);
+        }
+        self.member_mut(key)?.clip = Some(name);
+        Ok(Done::Begins(start))
+    }
+
+    pub(super) fn follow(
+        &mut self,
+        figure: FigureKey,
+        settings: DriveSettings,
+        length: f64,
+        takeover: Option<f64>,
+    ) -> Result<Done, Fault> {
+        // What it does goes on until there is motion to go over to.
+        if takeover.is_none() {
+            self.member_mut(figure)?.clip = None;
+            let time = self.world.time();
+            self.figure_mut(figure)?.stop(time);
+        }
+        let (dt, key) = (self.world.dt(), self.next_player);
+        let f = self.figure_mut(figure)?;
+        let mut window = (length > 0.0).then(|| Window::new(f.body(), length));
+        if let Some(window) = window
+            .as_mut()
+            .filter(|_| !settings.reset && takeover.is_none())
+        {
+            window.lead_in(&f.target().next.posture);
+        }
+        let stand = engine::standing(f.body(), Place::default());
+        let player = Player {
+            key,
+            figure,
+            window,
+            takeover,
+            reset: settings.reset,
+            buffer: JitterBuffer::new(
+                settings,
+                dt,
+                Arc::clone(f.body()),
+                f.target().next.clone(),
+                stand,
+            ),
+        };
+        self.next_player += 1;
+        self.players.push(player);
+        Ok(Done::Player(key))
+    }
+
+    /// Lets figures go over to the motion of those who took them over, where it is there. Returns those before.
+    pub(super) fn take_over(&mut self, now: Now) -> Vec<PlayerKey> {
+        let mut ended = Vec::new();
+        let mut i = 0;
+        while i < self.players.len() {
+            let player = &mut self.players[i];
+            let blend = player.takeover;
+            let due = blend.filter(|_| player.buffer.is_due(now));
+            let Some(blend) = due else {
+                i += 1;
+                continue;
+            };
+            player.takeover = None;
+            let (key, figure) = (player.key, player.figure);
+            // Who was there before ends here.
+            self.players.retain(|p| {
+                let stays = p.figure != figure || p.key == key || p.takeover.is_some();
+                if !stays {
+                    ended.push(p.key);
+                }
+                stays
+            });
+            let player = self.players.iter_mut().find(|p| p.key == key);
+            if let (Some(p), Some(f)) = (player, self.world.figure_mut(figure)) {
+                p.join(f, now, blend);
+            }
+            // Others have moved up.
+            i = 0;
+        }
+        ended
+    }
+
+    pub(super) fn play_live(&mut self, now: Now) {
+        for player in &mut self.players {
+            // Until its own motion is there the one before goes on.
+            if player.takeover.is_some() {
+                continue;
+            }
+            let key = player.figure;
+            if player.window.is_some() {
+                let Some(f) = self.world.figure_mut(key) else {
+                    continue;
+                };
+                if let Some(state) = player.feed(now, f) {
+                    let _ = engine::reset(&mut self.world, key, state);
+                }
+                continue;
+            }
+            let Some((pair, reset)) = player.sample(now) else {
+                continue;
+            };
+            let state = pair.now.state();
+            // First: a reset follows a stop that is still being planned.
+            if let Some(f) = self.world.figure_mut(key) {
+                f.set_drive(Motion::External(Box::new(pair)));
+            }
+            if reset {
+                // What came over the wire was checked there, so there is nothing left to refuse.
+                let _ = engine::reset(&mut self.world, key, state);
+            }
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! What plays live motion to a figure: its jitter buffer and, if it is prepared, its window.
+//!
+//! A player is part of the world: what it does in a tick depends on the frames that came and on the clock that ticks
+//! were counted by, both of which are recorded. Who may send it frames is a matter of drives (`drives`).
+
+use super::input::PlayerKey;
+use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
+use crate::server::ingest::jitter_buffer::{Due, JitterBuffer, Now};
+use crate::sim::body::{Body, Posture, State};
+use crate::sim::motion::TargetPair;
+use crate::sim::plan::StreamPlan;
+use crate::sim::plan::stream::RATE;
+use crate::wire::types::Supply;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Samples of standing before a stream begins, for a figure that is not put into it.
+const LEAD_IN: usize = 6;
+
+/// What plays live motion to one figure.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Player {
+    /// Its number.
+    pub key: PlayerKey,
+    /// The figure.
+    pub figure: FigureKey,
+    /// Its desired motion.
+    pub buffer: JitterBuffer,
+    /// The window that prepares its motion, if there is one.
+    pub window: Option<Window>,
+    /// It takes the figure over from another player, over so many seconds, once its own motion is there.
+    pub takeover: Option<f64>,
+    /// Its figure is put into its first desired posture.
+    pub reset: bool,
+}
+
+/// A window between the buffer and its figure.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Window {
+    /// Its length, s.
+    pub length: f64,
+    /// The stream until its figure begins to follow it.
+    waiting: Option<Box<LivePlayback>>,
+    /// The figure comes into the stream from what it does, whatever the driver asked for.
+    begun: bool,
+}
+
+impl Window {
+    /// A window of `length` seconds for a figure with this body.
+    pub fn new(body: &Arc<Body>, length: f64) -> Self {
+        let motion = StreamPlan::new(Arc::clone(body), length);
+        Self {
+            length: motion.window(),
+            waiting: Some(Box::new(LivePlayback {
+                motion,
+                offset: 0.0,
+            })),
+            begun: false,
+        }
+    }
+
+    /// Continues from what is asked of the figure now: a stream that begins elsewhere is moved there.
+    pub fn lead_in(&mut self, posture: &Posture) {
+        self.begun = true;
+        if let Some(live) = &mut self.waiting {
+            for _ in 0..LEAD_IN {
+                live.motion.push(posture, Some([true; 2]));
+            }
+        }
+    }
+}
+
+impl Player {
+    /// Takes up after it was read: makes anew what follows from the body of its figure. False: it cannot have been
+    /// written for this figure in a world with ticks of `dt` seconds.
+    pub(super) fn complete(&mut self, figure: &Figure, dt: f64) -> bool {
+        let waiting = self.window.as_mut().and_then(|w| w.waiting.as_mut());
+        let waits = waiting.is_none_or(|live| live.offset.is_finite() && live.motion.complete());
+        let window = self.window.as_ref();
+        waits
+            && window.is_none_or(|w| (0.0..=2.0).contains(&w.length))
+            && self.takeover.is_none_or(|t| (0.0..=1e3).contains(&t))
+            && self.buffer.complete(figure.body(), dt)
+    }
+
+    /// Takes a figure over from another drive, in the middle of what it does, over `blend` seconds.
+    pub fn join(&mut self, figure: &mut Figure, now: Now, blend: f64) {
+        self.buffer.begin_from(figure.target().next.clone(), blend);
+        let Some(window) = &mut self.window else {
+            return; // the buffer goes over by itself
+        };
+        // The stream that the figure follows goes on with what comes now.
+        let length = window.length;
+        match figure.stream_mut().filter(|l| l.motion.window() == length) {
+            Some(live) => {
+                live.motion.join(blend);
+                window.waiting = None;
+                window.begun = true;
+            }
+            None => {
+                // There is none like it: it finishes its step, and is led in from a stand.
+                figure.stop(now.time);
+                window.lead_in(&figure.target().next.posture);
+            }
+        }
+    }
+
+    /// Feeds the window with what is due in the tick that begins `now`; once there is enough of it, the figure
+    /// follows. Returns the state that the figure is to be put into, if its driver asked for that.
+    pub fn feed(&mut self, now: Now, figure: &mut Figure) -> Option<State> {
+        let reset = self.reset;
+        let window = self.window.as_mut()?;
+        let length = window.length;
+        let time = now.time;
+        if self.buffer.take_break() {
+            // What the window holds has no continuation.
+            if window.waiting.is_none() {
+                figure.stop(time);
+            } else {
+                let begun = window.begun;
+                *window = Window::new(figure.body(), length);
+                if begun {
+                    window.lead_in(&figure.target().next.posture);
+                }
+            }
+            return None;
+        }
+        if window.waiting.is_none() && figure.stream_mut().is_none() {
+            // It stopped in a silence: a stream that comes again begins from where the figure is.
+            if !self.buffer.has_news() {
+                self.buffer.feed(now, (RATE, length), |_| ());
+                return None;
+            }
+            *window = Window::new(figure.body(), length);
+            window.lead_in(&figure.target().next.posture);
+        }
+        let waits = window.waiting.is_some();
+        let live = match &mut window.waiting {
+            Some(waiting) => waiting,
+            None => figure.stream_mut()?,
+        };
+        let motion = &mut live.motion;
+        let mut silent = false;
+        let (head, next) = self.buffer.feed(now, (RATE, length), |due| match due {
+            Due::Sample(posture, planted) => motion.push(posture, planted),
+            Due::Silence => silent = true,
+        })?;
+        if silent {
+            // It finishes its step and stands.
+            if !waits {
+                figure.stop(time);
+            }
+            return None;
+        }
+        live.offset = head - length + (motion.fed() - next) as f64 / RATE - time;
+        let begins = waits && live.stream_time(time) >= 0.0;
+        let mut live = window.waiting.take_if(|_| begins)?;
+        live.motion.advance(live.stream_time(time) + 1.0 / RATE);
+        let first = live.motion.sample(live.stream_time(time));
+        figure.set_drive(engine::Drive::Live(live));
+        (reset && !window.begun).then_some(first.state())
+    }
+
+    /// The desired motion over the tick that begins `now`, and whether the figure is to be put into it at once.
+    pub fn sample(&mut self, now: Now) -> Option<(TargetPair, bool)> {
+        let pair = self.buffer.sample(now)?;
+        Some((pair, self.buffer.resets_now()))
+    }
+
+    /// Sequence and source time that act now.
+    pub fn applied(&self) -> Option<(i64, i64)> {
+        match self.buffer.supply() {
+            Supply::None | Supply::Waiting => None,
+            _ => self.buffer.applied(),
+        }
+    }
+}

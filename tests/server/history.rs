@@ -1,0 +1,267 @@
+//! The past of a world over the wire: going back, forking, doing it again, recording it.
+
+use crate::support::{TestServer, arm_frame, header, refusal, view};
+use sinew::client::Driver;
+use sinew::sim::motion::Bvh;
+use sinew::wire::pb;
+use sinew::wire::pb::fork_world_request::Source as From;
+use sinew::wire::watched::WatchWorldResponse;
+use tonic::{Code, Status};
+
+impl TestServer {
+    async fn seek(&self, world: &str, tick: i64) -> Result<pb::World, Status> {
+        let request = pb::SeekWorldRequest {
+            name: world.into(),
+            tick,
+            ..Default::default()
+        };
+        let done = self.client.history().seek_world(request).await?;
+        Ok(done.into_inner().world.unwrap())
+    }
+
+    async fn fork_at(&self, id: &str, world: &str, tick: i64) -> Result<pb::World, Status> {
+        let request = pb::ForkWorldRequest {
+            world_id: id.into(),
+            paused: true,
+            source: Some(From::World(world.into())),
+            tick: Some(tick),
+            ..Default::default()
+        };
+        let done = self.client.checkpoints().fork_world(request).await?;
+        Ok(done.into_inner().world.unwrap())
+    }
+
+    async fn replay(&self, world: &str, thread_count: i32) -> pb::ReplayWorldResponse {
+        let request = pb::ReplayWorldRequest {
+            name: world.into(),
+            thread_count,
+            ..Default::default()
+        };
+        let done = self.client.history().replay_world(request).await;
+        done.unwrap().into_inner()
+    }
+
+    async fn held(&self, world: &str) -> (i64, i64) {
+        let request = pb::GetHistoryRequest { name: world.into() };
+        let held = self.client.history().get_history(request).await;
+        let held = held.unwrap().into_inner();
+        (held.oldest_tick, held.newest_tick)
+    }
+
+    async fn export(
+        &self,
+        recording: &str,
+        format: pb::RecordingFormat,
+        figure_id: &str,
+    ) -> Result<Vec<u8>, Status> {
+        let request = pb::ExportRecordingRequest {
+            name: recording.into(),
+            format: format.into(),
+            figure_id: figure_id.into(),
+        };
+        let mut pieces = self
+            .client
+            .recordings()
+            .export_recording(request)
+            .await?
+            .into_inner();
+        let mut file = Vec::new();
+        while let Some(piece) = pieces.message().await? {
+            file.extend(piece.data);
+        }
+        Ok(file)
+    }
+}
+
+/// A world with a figure that walks and one that is driven, after some ticks; the hash after each.
+async fn driven(server: &TestServer) -> (String, Vec<i64>, Driver) {
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    server.figure(&world, "b").await;
+    let figure = format!("{world}/figures/a");
+    server.play(&figure, "clips/walk", true).await;
+    let mut driver = server
+        .client
+        .drive(header(&world, "b", "me"))
+        .await
+        .unwrap();
+    let mut hashes = vec![server.frame(&world, &["root_pose"]).await.state_hash];
+    for round in 0..6 {
+        let frames: Vec<_> = (0..10).map(|i| arm_frame("b", 10 * round + i)).collect();
+        assert!(driver.send(frames).await);
+        while driver.feedback().await.unwrap().unwrap().received_sequence < 10 * round + 9 {}
+        if round == 3 {
+            server.push_it(&world, "a", 40.0).await;
+        }
+        hashes.extend(server.hashes(&world, 10).await);
+    }
+    (world, hashes, driver)
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_world_is_done_again_and_goes_back_to_any_tick_of_its_past() {
+    let server = TestServer::start().await;
+    let (world, hashes, mut driver) = driven(&server).await;
+    assert_eq!(server.held(&world).await, (0, 60));
+    for threads in [0, 2, 7] {
+        let done = server.replay(&world, threads).await;
+        let ticks = (done.first_tick, done.last_tick, done.compared_tick_count);
+        assert_eq!(ticks, (0, 60, 60));
+        assert_eq!(done.difference, None);
+    }
+    // What was, bit for bit; and from there on what was done to it is not done again.
+    let fork = server.fork_at("then", &world, 23).await.unwrap();
+    assert_eq!((fork.tick, fork.figure_count), (23, 2));
+    let then = server.frame("worlds/then", &["root_pose"]).await;
+    assert_eq!(then.state_hash, hashes[23]);
+    assert_ne!(server.hashes("worlds/then", 20).await, hashes[24..44]);
+
+    let mut frames = server
+        .client
+        .watch(&world, view(&["root_pose"]), None)
+        .await
+        .unwrap();
+    let back = server.seek(&world, 41).await.unwrap();
+    assert_eq!((back.tick, back.epoch), (41, 2));
+    assert_eq!(server.held(&world).await, (0, 41));
+    let shown = loop {
+        let message = frames.message().await.unwrap().unwrap();
+        if let WatchWorldResponse::Frame(f) = message
+            && f.epoch == 2
+        {
+            break f;
+        }
+    };
+    assert_eq!((shown.tick, shown.state_hash), (41, hashes[41]));
+    // Its driver goes on, and its new future is part of its past.
+    let frames: Vec<_> = (60..120).map(|i| arm_frame("b", i)).collect();
+    assert!(driver.send(frames).await);
+    while driver.feedback().await.unwrap().unwrap().received_sequence < 119 {}
+    server.step(&world, 40).await;
+    let frame = server.frame(&world, &["status"]).await;
+    assert!(frame.figures[1].applied_sequence >= 60, "it is driven");
+    let done = server.replay(&world, 2).await;
+    assert_eq!((done.compared_tick_count, done.difference), (81, None));
+    // Farther back is still there.
+    let back = server.seek(&world, 5).await.unwrap();
+    assert_eq!(back.tick, 5);
+    let shown = server.frame(&world, &["root_pose"]).await;
+    assert_eq!(shown.state_hash, hashes[5]);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_tick_that_is_not_held_is_named() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    server.step(&world, 10).await;
+    for refused in [
+        server.seek(&world, 11).await.unwrap_err(),
+        server.fork_at("x", &world, 11).await.unwrap_err(),
+    ] {
+        let (code, reason, _) = refusal(&refused);
+        assert_eq!(
+            (code, reason.as_str()),
+            (Code::OutOfRange, "RESUME_EXPIRED")
+        );
+    }
+    let refused = server.seek(&world, -1).await.unwrap_err();
+    assert_eq!(refusal(&refused).0, Code::InvalidArgument);
+    server.stop().await;
+
+    let server = TestServer::with(&[("memory_s", "0")]).await;
+    let world = server.paused_world("w").await;
+    server.step(&world, 10).await;
+    assert_eq!(server.held(&world).await, (-1, -1));
+    let refused = server.seek(&world, 5).await.unwrap_err();
+    assert_eq!(refusal(&refused).0, Code::OutOfRange);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_recording_outlives_its_past_and_becomes_files() {
+    let server = TestServer::start().await;
+    let (world, mut hashes, _driver) = driven(&server).await;
+    let request = pb::StartRecordingRequest {
+        parent: world.clone(),
+        recording_id: "r".into(),
+        first_tick: Some(30),
+        ..Default::default()
+    };
+    let mut recordings = server.client.recordings();
+    let begun = recordings.start_recording(request.clone()).await.unwrap();
+    let begun = begun.into_inner().recording.unwrap();
+    assert_eq!(begun.name, "worlds/w/recordings/r");
+    let running = pb::RecordingState::Running as i32;
+    assert_eq!(
+        (begun.state, begun.first_tick, begun.last_tick),
+        (running, 30, 60)
+    );
+    let taken = recordings.start_recording(request).await.unwrap_err();
+    assert_eq!(refusal(&taken).0, Code::AlreadyExists);
+
+    hashes.extend(server.hashes(&world, 15).await);
+    let name = begun.name.clone();
+    let request = pb::StopRecordingRequest {
+        name: name.clone(),
+        ..Default::default()
+    };
+    let ended = recordings.stop_recording(request).await.unwrap();
+    let ended = ended.into_inner().recording.unwrap();
+    assert_eq!(
+        (ended.last_tick, ended.end_reason.as_str()),
+        (75, "STOPPED")
+    );
+    // The world has another past: the recording stays.
+    server.seek(&world, 10).await.unwrap();
+    server.step(&world, 3).await;
+
+    let file = server
+        .export(&name, pb::RecordingFormat::Mcap, "")
+        .await
+        .unwrap();
+    let mut ticks = 30;
+    for message in mcap::MessageStream::new(&file).unwrap() {
+        let message = message.unwrap();
+        assert_eq!(message.channel.topic, "/worlds/w");
+        let schema = message.channel.schema.as_ref().unwrap();
+        assert_eq!(
+            (&*schema.name, &*schema.encoding),
+            ("sinew.v1.WorldFrame", "protobuf")
+        );
+        let frame = <pb::WorldFrame as prost::Message>::decode(&*message.data).unwrap();
+        assert_eq!(frame.tick, ticks);
+        assert_eq!(frame.state_hash, hashes[ticks as usize]);
+        assert_eq!(frame.figures.len(), 2);
+        ticks += 1;
+    }
+    assert_eq!(ticks, 76);
+    let bvh = server
+        .export(&name, pb::RecordingFormat::Bvh, "b")
+        .await
+        .unwrap();
+    assert_eq!(Bvh::parse(&bvh).unwrap().frame_count, 46);
+    let csv = server
+        .export(&name, pb::RecordingFormat::Csv, "")
+        .await
+        .unwrap();
+    let csv = String::from_utf8(csv).unwrap();
+    assert_eq!(csv.lines().count(), 47, "{csv}");
+    assert!(csv.starts_with("time_s,root_x_m"));
+    let nobody = server
+        .export(&name, pb::RecordingFormat::Csv, "nobody")
+        .await
+        .unwrap_err();
+    assert_eq!(refusal(&nobody).0, Code::NotFound);
+
+    let request = pb::DeleteRecordingRequest {
+        name: name.clone(),
+        ..Default::default()
+    };
+    recordings.delete_recording(request).await.unwrap();
+    let request = pb::GetRecordingRequest { name };
+    let gone = recordings.get_recording(request).await.unwrap_err();
+    assert_eq!(refusal(&gone).0, Code::NotFound);
+    server.stop().await;
+}
