@@ -6,7 +6,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const root = join(here, "../../..");
+export const root = join(here, "../../..");
 export const program = process.env.SINEW_BIN ?? join(root, "target/debug/sinew");
 /** Where screenshots are kept, to be looked at. */
 export const SHOTS = join(here, "../shots");
@@ -14,6 +14,7 @@ mkdirSync(SHOTS, { recursive: true });
 
 export class Server {
   address = "";
+  private scheme = "http";
   private process: ChildProcess | undefined;
 
   async start(...args: string[]): Promise<void> {
@@ -26,8 +27,10 @@ export class Server {
       let said = "";
       child.stdout.on("data", (text) => {
         said += String(text);
-        const found = /http:\/\/(127\.0\.0\.1:\d+)/.exec(said);
-        if (found) done(found[1]);
+        const found = /(https?):\/\/(127\.0\.0\.1:\d+)/.exec(said);
+        if (!found) return;
+        this.scheme = found[1];
+        done(found[2]);
       });
       child.on("exit", (code) => failed(new Error(`the server ended with ${code}: ${said}`)));
     });
@@ -43,7 +46,7 @@ export class Server {
   }
 
   get url(): string {
-    return `http://${this.address}/`;
+    return `${this.scheme}://${this.address}/`;
   }
 }
 

@@ -967,16 +967,20 @@ class World:
         rate_hz: float = 60.0,
         driver_id: str = "",
         playout_delay_ms: float | None = None,
+        window_ms: float | None = None,
         hold: bool = False,
         grace_ms: float | None = None,
         reset: bool = False,
+        control_tokens: Iterable[str] = (),
     ) -> Drive:
         """Drives figures (by name) live: `with world.drive("a", "b") as drive: drive.send_all({"a": Pose(...), ...})`.
 
         `rate_hz`: postures per second that you send. `playout_delay_ms` (ms) `None` adapts to the jitter of the
-        connection. `hold` stays in the last posture at once when motion is late, instead of continuing its velocity for
-        a moment. `grace_ms` (ms): how long a drive that has broken off keeps its figures. `reset` begins in the first
-        posture that comes.
+        connection. `window_ms` (ms, 0 or 300 to 1000): how far behind the newest posture motion is prepared for the
+        body, which streams that walk need; `None` takes what the server is set to. `hold` stays in the last posture
+        at once when motion is late, instead of continuing its velocity for a moment. `grace_ms` (ms): how long a
+        drive that has broken off keeps its figures. `reset` begins in the first posture that comes. `control_tokens`:
+        of the leases of these figures, if they have any.
         """
         header = motion_pb2.DriveHeader(
             world=self.resource,
@@ -984,9 +988,11 @@ class World:
             driver_id=driver_id,
             nominal_rate_hz=rate_hz,
             playout_delay_ms=playout_delay_ms,
+            preparation_window_ms=window_ms,
             underrun=motion_pb2.UNDERRUN_HOLD if hold else motion_pb2.UNDERRUN_EXTRAPOLATE,
             grace_ms=grace_ms,
             reset=reset,
+            control_tokens=control_tokens,
         )
         return Drive(self.client, header)
 
@@ -1268,9 +1274,11 @@ class Figure:
         rate_hz: float = 60.0,
         driver_id: str = "",
         playout_delay_ms: float | None = None,
+        window_ms: float | None = None,
         hold: bool = False,
         grace_ms: float | None = None,
         reset: bool = False,
+        control_tokens: Iterable[str] = (),
     ) -> Drive:
         """Drives it live: `with figure.drive() as drive: drive.send(angles)` (39 angles, rad); settings as in
         `World.drive`.
@@ -1280,24 +1288,28 @@ class Figure:
             rate_hz=rate_hz,
             driver_id=driver_id,
             playout_delay_ms=playout_delay_ms,
+            window_ms=window_ms,
             hold=hold,
             grace_ms=grace_ms,
             reset=reset,
+            control_tokens=control_tokens,
         )
 
     async def stream(
         self,
         source: Motion | Clip | PathLike,
         *,
+        window_ms: float | None = None,
         reset: bool = True,
         progress: bool | None = None,
     ) -> motion_pb2.DriveFeedback:
-        """Streams a motion live at its own pace, as a capture system would: arrays, a clip, or a BVH file.
+        """Streams a motion live at its own pace, as a capture system would: arrays, a clip, or a BVH file. One that
+        walks needs a window, 500 ms for example (`World.drive`).
 
         Returns when the last frame is sent, with the last feedback. The world must run.
         """
         motion = await self._motion(source)
-        async with self.drive(rate_hz=motion.rate_hz, reset=reset) as drive:
+        async with self.drive(rate_hz=motion.rate_hz, window_ms=window_ms, reset=reset) as drive:
             began = time.monotonic()
             with Progress(motion.duration_s, self.name, "s", progress) as bar:
                 for i in range(len(motion)):
