@@ -445,7 +445,7 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
             .iter()
             .filter(|s| s.name.starts_with("sinew.v1."))
             .count(),
-        13
+        15
     );
     // What errors are made of is described, too.
     for file in ["google/rpc/error_details.proto", "sinew/v1/operation.proto"] {

@@ -151,6 +151,33 @@ def test_a_world_goes_on_from_its_checkpoint(server: sinew.Client) -> None:
             world.restore(checkpoint)
 
 
+def test_the_past_of_a_world_is_gone_back_to_and_kept(server: sinew.Client) -> None:
+    with server.create_world() as world:
+        figure = world.add_figure("anna")
+        figure.play("walk", reset=True)
+        start = world.step(60)
+        kept = world.start_recording("walk", first_tick=start)
+        first = world.record(0.5)["anna"]
+        oldest, newest = world.history()
+        assert oldest <= start and newest >= start + 30
+        again = world.replay(first_tick=start)
+        assert again.compared_tick_count >= 30 and not again.HasField("difference")
+        assert world.stop_recording(kept).last_tick >= start + 30
+        with server.fork_world(world, tick=start) as other:
+            branch = other.record(0.5)["anna"]
+        world.seek(start)
+        for repeated in (branch, world.record(0.5)["anna"]):
+            assert (repeated.torque == first.torque).all() and (repeated.root_pose == first.root_pose).all()
+        assert world.export_recording(kept).startswith(b"\x89MCAP0\r\n")
+        assert world.export_recording(kept, "bvh", figure="anna").startswith(b"HIERARCHY")
+        assert world.export_recording(kept, "csv", figure="anna").count(b"\n") > 30
+        world.delete_recording(kept)
+        with pytest.raises(sinew.NotFoundError):
+            world.export_recording(kept)
+        with pytest.raises(sinew.ExpiredError):
+            world.seek(10_000)
+
+
 def test_the_paper_and_its_stepper_are_chosen(server: sinew.Client) -> None:
     as_printed = sinew.Paper(preset="2000", alpha=0.5, metric="inertia", hand_over=True)
     kinematic = server.simulate(

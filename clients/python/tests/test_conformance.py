@@ -20,6 +20,8 @@ from sinew.v1 import (
     body_pb2,
     figure_pb2,
     motion_pb2,
+    obstacle_pb2,
+    operation_pb2,
     perturbation_pb2,
     server_pb2,
     simulation_pb2,
@@ -28,7 +30,18 @@ from sinew.v1 import (
 )
 
 FILES = sorted((ROOT / "tests" / "conformance").glob("*.json"))
-MODULES = (body_pb2, figure_pb2, motion_pb2, perturbation_pb2, server_pb2, simulation_pb2, state_pb2, world_pb2)
+MODULES = (
+    body_pb2,
+    figure_pb2,
+    motion_pb2,
+    obstacle_pb2,
+    operation_pb2,
+    perturbation_pb2,
+    server_pb2,
+    simulation_pb2,
+    state_pb2,
+    world_pb2,
+)
 SERVICES = {s.full_name: s for m in MODULES for s in m.DESCRIPTOR.services_by_name.values()}
 DEFAULTS: tuple[Any, ...] = (0, "0", "", False, [])
 

@@ -23,6 +23,8 @@ import { details } from "../src/client.js";
 import { file_sinew_v1_body } from "../src/gen/sinew/v1/body_pb.js";
 import { file_sinew_v1_figure } from "../src/gen/sinew/v1/figure_pb.js";
 import { file_sinew_v1_motion } from "../src/gen/sinew/v1/motion_pb.js";
+import { file_sinew_v1_obstacle } from "../src/gen/sinew/v1/obstacle_pb.js";
+import { file_sinew_v1_operation } from "../src/gen/sinew/v1/operation_pb.js";
 import { file_sinew_v1_perturbation } from "../src/gen/sinew/v1/perturbation_pb.js";
 import { file_sinew_v1_server } from "../src/gen/sinew/v1/server_pb.js";
 import { file_sinew_v1_simulation } from "../src/gen/sinew/v1/simulation_pb.js";
@@ -45,6 +47,8 @@ const registry = createRegistry(
   file_sinew_v1_body,
   file_sinew_v1_figure,
   file_sinew_v1_motion,
+  file_sinew_v1_obstacle,
+  file_sinew_v1_operation,
   file_sinew_v1_perturbation,
   file_sinew_v1_server,
   file_sinew_v1_simulation,

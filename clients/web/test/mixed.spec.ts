@@ -1,6 +1,6 @@
-// One world that strangers share, from four kinds of clients: drivers in Python and TypeScript, a perturber with grpcurl,
-// viewers in TypeScript, grpcurl and the page. One of them is hostile. In the middle of a step the Python driver hands
-// its figure over to the one in TypeScript, and nobody falls.
+// One world that strangers share, from four kinds of clients: drivers in Python and TypeScript, a perturber with
+// grpcurl, viewers in TypeScript, grpcurl and the page. One of them is hostile. In the middle of a step the Python
+// driver hands its figure over to the one in TypeScript, and nobody falls.
 import { fromJson, type JsonValue } from "@bufbuild/protobuf";
 import { Code, ConnectError } from "@connectrpc/connect";
 import { execFile, execFileSync, spawn, type ChildProcess } from "node:child_process";

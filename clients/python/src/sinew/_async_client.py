@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from datetime import timedelta
 from pathlib import Path
 from types import TracebackType
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 from google.protobuf.field_mask_pb2 import FieldMask
@@ -45,6 +45,8 @@ from sinew.v1 import (
     figure_pb2,
     figure_pb2_grpc,
     frame_pb2,
+    history_pb2,
+    history_pb2_grpc,
     motion_pb2,
     motion_pb2_grpc,
     obstacle_pb2,
@@ -53,6 +55,8 @@ from sinew.v1 import (
     operation_pb2_grpc,
     perturbation_pb2,
     perturbation_pb2_grpc,
+    recording_pb2,
+    recording_pb2_grpc,
     server_pb2,
     server_pb2_grpc,
     simulation_pb2,
@@ -154,6 +158,8 @@ class Client:
         self.access_stub = access_pb2_grpc.AccessServiceStub(self._channel)
         self.control_stub = control_pb2_grpc.ControlServiceStub(self._channel)
         self.checkpoints_stub = checkpoint_pb2_grpc.CheckpointServiceStub(self._channel)
+        self.history_stub = history_pb2_grpc.HistoryServiceStub(self._channel)
+        self.recordings_stub = recording_pb2_grpc.RecordingServiceStub(self._channel)
         self._bodies: dict[str, Body] = {}
 
     def __repr__(self) -> str:
@@ -366,11 +372,13 @@ class Client:
         w = (await self._ask(self.worlds_stub.GetWorld, request)).world
         return World(self, w.name, w.rate_hz)
 
-    async def fork_world(self, source: World | str | bytes, name: str = "", *, paused: bool = True) -> World:
-        """Makes a new world that goes on bit for bit from a state: that of a world as it is now, of a checkpoint on the
-        server by its resource name, or of the bytes of one.
+    async def fork_world(
+        self, source: World | str | bytes, name: str = "", *, tick: int | None = None, paused: bool = True
+    ) -> World:
+        """Makes a new world that goes on bit for bit from a state: that of a world as it is now, or was at a `tick`
+        that is held, of a checkpoint on the server by its resource name, or of the bytes of one.
         """
-        request = checkpoint_pb2.ForkWorldRequest(world_id=name, paused=paused)
+        request = checkpoint_pb2.ForkWorldRequest(world_id=name, paused=paused, tick=tick)
         if isinstance(source, World):
             request.world = source.resource
         elif isinstance(source, bytes):
@@ -718,6 +726,54 @@ class World:
         else:
             request.checkpoint = checkpoint
         await self.client._ask(self.client.checkpoints_stub.RestoreWorld, request)
+
+    async def history(self) -> tuple[int, int]:
+        """The oldest and the newest tick that are held for `seek`, `replay` and `Client.fork_world`."""
+        request = history_pb2.GetHistoryRequest(name=self.resource)
+        held = await self.client._ask(self.client.history_stub.GetHistory, request)
+        return held.oldest_tick, held.newest_tick
+
+    async def seek(self, tick: int) -> None:
+        """Goes back to a tick that is held; what came after it is dropped, and drives end."""
+        request = history_pb2.SeekWorldRequest(name=self.resource, tick=tick)
+        await self.client._ask(self.client.history_stub.SeekWorld, request, max(self.client.timeout_s, _LONG_S))
+
+    async def replay(
+        self, *, first_tick: int | None = None, last_tick: int | None = None
+    ) -> history_pb2.ReplayWorldResponse:
+        """Does a part of its past again beside it; `difference` of the answer is set if a state came out otherwise."""
+        request = history_pb2.ReplayWorldRequest(name=self.resource, first_tick=first_tick, last_tick=last_tick)
+        timeout_s = max(self.client.timeout_s, _LONG_S)
+        return await self.client._ask(self.client.history_stub.ReplayWorld, request, timeout_s)
+
+    async def start_recording(self, name: str = "", *, first_tick: int | None = None) -> str:
+        """Keeps what happens from now on, or from a past tick that is held. Returns its resource name, for
+        `stop_recording`, `export_recording` and `delete_recording`.
+        """
+        request = recording_pb2.StartRecordingRequest(parent=self.resource, recording_id=name, first_tick=first_tick)
+        return (await self.client._ask(self.client.recordings_stub.StartRecording, request)).recording.name
+
+    async def stop_recording(self, recording: str) -> recording_pb2.Recording:
+        """Ends a recording; it is kept."""
+        request = recording_pb2.StopRecordingRequest(name=recording)
+        return (await self.client._ask(self.client.recordings_stub.StopRecording, request)).recording
+
+    async def export_recording(
+        self, recording: str, form: Literal["mcap", "bvh", "csv"] = "mcap", *, figure: str = ""
+    ) -> bytes:
+        """A recording as a file: MCAP of all frames; BVH or CSV of one figure."""
+        number = recording_pb2.RecordingFormat.Value(f"RECORDING_FORMAT_{form.upper()}")
+        request = recording_pb2.ExportRecordingRequest(name=recording, format=number, figure_id=last(figure))
+        out = bytearray()
+        async with Stream(self.client.recordings_stub.ExportRecording, request) as stream:
+            async for piece in stream:
+                out += piece.data
+        return bytes(out)
+
+    async def delete_recording(self, recording: str) -> None:
+        """Forgets a recording."""
+        request = recording_pb2.DeleteRecordingRequest(name=recording)
+        await self.client._ask(self.client.recordings_stub.DeleteRecording, request)
 
     async def set_speed(self, speed: float) -> None:
         """Sets how fast world time passes: `speed` is world seconds per wall second, 0.01 to 10."""

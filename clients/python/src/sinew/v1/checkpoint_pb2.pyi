@@ -360,17 +360,22 @@ class ForkWorldRequest(_message.Message):
     WORLD_FIELD_NUMBER: _builtins.int
     WORLD_ID_FIELD_NUMBER: _builtins.int
     PAUSED_FIELD_NUMBER: _builtins.int
+    TICK_FIELD_NUMBER: _builtins.int
     REQUEST_ID_FIELD_NUMBER: _builtins.int
     checkpoint: _builtins.str
     """Resource name of a checkpoint of any world of this server."""
     data: _builtins.bytes
     """Bytes of a checkpoint."""
     world: _builtins.str
-    """Resource name `worlds/{world}` of a world, whose state between two ticks is taken now."""
+    """Resource name `worlds/{world}` of a world, whose state between two ticks is taken now, or that after `tick`."""
     world_id: _builtins.str
     """Last part of the name of the new world, as for `CreateWorld`. Empty: one that is free."""
     paused: _builtins.bool
     """Its clock stands still until it is resumed."""
+    tick: _builtins.int
+    """With `world`: the tick of its past after which the state is taken, before anything changed it there. OUT_OF_RANGE
+    for one that is not held. Absent: now.
+    """
     request_id: _builtins.str
     """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
     ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
@@ -383,14 +388,20 @@ class ForkWorldRequest(_message.Message):
         world: _builtins.str = ...,
         world_id: _builtins.str = ...,
         paused: _builtins.bool = ...,
+        tick: _builtins.int | None = ...,
         request_id: _builtins.str = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["checkpoint", b"checkpoint", "data", b"data", "source", b"source", "world", b"world"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_tick", b"_tick", "checkpoint", b"checkpoint", "data", b"data", "source", b"source", "tick", b"tick", "world", b"world"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["checkpoint", b"checkpoint", "data", b"data", "paused", b"paused", "request_id", b"request_id", "source", b"source", "world", b"world", "world_id", b"world_id"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_tick", b"_tick", "checkpoint", b"checkpoint", "data", b"data", "paused", b"paused", "request_id", b"request_id", "source", b"source", "tick", b"tick", "world", b"world", "world_id", b"world_id"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__tick: _TypeAlias = _typing.Literal["tick"]  # noqa: Y015
+    _WhichOneofArgType__tick: _TypeAlias = _typing.Literal["_tick", b"_tick"]  # noqa: Y015
     _WhichOneofReturnType_source: _TypeAlias = _typing.Literal["checkpoint", "data", "world"]  # noqa: Y015
     _WhichOneofArgType_source: _TypeAlias = _typing.Literal["source", b"source"]  # noqa: Y015
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__tick) -> _WhichOneofReturnType__tick | None: ...
+    @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType_source) -> _WhichOneofReturnType_source | None: ...
 
 Global___ForkWorldRequest: _TypeAlias = ForkWorldRequest  # noqa: Y015

@@ -102,7 +102,8 @@ class CheckpointServiceServicer:
 
     def RestoreWorld(self, request, context):
         """Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
-        event `EVENT_TYPE_WORLD_RESTORED`; drives end, and figures that were driven finish their step and stand. Speed,
+        event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure
+        goes over to the stream from what it does there. Figures that others drove finish their step and stand. Speed,
         overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
         FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
         """
@@ -111,8 +112,9 @@ class CheckpointServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def ForkWorld(self, request, context):
-        """Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
-        world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
+        """Makes a new world in the state of a checkpoint, or of a world as it is now or was after a tick of its past that is
+        held (`HistoryService`); the caller must be a director of the world that it is of. A paused one can be changed
+        before it goes on: what if the load were 1 kg less?
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

@@ -45,13 +45,15 @@ class CheckpointServiceStub:
     """Forgets a checkpoint."""
     RestoreWorld: _grpc.UnaryUnaryMultiCallable[_checkpoint_pb2.RestoreWorldRequest, _checkpoint_pb2.RestoreWorldResponse]
     """Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
-    event `EVENT_TYPE_WORLD_RESTORED`; drives end, and figures that were driven finish their step and stand. Speed,
+    event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure
+    goes over to the stream from what it does there. Figures that others drove finish their step and stand. Speed,
     overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
     FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
     """
     ForkWorld: _grpc.UnaryUnaryMultiCallable[_checkpoint_pb2.ForkWorldRequest, _checkpoint_pb2.ForkWorldResponse]
-    """Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
-    world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
+    """Makes a new world in the state of a checkpoint, or of a world as it is now or was after a tick of its past that is
+    held (`HistoryService`); the caller must be a director of the world that it is of. A paused one can be changed
+    before it goes on: what if the load were 1 kg less?
     """
 
 @_typing.type_check_only
@@ -71,13 +73,15 @@ class CheckpointServiceAsyncStub(CheckpointServiceStub):
     """Forgets a checkpoint."""
     RestoreWorld: _aio.UnaryUnaryMultiCallable[_checkpoint_pb2.RestoreWorldRequest, _checkpoint_pb2.RestoreWorldResponse]  # type: ignore[assignment]
     """Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
-    event `EVENT_TYPE_WORLD_RESTORED`; drives end, and figures that were driven finish their step and stand. Speed,
+    event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure
+    goes over to the stream from what it does there. Figures that others drove finish their step and stand. Speed,
     overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
     FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
     """
     ForkWorld: _aio.UnaryUnaryMultiCallable[_checkpoint_pb2.ForkWorldRequest, _checkpoint_pb2.ForkWorldResponse]  # type: ignore[assignment]
-    """Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
-    world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
+    """Makes a new world in the state of a checkpoint, or of a world as it is now or was after a tick of its past that is
+    held (`HistoryService`); the caller must be a director of the world that it is of. A paused one can be changed
+    before it goes on: what if the load were 1 kg less?
     """
 
 class CheckpointServiceServicer(metaclass=_abc_1.ABCMeta):
@@ -124,7 +128,8 @@ class CheckpointServiceServicer(metaclass=_abc_1.ABCMeta):
         context: _ServicerContext,
     ) -> _typing.Union[_checkpoint_pb2.RestoreWorldResponse, _abc.Awaitable[_checkpoint_pb2.RestoreWorldResponse]]:
         """Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
-        event `EVENT_TYPE_WORLD_RESTORED`; drives end, and figures that were driven finish their step and stand. Speed,
+        event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure
+        goes over to the stream from what it does there. Figures that others drove finish their step and stand. Speed,
         overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
         FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
         """
@@ -135,8 +140,9 @@ class CheckpointServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _checkpoint_pb2.ForkWorldRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_checkpoint_pb2.ForkWorldResponse, _abc.Awaitable[_checkpoint_pb2.ForkWorldResponse]]:
-        """Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
-        world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
+        """Makes a new world in the state of a checkpoint, or of a world as it is now or was after a tick of its past that is
+        held (`HistoryService`); the caller must be a director of the world that it is of. A paused one can be changed
+        before it goes on: what if the load were 1 kg less?
         """
 
 def add_CheckpointServiceServicer_to_server(servicer: CheckpointServiceServicer, server: _typing.Union[_grpc.Server, _aio.Server]) -> None: ...

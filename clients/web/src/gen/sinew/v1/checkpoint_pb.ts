@@ -17,7 +17,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/checkpoint.proto.
  */
 export const file_sinew_v1_checkpoint: GenFile = /*@__PURE__*/
-  fileDesc("ChlzaW5ldy92MS9jaGVja3BvaW50LnByb3RvEghzaW5ldy52MSKOAgoKQ2hlY2twb2ludBISCgRuYW1lGAEgASgJQgTiQQEIEhIKBHRpY2sYAiABKANCBOJBAQMSFAoGdGltZV9zGAMgASgBQgTiQQEDEhgKCnN0YXRlX2hhc2gYBCABKBBCBOJBAQMSGAoKc2l6ZV9ieXRlcxgFIAEoA0IE4kEBAxI1CgtjcmVhdGVfdGltZRgGIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5UaW1lc3RhbXBCBOJBAQM6V+pBVAoQc2luZXcvQ2hlY2twb2ludBInd29ybGRzL3t3b3JsZH0vY2hlY2twb2ludHMve2NoZWNrcG9pbnR9KgtjaGVja3BvaW50czIKY2hlY2twb2ludCKOAQoWQ2hlY2twb2ludFdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIbCg1jaGVja3BvaW50X2lkGAIgASgJQgTiQQEBEhkKC3JldHVybl9kYXRhGAMgASgIQgTiQQEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiUQoXQ2hlY2twb2ludFdvcmxkUmVzcG9uc2USKAoKY2hlY2twb2ludBgBIAEoCzIULnNpbmV3LnYxLkNoZWNrcG9pbnQSDAoEZGF0YRgCIAEoDCJaChRHZXRDaGVja3BvaW50UmVxdWVzdBInCgRuYW1lGAEgASgJQhniQQEC+kESChBzaW5ldy9DaGVja3BvaW50EhkKC3JldHVybl9kYXRhGAIgASgIQgTiQQEBIk8KFUdldENoZWNrcG9pbnRSZXNwb25zZRIoCgpjaGVja3BvaW50GAEgASgLMhQuc2luZXcudjEuQ2hlY2twb2ludBIMCgRkYXRhGAIgASgMInYKFkxpc3RDaGVja3BvaW50c1JlcXVlc3QSKQoGcGFyZW50GAEgASgJQhniQQEC+kESEhBzaW5ldy9DaGVja3BvaW50EhcKCXBhZ2Vfc2l6ZRgCIAEoBUIE4kEBARIYCgpwYWdlX3Rva2VuGAMgASgJQgTiQQEBIl0KF0xpc3RDaGVja3BvaW50c1Jlc3BvbnNlEikKC2NoZWNrcG9pbnRzGAEgAygLMhQuc2luZXcudjEuQ2hlY2twb2ludBIXCg9uZXh0X3BhZ2VfdG9rZW4YAiABKAkiXAoXRGVsZXRlQ2hlY2twb2ludFJlcXVlc3QSJwoEbmFtZRgBIAEoCUIZ4kEBAvpBEgoQc2luZXcvQ2hlY2twb2ludBIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBIhoKGERlbGV0ZUNoZWNrcG9pbnRSZXNwb25zZSKaAQoTUmVzdG9yZVdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIrCgpjaGVja3BvaW50GAIgASgJQhX6QRIKEHNpbmV3L0NoZWNrcG9pbnRIABIOCgRkYXRhGAMgASgMSAASGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBAUIICgZzb3VyY2UiNgoUUmVzdG9yZVdvcmxkUmVzcG9uc2USHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZCLEAQoQRm9ya1dvcmxkUmVxdWVzdBIrCgpjaGVja3BvaW50GAEgASgJQhX6QRIKEHNpbmV3L0NoZWNrcG9pbnRIABIOCgRkYXRhGAIgASgMSAASIQoFd29ybGQYAyABKAlCEPpBDQoLc2luZXcvV29ybGRIABIWCgh3b3JsZF9pZBgEIAEoCUIE4kEBARIUCgZwYXVzZWQYBSABKAhCBOJBAQESGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBAUIICgZzb3VyY2UiMwoRRm9ya1dvcmxkUmVzcG9uc2USHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZDKpBAoRQ2hlY2twb2ludFNlcnZpY2USXAoPQ2hlY2twb2ludFdvcmxkEiAuc2luZXcudjEuQ2hlY2twb2ludFdvcmxkUmVxdWVzdBohLnNpbmV3LnYxLkNoZWNrcG9pbnRXb3JsZFJlc3BvbnNlIgTo4BgEElYKDUdldENoZWNrcG9pbnQSHi5zaW5ldy52MS5HZXRDaGVja3BvaW50UmVxdWVzdBofLnNpbmV3LnYxLkdldENoZWNrcG9pbnRSZXNwb25zZSIE6OAYBBJcCg9MaXN0Q2hlY2twb2ludHMSIC5zaW5ldy52MS5MaXN0Q2hlY2twb2ludHNSZXF1ZXN0GiEuc2luZXcudjEuTGlzdENoZWNrcG9pbnRzUmVzcG9uc2UiBOjgGAESXwoQRGVsZXRlQ2hlY2twb2ludBIhLnNpbmV3LnYxLkRlbGV0ZUNoZWNrcG9pbnRSZXF1ZXN0GiIuc2luZXcudjEuRGVsZXRlQ2hlY2twb2ludFJlc3BvbnNlIgTo4BgEElMKDFJlc3RvcmVXb3JsZBIdLnNpbmV3LnYxLlJlc3RvcmVXb3JsZFJlcXVlc3QaHi5zaW5ldy52MS5SZXN0b3JlV29ybGRSZXNwb25zZSIE6OAYBBJKCglGb3JrV29ybGQSGi5zaW5ldy52MS5Gb3JrV29ybGRSZXF1ZXN0Ghsuc2luZXcudjEuRm9ya1dvcmxkUmVzcG9uc2UiBOjgGAdiBnByb3RvMw", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_timestamp, file_sinew_v1_options, file_sinew_v1_world]);
+  fileDesc("ChlzaW5ldy92MS9jaGVja3BvaW50LnByb3RvEghzaW5ldy52MSKOAgoKQ2hlY2twb2ludBISCgRuYW1lGAEgASgJQgTiQQEIEhIKBHRpY2sYAiABKANCBOJBAQMSFAoGdGltZV9zGAMgASgBQgTiQQEDEhgKCnN0YXRlX2hhc2gYBCABKBBCBOJBAQMSGAoKc2l6ZV9ieXRlcxgFIAEoA0IE4kEBAxI1CgtjcmVhdGVfdGltZRgGIAEoCzIaLmdvb2dsZS5wcm90b2J1Zi5UaW1lc3RhbXBCBOJBAQM6V+pBVAoQc2luZXcvQ2hlY2twb2ludBInd29ybGRzL3t3b3JsZH0vY2hlY2twb2ludHMve2NoZWNrcG9pbnR9KgtjaGVja3BvaW50czIKY2hlY2twb2ludCKOAQoWQ2hlY2twb2ludFdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIbCg1jaGVja3BvaW50X2lkGAIgASgJQgTiQQEBEhkKC3JldHVybl9kYXRhGAMgASgIQgTiQQEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiUQoXQ2hlY2twb2ludFdvcmxkUmVzcG9uc2USKAoKY2hlY2twb2ludBgBIAEoCzIULnNpbmV3LnYxLkNoZWNrcG9pbnQSDAoEZGF0YRgCIAEoDCJaChRHZXRDaGVja3BvaW50UmVxdWVzdBInCgRuYW1lGAEgASgJQhniQQEC+kESChBzaW5ldy9DaGVja3BvaW50EhkKC3JldHVybl9kYXRhGAIgASgIQgTiQQEBIk8KFUdldENoZWNrcG9pbnRSZXNwb25zZRIoCgpjaGVja3BvaW50GAEgASgLMhQuc2luZXcudjEuQ2hlY2twb2ludBIMCgRkYXRhGAIgASgMInYKFkxpc3RDaGVja3BvaW50c1JlcXVlc3QSKQoGcGFyZW50GAEgASgJQhniQQEC+kESEhBzaW5ldy9DaGVja3BvaW50EhcKCXBhZ2Vfc2l6ZRgCIAEoBUIE4kEBARIYCgpwYWdlX3Rva2VuGAMgASgJQgTiQQEBIl0KF0xpc3RDaGVja3BvaW50c1Jlc3BvbnNlEikKC2NoZWNrcG9pbnRzGAEgAygLMhQuc2luZXcudjEuQ2hlY2twb2ludBIXCg9uZXh0X3BhZ2VfdG9rZW4YAiABKAkiXAoXRGVsZXRlQ2hlY2twb2ludFJlcXVlc3QSJwoEbmFtZRgBIAEoCUIZ4kEBAvpBEgoQc2luZXcvQ2hlY2twb2ludBIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBIhoKGERlbGV0ZUNoZWNrcG9pbnRSZXNwb25zZSKaAQoTUmVzdG9yZVdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIrCgpjaGVja3BvaW50GAIgASgJQhX6QRIKEHNpbmV3L0NoZWNrcG9pbnRIABIOCgRkYXRhGAMgASgMSAASGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBAUIICgZzb3VyY2UiNgoUUmVzdG9yZVdvcmxkUmVzcG9uc2USHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZCLmAQoQRm9ya1dvcmxkUmVxdWVzdBIrCgpjaGVja3BvaW50GAEgASgJQhX6QRIKEHNpbmV3L0NoZWNrcG9pbnRIABIOCgRkYXRhGAIgASgMSAASIQoFd29ybGQYAyABKAlCEPpBDQoLc2luZXcvV29ybGRIABIWCgh3b3JsZF9pZBgEIAEoCUIE4kEBARIUCgZwYXVzZWQYBSABKAhCBOJBAQESFwoEdGljaxgGIAEoA0IE4kEBAUgBiAEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQFCCAoGc291cmNlQgcKBV90aWNrIjMKEUZvcmtXb3JsZFJlc3BvbnNlEh4KBXdvcmxkGAEgASgLMg8uc2luZXcudjEuV29ybGQyqQQKEUNoZWNrcG9pbnRTZXJ2aWNlElwKD0NoZWNrcG9pbnRXb3JsZBIgLnNpbmV3LnYxLkNoZWNrcG9pbnRXb3JsZFJlcXVlc3QaIS5zaW5ldy52MS5DaGVja3BvaW50V29ybGRSZXNwb25zZSIE6OAYBBJWCg1HZXRDaGVja3BvaW50Eh4uc2luZXcudjEuR2V0Q2hlY2twb2ludFJlcXVlc3QaHy5zaW5ldy52MS5HZXRDaGVja3BvaW50UmVzcG9uc2UiBOjgGAQSXAoPTGlzdENoZWNrcG9pbnRzEiAuc2luZXcudjEuTGlzdENoZWNrcG9pbnRzUmVxdWVzdBohLnNpbmV3LnYxLkxpc3RDaGVja3BvaW50c1Jlc3BvbnNlIgTo4BgBEl8KEERlbGV0ZUNoZWNrcG9pbnQSIS5zaW5ldy52MS5EZWxldGVDaGVja3BvaW50UmVxdWVzdBoiLnNpbmV3LnYxLkRlbGV0ZUNoZWNrcG9pbnRSZXNwb25zZSIE6OAYBBJTCgxSZXN0b3JlV29ybGQSHS5zaW5ldy52MS5SZXN0b3JlV29ybGRSZXF1ZXN0Gh4uc2luZXcudjEuUmVzdG9yZVdvcmxkUmVzcG9uc2UiBOjgGAQSSgoJRm9ya1dvcmxkEhouc2luZXcudjEuRm9ya1dvcmxkUmVxdWVzdBobLnNpbmV3LnYxLkZvcmtXb3JsZFJlc3BvbnNlIgTo4BgHYgZwcm90bzM", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_timestamp, file_sinew_v1_options, file_sinew_v1_world]);
 
 /**
  * The state of a world at a tick, kept in the memory of the server until it is deleted, its world is deleted, or the
@@ -412,7 +412,7 @@ export type ForkWorldRequest = Message<"sinew.v1.ForkWorldRequest"> & {
     case: "data";
   } | {
     /**
-     * Resource name `worlds/{world}` of a world, whose state between two ticks is taken now.
+     * Resource name `worlds/{world}` of a world, whose state between two ticks is taken now, or that after `tick`.
      *
      * @generated from field: string world = 3;
      */
@@ -433,6 +433,14 @@ export type ForkWorldRequest = Message<"sinew.v1.ForkWorldRequest"> & {
    * @generated from field: bool paused = 5;
    */
   paused: boolean;
+
+  /**
+   * With `world`: the tick of its past after which the state is taken, before anything changed it there. OUT_OF_RANGE
+   * for one that is not held. Absent: now.
+   *
+   * @generated from field: optional int64 tick = 6;
+   */
+  tick?: bigint | undefined;
 
   /**
    * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
@@ -520,7 +528,8 @@ export const CheckpointService: GenService<{
   },
   /**
    * Puts a world back, or forward, into the state of a checkpoint. Viewers get a full frame of the next epoch and the
-   * event `EVENT_TYPE_WORLD_RESTORED`; drives end, and figures that were driven finish their step and stand. Speed,
+   * event `EVENT_TYPE_WORLD_RESTORED`. Who drives a figure that is in the checkpoint goes on driving it: the figure
+   * goes over to the stream from what it does there. Figures that others drove finish their step and stand. Speed,
    * overrun policy and whether the world is paused stay as they are. DATA_LOSS for a checkpoint that is damaged,
    * FAILED_PRECONDITION for one of another rate, number of substeps, program version or numerics.
    *
@@ -532,8 +541,9 @@ export const CheckpointService: GenService<{
     output: typeof RestoreWorldResponseSchema;
   },
   /**
-   * Makes a new world in the state of a checkpoint, or of a world as it is now; the caller must be a director of the
-   * world that it is of. A paused one can be changed before it goes on: what if the load were 1 kg less?
+   * Makes a new world in the state of a checkpoint, or of a world as it is now or was after a tick of its past that is
+   * held (`HistoryService`); the caller must be a director of the world that it is of. A paused one can be changed
+   * before it goes on: what if the load were 1 kg less?
    *
    * @generated from rpc sinew.v1.CheckpointService.ForkWorld
    */
