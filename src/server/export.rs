@@ -1,7 +1,6 @@
 //! Recordings as files: the recorded part is simulated again, tick by tick, and written as it goes.
 
 use super::recordings::Recorded;
-use super::tick::journal::Logged;
 use super::tick::replay::{Replay, ReplayError};
 use super::tick::scene::Scene;
 use crate::evaluate::table::{Torques, header, row};
@@ -45,15 +44,13 @@ pub fn export(
     stop: &dyn Fn() -> bool,
     give: &mut Give<'_>,
 ) -> Result<(), Fault> {
-    let first = recorded.segments.first();
-    let first = first.ok_or_else(|| Fault::Internal("an empty recording".into()))?;
     let (from, until) = recorded.ticks;
     let mut writer: Box<dyn Writer> = match format {
         Format::Mcap => Box::new(Mcap::new(world)?),
         Format::Bvh(figure) => Box::new(Bvh::of(figure)),
         Format::Csv(figure) => Box::new(Csv::of(figure)),
     };
-    let mut replay = Replay::new(first.scene()?);
+    let mut replay = Replay::of(&recorded.segments)?;
     let mut failed = None;
     let mut each = |scene: &Scene| {
         let tick = scene.world().tick();
@@ -76,9 +73,7 @@ pub fn export(
     if replay.scene.world().tick() == from && !each(&replay.scene) {
         return Err(failed.unwrap_or_else(super::workers::Turn::gone));
     }
-    let entries = recorded.segments.iter().flat_map(|s| &s.entries);
-    let entries: Vec<&Logged> = entries.collect();
-    let done = replay.through(entries, until, &mut each);
+    let done = replay.through_past(&recorded.segments, until, &mut each);
     match (done, failed) {
         (_, Some(fault)) => return Err(fault),
         (Ok(()), None) => {}

@@ -327,6 +327,7 @@ mod tests {
         })
     }
 
+    #[allow(clippy::ptr_arg, reason = "what operations of texts are measured with")]
     fn size(text: &String) -> u64 {
         text.len() as u64
     }

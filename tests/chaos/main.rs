@@ -298,7 +298,6 @@ async fn drive(client: &Client, mut n: i64) -> i64 {
             sequence: n,
             source_time_ns: (t * 1e9) as i64,
             figures: vec![motion("a", 0.0), motion("b", 1.5)],
-            ..Default::default()
         };
         if !driver.send(vec![frame]).await {
             return n;

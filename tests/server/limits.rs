@@ -191,8 +191,10 @@ async fn fields_outside_the_mask_are_ignored_whatever_they_hold() {
     };
     let updated = server.client.figures().update_figure(request).await;
     let updated = updated.unwrap().into_inner().figure.unwrap();
+    assert_ne!(updated.etag, made.etag);
     let expected = pb::Figure {
         display_name: "Anna".into(),
+        etag: updated.etag.clone(),
         ..made
     };
     assert_eq!(updated, expected);
@@ -202,7 +204,12 @@ async fn fields_outside_the_mask_are_ignored_whatever_they_hold() {
 /// A clip of 1000 frames and its preparation are 1.6 MB; prepared for a second body they are 2.9 MB.
 #[tokio::test(flavor = "multi_thread")]
 async fn prepared_clips_count_as_stored_bytes() {
-    let server = TestServer::with(&[("max_clip_total_bytes", "2500000")]).await;
+    let server = TestServer::with(&[
+        ("max_clip_total_bytes", "2500000"),
+        // What a world remembers to have played it could play again.
+        ("memory_s", "0"),
+    ])
+    .await;
     let world = server.paused_world("w").await;
     let figure = |id: &str, body: &str| pb::CreateFigureRequest {
         parent: world.clone(),

@@ -172,6 +172,10 @@ pub(super) async fn start(
 
 /// Tells what is due when it is due. A thread of its own sleeps more exactly than the timer of the runtime, which
 /// counts in milliseconds.
+#[allow(
+    clippy::disallowed_methods,
+    reason = "the schedule is one of absolute times"
+)]
 fn pace(load: &Load, paced: &[((f64, f64), mpsc::Sender<Due>)]) {
     let window = load.window();
     let (begun, end) = (window.start - load.schedule.warm_up, window.end);

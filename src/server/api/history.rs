@@ -26,12 +26,8 @@ pub(super) fn journal(handle: &WorldHandle) -> Result<Arc<Journal>, Fault> {
 
 /// The scene at the end of this part of the past, or after tick `until` of it.
 fn reached(past: &[Arc<Segment>], until: u64, turn: &Turn) -> Result<Scene, Fault> {
-    let first = past
-        .first()
-        .ok_or_else(|| Fault::Internal("no past".into()))?;
-    let mut replay = Replay::new(first.scene()?);
-    let entries = past.iter().flat_map(|s| &s.entries);
-    let done = replay.through(entries, until, &mut |_| !turn.stop());
+    let mut replay = Replay::of(past)?;
+    let done = replay.through_past(past, until, &mut |_| !turn.stop());
     match done {
         Ok(()) => Ok(replay.scene),
         Err(ReplayError::Stopped) => Err(Turn::gone()),
@@ -142,13 +138,9 @@ fn replayed(
     threads: usize,
     turn: &Turn,
 ) -> Result<pb::ReplayWorldResponse, Fault> {
-    let first = past
-        .first()
-        .ok_or_else(|| Fault::Internal("no past".into()))?;
-    let mut replay = Replay::new(first.scene()?);
-    replay.scene.set_threads(threads);
-    let entries = past.iter().flat_map(|s| &s.entries);
-    let done = replay.through(entries, last, &mut |_| !turn.stop());
+    let mut replay = Replay::of(past)?.with_threads(threads);
+    let first = replay.scene.world().tick();
+    let done = replay.through_past(past, last, &mut |_| !turn.stop());
     let difference = match done {
         Ok(()) => None,
         Err(ReplayError::Stopped) => return Err(Turn::gone()),
@@ -169,7 +161,7 @@ fn replayed(
         }),
     };
     Ok(pb::ReplayWorldResponse {
-        first_tick: first.start.tick() as i64,
+        first_tick: first as i64,
         last_tick: replay.scene.world().tick() as i64,
         compared_tick_count: replay.compared as i64,
         difference,

@@ -301,7 +301,7 @@ settings! {
     max_clips: int = 256, 1, 100_000;
     /// Bytes of one uploaded file.
     max_clip_bytes: int = 16_777_216, 1024, 1_073_741_824;
-    /// Bytes of all stored files and their frames.
+    /// Bytes of all stored files and their frames. Frames that figures play, or have played within `memory_s`, stay.
     max_clip_total_bytes: int = 536_870_912, 1024, 1_099_511_627_776;
     /// Checkpoints that are kept in memory, of all worlds.
     max_checkpoints: int = 1024, 1, 1_000_000;

@@ -72,7 +72,7 @@ fn mistakes_are_named() {
     assert!(load(&[pair("max_worlds", "many")]).is_err());
     let environment = |name: &str| Config::load(None, [pair(name, "5")].into_iter(), &[]);
     let fault = environment("SINEW_MAX_WORLD").unwrap_err().to_string();
-    assert!(fault.contains("SINEW_MAX_WORLD") && fault.contains("max_worlds"));
+    assert!(fault.contains("SINEW_MAX_WORLD") && fault.contains("SINEW_MAX_WORLDS"));
     let traced = load(&[pair("otlp_endpoint", "http://127.0.0.1:4317")]);
     assert_eq!(traced.is_ok(), cfg!(feature = "otlp"));
     // What may have been meant is said as it is written where the mistake is; there is no wild guess.

@@ -76,6 +76,8 @@ pub struct Segment {
     pub start: Arc<Capture>,
     /// When that was.
     pub begun: Instant,
+    /// The world was put into that state: it is not where the segment before it ends, though the physics may be.
+    pub restored: bool,
     /// What followed.
     pub entries: Vec<Logged>,
     bytes: usize,
@@ -87,8 +89,15 @@ impl Segment {
             bytes: start.size() + 256,
             start,
             begun,
+            restored: false,
             entries: Vec::new(),
         }
+    }
+
+    /// Nothing more is appended: gives back what a vector takes beyond its entries, up to as much again.
+    fn sealed(mut self) -> Arc<Self> {
+        self.entries.shrink_to_fit();
+        Arc::new(self)
     }
 
     fn push(&mut self, entry: Logged) {
@@ -286,7 +295,7 @@ impl Journal {
         let mut inside = self.inside();
         let next = Segment::new(Arc::new(capture), now);
         if let Some(before) = inside.current.replace(next) {
-            let before = Arc::new(before);
+            let before = before.sealed();
             inside.pin(&before, None);
             inside.sealed.push_back(before);
         }
@@ -298,7 +307,7 @@ impl Journal {
     pub fn begin_anew(&self, capture: Capture, goes_back: bool, now: Instant) {
         let mut inside = self.inside();
         let (tick, hash) = (capture.tick(), capture.hash());
-        if let Some(before) = inside.current.take().map(Arc::new) {
+        if let Some(before) = inside.current.take().map(Segment::sealed) {
             inside.pin(&before, Some(PinEnd::Restored));
             inside.sealed.push_back(before);
         }
@@ -315,7 +324,10 @@ impl Journal {
         } else {
             inside.sealed.clear();
         }
-        inside.current = Some(Segment::new(Arc::new(capture), now));
+        inside.current = Some(Segment {
+            restored: true,
+            ..Segment::new(Arc::new(capture), now)
+        });
         inside.holds = inside.recorder.is_some();
         inside.cut(&self.room, now, &self.total);
     }

@@ -1,8 +1,10 @@
 //! Does again what was recorded of a world.
 
-use super::journal::Logged;
+use super::journal::{Logged, Segment};
 use super::scene::{Item, Reader, Scene, Unreadable};
 use crate::server::engine::Planning;
+use crate::wire::status::Fault;
+use std::sync::Arc;
 
 /// Why a world is not what was recorded.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -44,6 +46,7 @@ pub struct Replay {
     reader: Reader,
     /// World time that the clock has left out so far, s.
     lost: f64,
+    threads: Option<usize>,
     /// Hashes that were compared.
     pub compared: u64,
 }
@@ -55,8 +58,60 @@ impl Replay {
             scene,
             reader: Reader::default(),
             lost: 0.0,
+            threads: None,
             compared: 0,
         }
+    }
+
+    /// Begins at the first of the segments of a past.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn of(past: &[Arc<Segment>]) -> Result<Self, Fault> {
+        let first = past.first();
+        let first = first.ok_or_else(|| Fault::Internal("an empty past".into()))?;
+        Ok(Self::new(first.scene()?))
+    }
+
+    /// Steps with so many threads. The result does not depend on it.
+    pub fn with_threads(mut self, threads: usize) -> Self {
+        self.threads = Some(threads);
+        self.scene.set_threads(threads);
+        self
+    }
+
+    /// Goes through the segments of a past, the first of which it began at, as [`Self::through`] does. Where the world
+    /// was put into another state it is put there, too: those who drive it went on in their own way then.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn through_past(
+        &mut self,
+        past: &[Arc<Segment>],
+        until: u64,
+        each: &mut dyn FnMut(&Scene) -> bool,
+    ) -> Result<(), ReplayError> {
+        for (i, segment) in past.iter().enumerate() {
+            let (tick, expected) = (segment.start.tick(), segment.start.hash());
+            if i > 0 && segment.restored && tick <= until {
+                let found = self.scene.world().state_hash();
+                if (self.scene.world().tick(), found) != (tick, expected) {
+                    return Err(ReplayError::Differs {
+                        tick,
+                        expected,
+                        found,
+                    });
+                }
+                let why = "a checkpoint that cannot be read";
+                let scene = segment.scene();
+                self.scene = scene.map_err(|_| ReplayError::Record { tick, why })?;
+                if let Some(threads) = self.threads {
+                    self.scene.set_threads(threads);
+                }
+            }
+            self.through(&segment.entries, until, each)?;
+        }
+        Ok(())
     }
 
     /// Goes through what was logged behind the checkpoint, as far as the state after tick `until`; what changed it

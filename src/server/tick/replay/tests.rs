@@ -224,7 +224,7 @@ impl Script {
         // Streams in bursts, with a gap.
         for player in 0..self.players.len() {
             let begun = [0, 0, 110][player];
-            if (160..185).contains(&tick) || tick % 3 != 0 {
+            if (160..185).contains(&tick) || !tick.is_multiple_of(3) {
                 continue;
             }
             for i in tick..tick + 3 {
@@ -262,7 +262,7 @@ impl Script {
             let world = self.scene.world();
             hashes.push(world.state_hash());
             journal.stepped(world.tick(), world.state_hash());
-            if world.tick() % STRIDE == 0 {
+            if world.tick().is_multiple_of(STRIDE) {
                 journal.begin(self.scene.capture(), now);
             }
         }
