@@ -126,7 +126,7 @@ fn every_field_of_a_request_says_how_it_behaves() {
             let of_choice = field.containing_oneof().is_some_and(|o| !o.is_synthetic());
             let said = behaviours(&field, &behaviour);
             assert!(
-                of_choice != !said.is_empty(),
+                of_choice == said.is_empty(),
                 "{}: {said:?}",
                 name_of(&field)
             );

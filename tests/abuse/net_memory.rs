@@ -116,7 +116,9 @@ async fn world(client: &Client, figures: usize, paused: bool) -> String {
 #[test]
 fn stepping_leaves_nothing_behind() {
     let (used, after) = std::sync::mpsc::sync_channel(1);
-    let server = survives(&[], |address| async move {
+    // What it may remember of these ticks is small against what they would leave.
+    let settings = [("max_world_memory_bytes", "4194304")];
+    let server = survives(&settings, |address| async move {
         let client = Client::connect(&address.to_string()).await.unwrap();
         let name = world(&client, 0, true).await;
         let begun = Instant::now();

@@ -373,7 +373,7 @@ async fn trying_out_answers_and_changes_nothing() {
     assert_eq!((made.name.as_str(), made.rate_hz), ("worlds/x", 120.0));
     let taken = c.worlds().create_world(create("w")).await.unwrap_err();
     assert_eq!(taken.code(), Code::AlreadyExists);
-    assert_eq!(server.worlds().await, [world.clone()]);
+    assert_eq!(server.worlds().await, std::slice::from_ref(&world));
 
     let create = |id: &str, height_m| pb::CreateFigureRequest {
         parent: world.clone(),

@@ -224,6 +224,8 @@ impl Listener {
         }
         while !self.over {
             let end = tokio::select! {
+                // The last events come before the end of their world.
+                biased;
                 received = self.events.recv() => match received {
                     Ok(batch) => {
                         let events: Vec<pb::Event> = batch
