@@ -251,7 +251,7 @@ def test_arrays_and_clips_are_streamed_live(server: sinew.Client) -> None:
         motion = sinew.Motion(angles, np.tile(root, (n, 1)), 60.0)
         feedback = figure.stream(motion)
         assert feedback.received_sequence == n - 1 or feedback.received_sequence > n - 20
-        assert feedback.figures[0].figure == "a"
+        assert feedback.figures[0].figure_id == "a"
         with figure.drive() as drive:
             drive.send(np.zeros(39))
             with pytest.raises(sinew.PreconditionError) as taken:

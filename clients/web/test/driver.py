@@ -39,6 +39,7 @@ with sinew.Client(args.address, token=args.token, ca=args.ca) as client:
     lease = client.control_stub.AcquireControl(control_pb2.AcquireControlRequest(figure=figure))
     say(lease=lease.lease.holder)
     began = time.monotonic()
+    say(began=time.time())
     offered = False
     try:
         with world.drive(
