@@ -8,6 +8,8 @@
 import os
 from pathlib import Path
 
+import numpy as np
+
 import sinew
 
 path = Path(os.environ.get("SINEW_BVH", "my-capture.bvh"))
@@ -31,7 +33,8 @@ print(f"feet slid {before_mm:.0f} mm, now {after_mm:.0f} mm")
 for warning in report.warnings:
     print("note:", warning)
 outcome = "fell" if recording.fell_at_s else "stood"
-print(f"tracking error {recording.summary.tracking_joint_rms_deg:.2f}° RMS; {outcome}")
+error_deg = np.rad2deg(recording.summary.tracking_joint_rms_rad)
+print(f"tracking error {error_deg:.2f}° RMS; {outcome}")
 
 # %%
 strip = recording.strip(6, title=path.stem)
