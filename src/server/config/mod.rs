@@ -536,7 +536,7 @@ const PREFIX: &str = "SINEW_";
 
 /// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
 /// read.
-const OTHER_VARIABLES: [&str; 22] = [
+const OTHER_VARIABLES: [&str; 25] = [
     "config",
     "token",
     "bin",
@@ -556,8 +556,11 @@ const OTHER_VARIABLES: [&str; 22] = [
     "soak_seed",
     "soak_ticks",
     "abuse_seconds",
+    "chaos_page",
     "chaos_seconds",
+    "forged",
     "fuzz_cases",
+    "replays",
     "soak_seconds",
 ];
 
