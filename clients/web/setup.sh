@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs what the tests of the viewer need: Chromium by apt, and the npm packages of package-lock.json. Safe to run
+# Installs what the tests of the viewer need: Chromium by apt, npm packages of package-lock.json, grpcurl. Safe to run
 # again and again; does nothing when all is there. tests/setup.sh brings Node. Set SINEW_CHROMIUM to use another
 # Chromium. Building the server needs none of this.
 set -eu
@@ -18,4 +18,9 @@ if ! cmp -s "$here/package-lock.json" "$stamp"; then
     echo "setup: installing the npm packages of clients/web"
     (cd "$here" && npm ci --silent)
     cp "$here/package-lock.json" "$stamp"
+fi
+
+if ! [ -x "$root/.tools/grpcurl" ]; then
+    echo "setup: installing grpcurl into .tools"
+    GOBIN=$root/.tools go install github.com/fullstorydev/grpcurl/cmd/grpcurl@v1.9.3
 fi
