@@ -274,7 +274,7 @@ settings! {
     otlp_call_share: float = 1.0, 0.0, 1.0;
     /// Share of ticks that are traced.
     otlp_tick_share: float = 0.001, 0.0, 1.0;
-    /// Worlds at a time; an empty one takes some 40 kB and 10 µs per tick.
+    /// Worlds at a time.
     max_worlds: int = 1024, 1, 100_000;
     /// Workers that run short ticks, and again as many for long ones; 0: one less than there are processors, and at
     /// least one.

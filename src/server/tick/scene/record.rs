@@ -192,7 +192,7 @@ fn put_words(out: &mut Vec<u8>, words: &[u64]) {
 pub struct Writer {
     on: bool,
     bytes: Vec<u8>,
-    definitions: Vec<Definition_>,
+    definitions: Vec<Shared>,
     tick: u64,
     /// Records so far.
     seq: u64,
@@ -203,9 +203,9 @@ pub struct Writer {
 }
 
 /// A definition in something that can be shown.
-struct Definition_(Definition);
+struct Shared(Definition);
 
-impl std::fmt::Debug for Definition_ {
+impl std::fmt::Debug for Shared {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("definition")
     }
@@ -266,8 +266,7 @@ impl Writer {
         put(&mut self.bytes, definitions.len() as u64);
         put(&mut self.bytes, written.len() as u64);
         self.bytes.extend_from_slice(&written);
-        self.definitions
-            .extend(definitions.into_iter().map(Definition_));
+        self.definitions.extend(definitions.into_iter().map(Shared));
     }
 
     /// A frame that arrived at scheduled time `at`, s.
