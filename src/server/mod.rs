@@ -178,7 +178,7 @@ pub async fn serve(
 }
 
 /// Serves connections. Those that may not grow older than `age_s` are asked to close at ages around it: each of the
-/// transport's servers asks at one age, and they take turns to accept.
+/// transport's servers asks at one age, and connections are dealt out to them in turn.
 async fn serve_ages(
     server: Server,
     routes: Routes,
@@ -187,24 +187,44 @@ async fn serve_ages(
     age_s: f64,
 ) -> Result<(), tonic::transport::Error> {
     let count = if age_s > 0.0 { AGES } else { 1 };
-    let incoming = Arc::new(tokio::sync::Mutex::new(Box::pin(incoming)));
-    let all = (0..count).map(|n| {
+    let closed = || {
+        let mut closing = closing.clone();
+        async move {
+            let _ = closing.wait_for(|c| *c).await; // an error says the same
+        }
+    };
+    let (hands, taken): (Vec<_>, Vec<_>) =
+        (0..count).map(|_| tokio::sync::mpsc::channel(1)).unzip();
+    let all = taken.into_iter().enumerate().map(|(n, taken)| {
         let mut server = server.clone();
         if age_s > 0.0 {
             let spread = (n as f64 + 0.5) / count as f64 * 2.0 - 1.0;
             let age = age_s * (1.0 + AGE_SPREAD * spread);
             server = server.max_connection_age(Duration::from_secs_f64(age));
         }
-        let incoming = futures_util::stream::unfold(incoming.clone(), |incoming| async {
-            let next = incoming.lock().await.next().await; // those who wait for it are in a queue
-            Some((next?, incoming))
+        let incoming = futures_util::stream::unfold(taken, |mut taken| async move {
+            let next = taken.recv().await?;
+            Some((next, taken))
         });
-        let mut closing = closing.clone();
-        let close = async move {
-            let _ = closing.wait_for(|c| *c).await; // an error says the same
-        };
         let server = server.add_routes(routes.clone());
-        server.serve_with_incoming_shutdown(incoming, close)
+        server.serve_with_incoming_shutdown(incoming, closed())
     });
-    futures_util::future::try_join_all(all).await.map(|_| ())
+    let deal = async {
+        let mut incoming = std::pin::pin!(incoming);
+        for hand in hands.iter().cycle() {
+            let Some(next) = incoming.next().await else {
+                break;
+            };
+            if hand.send(next).await.is_err() {
+                break; // it closes
+            }
+        }
+    };
+    let mut served = std::pin::pin!(futures_util::future::try_join_all(all));
+    let served = tokio::select! {
+        served = &mut served => served,
+        () = closed() => served.await,
+        () = deal => served.await,
+    };
+    served.map(|_| ())
 }
