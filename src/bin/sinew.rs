@@ -4,6 +4,10 @@ use clap::{CommandFactory, Parser, Subcommand};
 use sinew::cli::{self, exit};
 use std::process::ExitCode;
 
+#[cfg(all(unix, not(target_os = "macos")))]
+#[global_allocator]
+static MEMORY: tikv_jemallocator::Jemalloc = tikv_jemallocator::Jemalloc;
+
 /// Physically simulated human figures that track reference motions within human strength.
 #[derive(Parser)]
 #[command(name = "sinew", version, about, after_help = exit::EXIT_CODES)]
