@@ -84,6 +84,11 @@ fn number(report: &Value, field: &str) -> f64 {
         .unwrap_or_else(|| panic!("{field} is {}", report[field]))
 }
 
+/// Repair S5.
+///
+/// Problem 14.1.
+///
+/// Problem 14.3.
 #[test]
 fn standing_motions_are_tracked_within_the_laws_of_physics() {
     let dir = Scratch::new("standing");
@@ -261,6 +266,9 @@ fn lint_tells_how_far_a_motion_is_from_one_that_feet_can_carry() {
     );
 }
 
+/// Repair S5.
+///
+/// Problem 14.1.
 #[test]
 fn loads_pushes_and_weakness_reach_the_physics() {
     let dir = Scratch::new("loads");

@@ -82,6 +82,7 @@ fn the_inertia_matrix_is_symmetric_positive_definite_and_holds_the_kinetic_energ
     });
 }
 
+/// Equation (6) of the paper.
 #[test]
 fn inverse_dynamics_is_inertia_times_acceleration_plus_bias() {
     cases(|links, state, a, _| {

@@ -288,6 +288,7 @@ fn held_by_left_foot(t: &Terms) -> (DMatrix<f64>, DVector<f64>) {
     (n, b)
 }
 
+/// Equation (6) of the paper.
 #[test]
 fn recorded_support_dynamics_are_reproduced() {
     let data = data();

@@ -95,6 +95,7 @@ def test_there_are_a_thousand_states_with_and_without_loads(dump):
 
 
 def test_pinocchio_agrees_on_ball_joints(dump):
+    """Equation (6) of the paper."""
     worst = Worst()
     for name in dump.models:
         engine = Pinocchio(dump.directory / f"{name}.mjcf")

@@ -178,6 +178,7 @@ def residual(engine, audit) -> float:
 
 @pytest.mark.parametrize("kind", [Pinocchio, Mujoco])
 def test_frames_satisfy_the_equations_of_motion_of_the_exported_body(watched, pushed, stubs, tmp_path, kind):
+    """Problem 14.3."""
     python, _ = watched
     with grpc.insecure_channel(pushed) as channel:
         service = stubs.body_grpc.BodyServiceStub(channel)

@@ -422,6 +422,7 @@ mod tests {
         }
     }
 
+    /// Section 3.1 of the paper.
     #[test]
     fn box_has_its_closed_form() {
         let (low, high) = (vec3(0.2, -0.3, 1.0), vec3(0.7, 0.1, 1.2));
@@ -437,6 +438,7 @@ mod tests {
         );
     }
 
+    /// Section 3.1 of the paper.
     #[test]
     fn sphere_converges_to_two_fifths_m_r_squared() {
         let mut before = f64::INFINITY;
@@ -454,6 +456,7 @@ mod tests {
         assert!(before < 2e-3);
     }
 
+    /// Section 3.1 of the paper.
     #[test]
     fn translation_obeys_the_parallel_axis_theorem() {
         let mesh = lopsided();

@@ -10,6 +10,8 @@ use crate::sim::math::dense::{factor_columns, solve_lower, solve_upper};
 pub type Dense = [[f64; WIDTH]; NV];
 
 /// A borrowed dense symmetric matrix.
+///
+/// Problem 14.2.
 pub struct DenseSystem<'a>(pub &'a Dense);
 
 impl System for DenseSystem<'_> {

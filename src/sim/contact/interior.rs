@@ -228,6 +228,8 @@ pub(crate) fn aim(gap: f64, last_step: f64) -> f64 {
 
 /// Leads `x` near the minimum, wherever it was, in at most `iterations` iterations; returns how many there were.
 /// Bounded work, no allocation. The problem has no joint limits.
+///
+/// Problem 14.2.
 #[inline(always)]
 pub(crate) fn approach<S: System>(
     problem: &Problem<'_, S>,

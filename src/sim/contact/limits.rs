@@ -162,6 +162,8 @@ fn each_angle(posture: &Posture, mut visit: impl FnMut(AngleRow)) {
 /// Stretched tissue gives `τ + K h ω` at the end of the substep, ω the speed into it: `K` is its mean stiffness on the
 /// way that it would be stretched at the present speed, so that it takes up at least the energy that it stores, and it
 /// only ever pushes.
+///
+/// Problem 14.3.
 pub fn collect_limits(
     body: &Body,
     tissue: Option<&Strength>,

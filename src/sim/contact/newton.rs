@@ -149,6 +149,8 @@ const LINE_SEARCH: usize = 12;
 /// * `ws`: holds the forces of the last iterate afterwards.
 ///
 /// The residual is in the units of b.
+///
+/// Problem 14.2.
 #[inline(always)]
 pub fn minimise<S: System>(
     problem: &Problem<'_, S>,

@@ -7,6 +7,8 @@ use crate::sim::dynamics::factor::{factor, solve};
 use crate::sim::dynamics::mass_matrix::{DEPTH, MassMatrix};
 
 /// A borrowed inertia matrix.
+///
+/// Problem 14.3.
 pub struct SparseSystem<'a>(pub &'a MassMatrix<f64>);
 
 impl System for SparseSystem<'_> {

@@ -13,6 +13,7 @@ use crate::sim::math::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
+/// Problem 14.2.
 #[test]
 fn projection_is_nearest_point_of_the_cone_and_its_derivative_matches_differences() {
     let mut rng = Pcg64Mcg::seed_from_u64(1);
@@ -120,6 +121,9 @@ fn from_inside_contacts_and_motors_come_to_their_force() {
     }
 }
 
+/// Problem 14.2.
+///
+/// Problem 14.3.
 #[test]
 fn newton_reaches_the_minimum_and_both_storages_agree() {
     let mut rng = Pcg64Mcg::seed_from_u64(2);

@@ -106,6 +106,8 @@ const MEANT_FADE: (f64, f64) = (0.004, 0.012);
 const POINTS: usize = MAX_CONTACTS / SEGMENT_COUNT;
 
 /// The modern controller with its buffers and its memory of the last tick (warm start).
+///
+/// Problem 14.1.
 pub struct Modern {
     price: [f64; NV],
     last_torque: [f64; DOF_COUNT],

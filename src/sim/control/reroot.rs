@@ -53,6 +53,8 @@ impl Default for SupportMap {
 impl SupportMap {
     /// Support `s` holds still. `acceleration`: angular and linear (of the segment origin), world axes; zero for a
     /// support at rest.
+    ///
+    /// Section 3.1 of the paper.
     #[inline(always)]
     pub fn set_support(&mut self, terms: &Terms, s: SegmentId, acceleration: (Vec3, Vec3)) {
         use crate::sim::body::topology::{DOF_LEN, DOF_START, PARENT};
@@ -335,6 +337,8 @@ impl SupportMap {
     }
 
     /// τ = H θ̈ + c₀.
+    ///
+    /// Equation (6) of the paper.
     #[inline(always)]
     pub fn torque(&self, qdd: &Row) -> Row {
         let mut t = [0.0; ROW];
@@ -443,6 +447,7 @@ mod tests {
         tau
     }
 
+    /// Section 3.1 of the paper.
     #[test]
     fn rerooted_support_does_not_accelerate() {
         let (body, mut rng) = (mannequin(), Rng::new(31));
@@ -463,6 +468,7 @@ mod tests {
         }
     }
 
+    /// Section 3.1 of the paper.
     #[test]
     fn rerooted_torque_is_newton_euler_with_the_support_wrench() {
         let (body, mut rng) = (mannequin(), Rng::new(32));
@@ -495,6 +501,7 @@ mod tests {
         }
     }
 
+    /// Section 3.1 of the paper.
     #[test]
     fn every_choice_of_support_gives_the_same_torque_with_the_other_wrench() {
         let (body, mut rng) = (mannequin(), Rng::new(33));
@@ -610,6 +617,7 @@ mod tests {
         }
     }
 
+    /// Repair S2.
     #[test]
     fn balanced_sharing_is_newton_euler_with_the_shared_wrenches() {
         let (body, mut rng) = (mannequin(), Rng::new(36));

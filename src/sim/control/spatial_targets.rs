@@ -309,6 +309,7 @@ mod tests {
         rows.map(|(r, c)| (dot(r, x) - c).abs()).fold(0.0, f64::max)
     }
 
+    /// Equations (12), (13) of the paper.
     #[test]
     fn centre_of_mass_alone_gets_what_it_asks_for() {
         let mut rng = Rng::new(21);
@@ -319,6 +320,7 @@ mod tests {
         }
     }
 
+    /// Equations (12), (13) of the paper.
     #[test]
     fn nested_priority_reaches_both_and_the_papers_only_the_first() {
         let mut rng = Rng::new(22);
@@ -352,6 +354,7 @@ mod tests {
         }
     }
 
+    /// Equation (16) of the paper.
     #[test]
     fn members_keep_their_torque_and_the_others_get_the_wish() {
         let mut rng = Rng::new(24);

@@ -99,6 +99,10 @@ impl TorqueLimits {
     /// * `most`: larger sets are given up (`complete` = false).
     ///
     /// K only grows, hence at most 39 rounds. No allocation.
+    ///
+    /// Equations (7)–(11) of the paper.
+    ///
+    /// Repair S4.
     #[inline(always)]
     pub fn solve(
         &mut self,
@@ -258,6 +262,9 @@ mod tests {
         (t.change, dtau, out)
     }
 
+    /// Equations (7)–(11) of the paper.
+    ///
+    /// Repair S4.
     #[test]
     fn two_joint_example_in_three_metrics() {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
@@ -269,6 +276,7 @@ mod tests {
         assert!(near(tau[0], -1.0) && near(tau[1], 0.0) && o.set == 1);
     }
 
+    /// Equations (7)–(11) of the paper.
     #[test]
     fn sets_beyond_the_bound_and_infinite_demands_are_given_up() {
         let mut h = Box::new([[0.0; ROW]; DOF_COUNT]);

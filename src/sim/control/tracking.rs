@@ -67,6 +67,8 @@ impl Law {
     /// * `now`: error of position and desired rate at the start of the step; `next`: position error of the present
     ///   state against the desired position at the end of the step, and desired rate there. `rate`: present rate. All
     ///   in the same axes.
+    ///
+    /// Equation (4) of the paper.
     #[inline(always)]
     pub fn demand(&self, now: (f64, f64), next: (f64, f64), rate: f64) -> f64 {
         let dt = self.dt;
@@ -241,6 +243,7 @@ mod tests {
         }
     }
 
+    /// Equation (4) of the paper.
     #[test]
     fn error_shrinks_by_one_minus_alpha_per_step_at_every_step_size() {
         let body = mannequin();
@@ -286,6 +289,7 @@ mod tests {
         }
     }
 
+    /// Repair S3.
     #[test]
     fn horizon_is_critically_damped_and_feeds_the_desired_acceleration_forward() {
         let body = mannequin();
@@ -304,6 +308,7 @@ mod tests {
         assert!(qdd.iter().all(|a| a.abs() < 1e-9));
     }
 
+    /// Equation (4) of the paper.
     #[test]
     fn desired_rates_are_seen_in_present_axes() {
         // Present joint turned by 90° about x against the desired one: a desired rate about the desired child's y is
@@ -318,6 +323,7 @@ mod tests {
         assert!(rate[0].abs() < 1e-12 && (rate[2] - 1.0).abs() < 1e-12);
     }
 
+    /// Equation (4) of the paper.
     #[test]
     fn next_angles_stay_inside_the_limits() {
         let body = mannequin();

@@ -67,6 +67,8 @@ impl<L: Lane> Default for RneaWorkspace<L> {
 ///   joint torques.
 ///
 /// O(n), no allocation.
+///
+/// Equation (6) of the paper.
 #[inline(always)]
 pub fn rnea<L: Lane>(
     links: &Links<L>,

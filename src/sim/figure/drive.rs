@@ -191,6 +191,8 @@ impl QueuedClip {
 
 impl Drive {
     /// Desired motion at the start and the end of a tick from `t` to `t + dt`, s.
+    ///
+    /// Section 3.2 of the paper.
     pub fn targets(&self, t: f64, dt: f64) -> TargetPair {
         self.pair(t, t + dt)
     }

@@ -180,6 +180,8 @@ impl TickForces {
 }
 
 /// Moves a body by torques; made once per figure.
+///
+/// Repair S5.
 #[derive(Clone, Debug)]
 pub struct TorqueStepper {
     /// Terms of the current substep.
@@ -457,6 +459,8 @@ impl TorqueStepper {
     /// A point with velocity Jv moves by h(Jv + ½h J̇v): limbs turn, and a foot that rolls over its toes with Jv = 0
     /// would creep by ½h²J̇v, 0.3 mm a tick. What rests is therefore held where it is, not at rest. What lands or
     /// slides moves otherwise after the substep than before, and its J̇v says nothing.
+    ///
+    /// Problem 14.3.
     fn collect_contacts(&mut self, body: &Body, h: f64) {
         self.problem.contacts.clear();
         let (t, root) = (&self.terms, self.terms.state.posture.root_position);
@@ -502,6 +506,8 @@ impl TorqueStepper {
     }
 
     /// Solves for the velocity at the end of the substep.
+    ///
+    /// Problem 14.3.
     fn solve_substep(&mut self, h: f64, state: &State, spring: Option<&Spring>) {
         let t = &self.terms;
         let mut momentum = [0.0; NV];
@@ -730,6 +736,8 @@ impl TorqueStepper {
     }
 
     /// Adds a substep to the means of the tick, and keeps the last one.
+    ///
+    /// Problem 14.3.
     fn account(&mut self, h: f64, dt: f64, last: bool, applied: &[AppliedForce]) {
         let (f, outcome) = (&mut self.forces, self.solution.outcome);
         let TorqueRange { lower, upper } = &self.problem.range;

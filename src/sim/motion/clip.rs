@@ -259,6 +259,8 @@ impl Clip {
     /// Lead-in and lead-out included; before them and after them it stands still in the first or last posture (also for
     /// a time that is no number). In between, posture, velocity and acceleration are continuous. A recording without
     /// them that starts or ends in full motion has its true velocity up to its ends, so there it stops at once.
+    ///
+    /// Section 3.2 of the paper.
     pub fn sample(&self, t: f64) -> Target {
         let last = self.knots.len() - 1;
         if t >= self.duration() + self.lead_out() {

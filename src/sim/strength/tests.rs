@@ -323,6 +323,8 @@ fn all_36_rows_are_usable_after_repair() {
 }
 
 /// The isometric torques per leg that the published table gives, derived with another program.
+///
+/// Equation (5) of the paper.
 #[test]
 fn legs_have_the_published_strength() {
     let reference = [
@@ -350,6 +352,7 @@ fn legs_have_the_published_strength() {
     }
 }
 
+/// Equation (5) of the paper.
 #[test]
 fn limits_straddle_zero_everywhere_and_are_continuous() {
     let mut seed = 7u64;
@@ -390,6 +393,7 @@ fn limits_straddle_zero_everywhere_and_are_continuous() {
     }
 }
 
+/// Equation (5) of the paper.
 #[test]
 fn faster_shortening_never_gives_more() {
     let s = Strength::for_body(&Body::adult_man());

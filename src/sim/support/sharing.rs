@@ -60,6 +60,8 @@ pub fn point_weight(p: &SupportPoint, ratio: &[f64; SEGMENT_COUNT]) -> f64 {
 impl Sharing {
     /// Balanced sharing over the points that are not `excluded` (by index). No allocation. Returns false if none is
     /// left.
+    ///
+    /// Repair S2.
     pub fn set_balanced(
         &mut self,
         points: &[SupportPoint],
@@ -130,6 +132,8 @@ impl Sharing {
     /// * `excluded`: points that carry nothing from the start (by index); those left out are added.
     /// * `total`: wrench (moment, force) to be shared, about the given world point.
     /// * Returns false if there is no point. At most [`MOST_ROUNDS`] solutions; no allocation.
+    ///
+    /// Repair S2.
     pub fn set_unilateral(
         &mut self,
         points: &[SupportPoint],
@@ -300,6 +304,7 @@ mod tests {
         [n.x, n.y, n.z, f.x, f.y, f.z]
     }
 
+    /// Repair S2.
     #[test]
     fn point_forces_add_up_to_the_total_wrench() {
         let mut rng = Rng::new(11);
@@ -331,6 +336,7 @@ mod tests {
         }
     }
 
+    /// Repair S2.
     #[test]
     fn symmetric_stance_shares_evenly_and_weight_over_one_foot_stays_there() {
         let (points, ratio) = (stance(vec3(3.0, -2.0, 0.0)), even());

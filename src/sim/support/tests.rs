@@ -15,6 +15,7 @@ fn supported(state: &State) -> (Terms, Support) {
     (t, s)
 }
 
+/// Equation (2) of the paper.
 #[test]
 fn standing_figure_has_two_supports_with_equal_ratios() {
     let (_, s) = supported(&standing(&mannequin()));
@@ -51,6 +52,7 @@ fn contacts_enter_low_and_leave_high() {
     assert_eq!(count(0.008), 0);
 }
 
+/// Equation (2) of the paper.
 #[test]
 fn main_support_is_kept_within_the_hysteresis() {
     let body = mannequin();
@@ -84,6 +86,7 @@ fn a_lifted_figure_has_no_support() {
     assert!(s.margin(Vec3::zero()).is_none());
 }
 
+/// Equation (3) of the paper.
 #[test]
 fn zmp_of_static_pose_is_below_com() {
     let (body, mut rng) = (mannequin(), Rng::new(1));
@@ -95,6 +98,7 @@ fn zmp_of_static_pose_is_below_com() {
     }
 }
 
+/// Equation (3) of the paper.
 #[test]
 fn zmp_of_a_sliding_figure_is_that_of_the_cart_table() {
     // The whole body accelerates as one: no angular momentum, so the ZMP is x − (z/g) ẍ.
@@ -177,6 +181,7 @@ fn foot_load(links: &Links, t: &Terms, a: &[f64; NV], foot: &[usize]) -> FootLoa
     }
 }
 
+/// Equation (3) of the paper.
 #[test]
 fn the_papers_foot_form_gives_the_total_wrench_zmp() {
     let (body, mut rng) = (mannequin(), Rng::new(3));
@@ -196,6 +201,7 @@ fn the_papers_foot_form_gives_the_total_wrench_zmp() {
     }
 }
 
+/// Repair S1.
 #[test]
 fn mmp_of_square_foot_is_on_the_edge_or_corner_the_zmp_left() {
     let mut foot = Polygon::default();
@@ -225,6 +231,7 @@ fn mmp_of_square_foot_is_on_the_edge_or_corner_the_zmp_left() {
     }
 }
 
+/// Repair S1.
 #[test]
 fn a_tilted_figure_pivots_on_what_touches() {
     let mut edge = Polygon::default();
@@ -267,6 +274,7 @@ fn a_corner_that_would_sink_holds_the_rotation() {
     }
 }
 
+/// Repair S1.
 #[test]
 fn a_stiff_figure_on_an_edge_turns_like_a_box() {
     // A stiff body about an edge: ω̇ = m g l sin φ / I, l sin φ the horizontal distance of the centre of mass from the

@@ -60,6 +60,8 @@ impl Pivot {
 ///
 /// Outside the polygon the pivot is its closest point (minimum-moment point). On an edge or a vertex the figure is
 /// tilted already, and it pivots on what touches, whichever side the zero-moment point is.
+///
+/// Repair S1.
 pub fn pivot(polygon: &Polygon, zmp: Vec3) -> Option<Pivot> {
     let c = polygon.closest([zmp.x, zmp.y])?;
     let point = vec3(c.point[0], c.point[1], 0.0);
@@ -110,6 +112,8 @@ pub fn unblocked_pivot(
 /// * I_p: inertia of all segments about the pivot.
 /// * `force`, `moment` (about the world origin): the ground wrench that the accelerations with the support *at rest*
 ///   would need.
+///
+/// Repair S1.
 pub fn tipping_acceleration(terms: &Terms, pivot: &Pivot, force: Vec3, moment: Vec3) -> Vec3 {
     let n = moment - pivot.point.cross(force);
     let (e, u) = (base_directions(terms, pivot), pivot.axes());

@@ -9,6 +9,8 @@ pub const LEAST_NORMAL_FORCE: f64 = 1e-3;
 ///
 /// * `force`: N, `moment`: about the world origin, N·m; both acting on the figure, world axes.
 /// * `None` if the ground does not push (`F_z` ≤ 1 mN).
+///
+/// Equation (3) of the paper.
 pub fn zmp(force: Vec3, moment: Vec3) -> Option<Vec3> {
     (force.z > LEAST_NORMAL_FORCE)
         .then(|| vec3(-moment.y / force.z, moment.x / force.z, 0.0))

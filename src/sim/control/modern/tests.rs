@@ -402,6 +402,9 @@ fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
     s
 }
 
+/// Problem 14.1.
+///
+/// Problem 14.2.
 #[test]
 fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
     let mut rng = Rng::new(77);

@@ -19,6 +19,7 @@ fn bare(mut s: Scene) -> Scene {
     s
 }
 
+/// Equation (17) of the paper.
 #[test]
 fn without_saturation_and_targets_the_output_is_the_initial_acceleration_to_the_bit() {
     let (body, mut rng) = (mannequin(), Rng::new(41));
@@ -57,6 +58,7 @@ fn standing_at_rest_holds_still_with_the_weight_on_both_feet() {
     assert!((f.z - s.terms.mass * GRAVITY).abs() < 1e-3);
 }
 
+/// Equation (17) of the paper.
 #[test]
 fn torques_are_within_limits_and_belong_to_the_accelerations() {
     let (body, mut rng) = (mannequin(), Rng::new(42));
@@ -121,6 +123,9 @@ fn rng_index(rng: &mut Rng) -> usize {
     ((rng.unit() + 1.0) * 2.0) as usize % 4
 }
 
+/// Equations (7)–(11) of the paper.
+///
+/// Repair S4.
 #[test]
 fn limits_hold_after_both_stages_for_any_scale_of_the_demand_and_every_metric() {
     let (body, mut rng) = (mannequin(), Rng::new(43));
@@ -189,6 +194,7 @@ fn limits_hold_after_both_stages_for_any_scale_of_the_demand_and_every_metric() 
     assert!(worst_rounds > 2, "{worst_rounds}");
 }
 
+/// Equations (14), (15) of the paper.
 #[test]
 fn centre_of_mass_gets_its_acceleration_when_nothing_saturates() {
     let (body, mut rng) = (mannequin(), Rng::new(44));
@@ -212,6 +218,7 @@ fn centre_of_mass_gets_its_acceleration_when_nothing_saturates() {
     }
 }
 
+/// Equations (14), (15) of the paper.
 #[test]
 fn hands_get_their_acceleration_under_nested_priority() {
     let (body, mut rng) = (mannequin(), Rng::new(45));
@@ -281,6 +288,7 @@ fn where_in_the_world_a_figure_stands_does_not_matter() {
     }
 }
 
+/// Repair S1.
 #[test]
 fn a_leaning_figure_tips_and_a_lifted_one_flies() {
     let body = mannequin();

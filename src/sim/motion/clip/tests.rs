@@ -67,6 +67,7 @@ fn check_derivatives(sample: impl Fn(f64) -> Target, t: f64) {
     );
 }
 
+/// Section 3.2 of the paper.
 #[test]
 fn sampled_rates_are_derivatives_of_the_sampled_posture() {
     let clip = clip(60.0, 2.0);
@@ -105,6 +106,7 @@ fn samples_are_met_and_the_motion_between_is_close() {
     }
 }
 
+/// Section 3.2 of the paper.
 #[test]
 fn outside_its_time_a_clip_stands_still() {
     let clip = clip(60.0, 1.0);
