@@ -569,7 +569,7 @@ pub struct ViewSpec {
 }
 
 /// One figure of a roster.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RosterEntry {
     /// Index in frames.
     pub index: i32,
@@ -667,6 +667,8 @@ pub enum EventKind {
     LoadDropped(SegmentId, f64),
     /// A load slipped from the hand: segment, kg.
     LoadSlipped(SegmentId, f64),
+    /// A push was accepted: segment, N·s.
+    Pushed(SegmentId, f64),
     /// A segment began to touch a figure or an obstacle: name and, of a figure, its segment.
     Touched(SegmentId, String, Option<SegmentId>),
     /// A segment no longer touches it.

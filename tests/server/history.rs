@@ -48,6 +48,32 @@ impl TestServer {
         (held.oldest_tick, held.newest_tick)
     }
 
+    /// Frames of the past, and the rosters that came with them.
+    async fn past(
+        &self,
+        world: &str,
+        (first_tick, last_tick): (Option<i64>, Option<i64>),
+        rate_divisor: i32,
+    ) -> Result<(Vec<pb::WorldFrame>, Vec<pb::Roster>), Status> {
+        let request = pb::ReadHistoryRequest {
+            name: world.into(),
+            view: Some(pb::View {
+                rate_divisor,
+                ..view(&["root_pose", "torque"])
+            }),
+            first_tick,
+            last_tick,
+        };
+        let mut history = self.client.history();
+        let mut parts = history.read_history(request).await?.into_inner();
+        let (mut frames, mut rosters) = (Vec::new(), Vec::new());
+        while let Some(part) = parts.message().await? {
+            frames.extend(part.frames);
+            rosters.extend(part.roster);
+        }
+        Ok((frames, rosters))
+    }
+
     async fn export(
         &self,
         recording: &str,
@@ -147,6 +173,108 @@ async fn a_world_is_done_again_and_goes_back_to_any_tick_of_its_past() {
     assert_eq!(back.tick, 5);
     let shown = server.frame(&world, &["root_pose"]).await;
     assert_eq!(shown.state_hash, hashes[5]);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn frames_of_the_past_are_those_that_were_and_the_world_is_not_changed() {
+    let server = TestServer::start().await;
+    let (world, hashes, _driver) = driven(&server).await;
+    let before = server.frame(&world, &["root_pose", "torque"]).await;
+    let (frames, rosters) = server.past(&world, (Some(23), Some(41)), 0).await.unwrap();
+    let seen: Vec<_> = frames.iter().map(|f| (f.tick, f.state_hash)).collect();
+    let were: Vec<_> = (23..=41).map(|t| (t, hashes[t as usize])).collect();
+    assert_eq!(seen, were);
+    let [roster] = &rosters[..] else {
+        panic!("one roster: {rosters:?}");
+    };
+    let names: Vec<_> = roster.figures.iter().map(|f| &*f.figure_id).collect();
+    assert_eq!(names, ["a", "b"]);
+    assert!(
+        frames
+            .iter()
+            .all(|f| f.figures.len() == 2 && f.roster_version == roster.version)
+    );
+    // All that is held, every tenth tick; the last frame is the present one.
+    let (frames, _) = server.past(&world, (None, None), 10).await.unwrap();
+    let ticks: Vec<_> = frames.iter().map(|f| f.tick).collect();
+    assert_eq!(ticks, [0, 10, 20, 30, 40, 50, 60]);
+    assert_eq!(frames[6].figures, before.figures);
+    let after = server.frame(&world, &["root_pose", "torque"]).await;
+    assert_eq!(after, before, "the world is not changed");
+    // A figure that is gone is in the past as long as that is held.
+    let request = pb::DeleteFigureRequest {
+        name: format!("{world}/figures/a"),
+        ..Default::default()
+    };
+    server
+        .client
+        .figures()
+        .delete_figure(request)
+        .await
+        .unwrap();
+    server.step(&world, 5).await;
+    let (frames, rosters) = server.past(&world, (Some(58), None), 0).await.unwrap();
+    let figures: Vec<_> = frames.iter().map(|f| f.figures.len()).collect();
+    assert_eq!(figures, [2, 2, 2, 1, 1, 1, 1, 1]);
+    assert_eq!(rosters.len(), 2);
+    assert_eq!(rosters[1].figures[0].figure_id, "b");
+    // What is not held, and what makes no sense, is refused.
+    for (span, code, reason) in [
+        ((Some(3), Some(70)), Code::OutOfRange, "RESUME_EXPIRED"),
+        ((Some(9), Some(8)), Code::InvalidArgument, "INVALID_FIELD"),
+        ((Some(-1), None), Code::InvalidArgument, "INVALID_FIELD"),
+    ] {
+        let refused = server.past(&world, span, 0).await.unwrap_err();
+        let (found, why, _) = refusal(&refused);
+        assert_eq!((found, why.as_str()), (code, reason), "{span:?}");
+    }
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_happened_in_the_past_is_told_with_it_until_the_world_goes_back() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    server
+        .play(&format!("{world}/figures/a"), "clips/walk", true)
+        .await;
+    server.step(&world, 10).await;
+    server.push_it(&world, "a", 40.0).await;
+    server.step(&world, 10).await;
+    let told = async || {
+        let request = pb::GetHistoryRequest {
+            name: world.clone(),
+        };
+        let held = server.client.history().get_history(request).await.unwrap();
+        let events = held.into_inner().events;
+        let named = events.into_iter().map(|e| (e.r#type(), e));
+        named.collect::<Vec<_>>()
+    };
+    let events = told().await;
+    let (_, push) = events
+        .iter()
+        .find(|(kind, _)| *kind == pb::EventType::Pushed)
+        .expect("the push is told");
+    assert_eq!((push.tick, push.figure_id.as_str()), (10, "a"));
+    // 40 N for 0.2 s.
+    assert!((push.impulse_newton_seconds - 8.0).abs() < 1e-9);
+    assert!(!push.segment.is_empty());
+    assert!(
+        events
+            .iter()
+            .any(|(kind, e)| { *kind == pb::EventType::ClipBegan && e.detail == "clips/walk" })
+    );
+    let ticks: Vec<_> = events.iter().map(|(_, e)| e.tick).collect();
+    assert!(ticks.is_sorted(), "{ticks:?}");
+    let often = [pb::EventType::SupportGained, pb::EventType::Saturated];
+    assert!(events.iter().all(|(kind, _)| !often.contains(kind)));
+    server.seek(&world, 5).await.unwrap();
+    let events = told().await;
+    assert!(events.iter().all(|(_, e)| e.tick <= 5), "{events:?}");
+    let last = events.last().map(|(kind, _)| *kind);
+    assert_eq!(last, Some(pb::EventType::WorldRestored));
     server.stop().await;
 }
 

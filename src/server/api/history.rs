@@ -1,6 +1,8 @@
 //! `HistoryService`.
 
-use super::{Api, answer, caller, client, origin};
+use super::past_frames::{self, Part};
+use super::{Api, answer, caller, client, long, origin, refusal};
+use crate::server::progress::Progress;
 use crate::server::shares::Client;
 use crate::server::tick::journal::{Journal, Segment};
 use crate::server::tick::replay::{Replay, ReplayError};
@@ -8,7 +10,7 @@ use crate::server::tick::scene::Scene;
 use crate::server::tick::shard::Origin as Past;
 use crate::server::workers::Turn;
 use crate::server::worlds::WorldHandle;
-use crate::wire::convert::{not_negative, world};
+use crate::wire::convert::{not_negative, state, world};
 use crate::wire::pb;
 use crate::wire::pb::history_service_server::HistoryService;
 use crate::wire::status::Fault;
@@ -22,6 +24,22 @@ pub(super) fn journal(handle: &WorldHandle) -> Result<Arc<Journal>, Fault> {
         oldest: -1,
         newest: -1,
     })
+}
+
+/// The first tick of a request and the last; what is held, where it does not say.
+fn span(journal: &Journal, first: Option<i64>, last: Option<i64>) -> Result<(u64, u64), Fault> {
+    let (oldest, newest) = journal.held().unwrap_or_default();
+    let tick = |field, tick: Option<i64>, default| match tick {
+        Some(tick) => not_negative(field, tick),
+        None => Ok(default),
+    };
+    let first = tick("first_tick", first, oldest)?;
+    let last = tick("last_tick", last, newest)?;
+    if first > last {
+        let why = format!("must be at most last_tick ({last}), got {first}");
+        return Err(Fault::invalid("first_tick", why));
+    }
+    Ok((first, last))
 }
 
 /// The scene at the end of this part of the past, or after tick `until` of it.
@@ -61,13 +79,58 @@ impl HistoryService for Api {
         let get = || {
             let handle = self.world(&request, "name", &request.get_ref().name)?;
             let held = handle.journal.as_ref().and_then(|j| j.held());
-            let (oldest, newest) = held.map_or((-1, -1), |(a, b)| (a as i64, b as i64));
+            let Some((oldest, newest)) = held else {
+                return Ok(pb::GetHistoryResponse {
+                    oldest_tick: -1,
+                    newest_tick: -1,
+                    events: Vec::new(),
+                });
+            };
+            let marks = handle.history().marks(oldest, newest);
             Ok(pb::GetHistoryResponse {
-                oldest_tick: oldest,
-                newest_tick: newest,
+                oldest_tick: oldest as i64,
+                newest_tick: newest as i64,
+                events: marks.iter().map(state::event_out).collect(),
             })
         };
         answer(get())
+    }
+
+    type ReadHistoryStream = long::Messages<pb::ReadHistoryResponse>;
+
+    async fn read_history(
+        &self,
+        request: Request<pb::ReadHistoryRequest>,
+    ) -> Result<Response<Self::ReadHistoryStream>, Status> {
+        let start = || {
+            let (client, caller) = (client(&request), caller(&request)?.clone());
+            let r = request.get_ref();
+            let handle = self.world(&request, "name", &r.name)?;
+            let view = state::view(r.view.as_ref())?;
+            let journal = journal(&handle)?;
+            let ticks = span(&journal, r.first_tick, r.last_tick)?;
+            let part = Part {
+                world: handle.id.clone(),
+                past: journal.past(ticks.0, ticks.1)?,
+                ticks,
+                view,
+            };
+            let progress = Progress::default();
+            let told = progress.watch();
+            let pool = self.simulations.clone();
+            let work = |out| async move {
+                let read = move |turn: &Turn| past_frames::read(&part, out, &progress, turn);
+                pool.run(&client, read).await
+            };
+            Ok(long::Stream {
+                caller,
+                told,
+                progress: None::<fn(f64) -> pb::ReadHistoryResponse>,
+                last: |rest| rest,
+            }
+            .run_with(work, self.stopping.clone()))
+        };
+        start().map(Response::new).map_err(refusal)
     }
 
     async fn seek_world(
@@ -84,7 +147,7 @@ impl HistoryService for Api {
                 .call(origin, move |s| {
                     let info = s.restore(scene, Past::OwnPast)?;
                     // What viewers could resume with is of another time.
-                    cleared.history().clear();
+                    cleared.history().go_back(tick);
                     Ok(info)
                 })
                 .await?;
@@ -113,17 +176,7 @@ impl HistoryService for Api {
                 }
             };
             let journal = journal(&handle)?;
-            let (oldest, newest) = journal.held().unwrap_or_default();
-            let tick = |field, tick: Option<i64>, default| match tick {
-                Some(tick) => not_negative(field, tick),
-                None => Ok(default),
-            };
-            let first = tick("first_tick", r.first_tick, oldest)?;
-            let last = tick("last_tick", r.last_tick, newest)?;
-            if first > last {
-                let why = format!("must be at most last_tick ({last}), got {first}");
-                return Err(Fault::invalid("first_tick", why));
-            }
+            let (first, last) = span(&journal, r.first_tick, r.last_tick)?;
             let past = journal.past(first, last)?;
             let work = move |turn: &Turn| replayed(&past, last, threads, turn);
             self.simulations.run(&client, work).await

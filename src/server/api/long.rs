@@ -2,9 +2,11 @@
 
 use super::{refusal, stopped};
 use crate::server::access::caller::Caller;
+use crate::server::workers::Turn;
 use crate::wire::status::Fault;
 use std::future::{Future, pending};
-use std::time::Duration;
+use std::time::{Duration, Instant};
+use tokio::sync::mpsc::error::TrySendError;
 use tokio::sync::{mpsc, watch};
 use tokio_stream::wrappers::ReceiverStream;
 use tonic::Status;
@@ -16,6 +18,45 @@ pub(super) type Messages<M> = ReceiverStream<Result<M, Status>>;
 const QUEUE: usize = 4;
 /// How long the last message waits for a client that does not read.
 const LAST_WORD: Duration = Duration::from_secs(30);
+/// Bytes of frames, and time, after which a message of a stream is sent.
+pub(super) const PART: (usize, Duration) = (64 * 1024, Duration::from_millis(100));
+/// How long work waits for a client that does not read before it is given up.
+const PATIENCE: Duration = Duration::from_secs(30);
+/// How often it looks whether the client has read.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// Where messages of work go.
+pub(super) type Out<M> = mpsc::Sender<Result<M, Status>>;
+
+/// Sends a message of work that has a turn, when the client has room for it.
+///
+/// # Errors
+/// The client is gone, or does not read.
+#[allow(
+    clippy::disallowed_methods,
+    reason = "a worker waits, which makes room for others meanwhile"
+)]
+pub(super) fn hand_over<M>(out: &Out<M>, message: M, turn: &Turn) -> Result<(), Fault> {
+    let mut message = Ok(message);
+    let begun = Instant::now();
+    loop {
+        message = match out.try_send(message) {
+            Ok(()) => return Ok(()),
+            Err(TrySendError::Closed(_)) => return Err(Turn::gone()),
+            Err(TrySendError::Full(message)) => message,
+        };
+        if turn.stop() {
+            return Err(Turn::gone());
+        }
+        if begun.elapsed() > PATIENCE {
+            return Err(Fault::Aborted {
+                reason: "SLOW_READER",
+                message: "frames were not read for half a minute".into(),
+            });
+        }
+        std::thread::sleep(LOOK);
+    }
+}
 
 /// A stream of long work.
 pub(super) struct Stream<P, L> {
@@ -48,7 +89,7 @@ impl<P, L> Stream<P, L> {
     /// Does work that sends messages of its own.
     pub(super) fn run_with<M, T, W>(
         mut self,
-        work: impl FnOnce(mpsc::Sender<Result<M, Status>>) -> W,
+        work: impl FnOnce(Out<M>) -> W,
         mut stopping: watch::Receiver<bool>,
     ) -> Messages<M>
     where

@@ -12,6 +12,7 @@ mod info;
 mod long;
 mod obstacles;
 mod operations;
+mod past_frames;
 mod permit;
 mod perturbations;
 mod recordings;

@@ -14,18 +14,10 @@ use crate::wire::pb::{self, simulation_service_server::SimulationService};
 use crate::wire::status::Fault;
 use prost::Message as _;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
-use tokio::sync::mpsc::{self, error::TrySendError};
+use std::time::Instant;
 use tonic::{Request, Response, Status};
 
-/// Bytes of frames, and time, after which a message of a stream is sent.
-const PART: (usize, Duration) = (64 * 1024, Duration::from_millis(100));
-/// How long a simulation waits for a client that does not read before it is given up.
-const PATIENCE: Duration = Duration::from_secs(30);
-/// How often it looks whether the client has read.
-const LOOK: Duration = Duration::from_millis(5);
-
-type Out = mpsc::Sender<Result<pb::StreamSimulateClipResponse, Status>>;
+type Out = long::Out<pb::StreamSimulateClipResponse>;
 
 /// Simulates a clip. Frames go into the response, or to `out`.
 pub(super) async fn simulate(
@@ -100,37 +92,16 @@ impl<'a> Parts<'a> {
     }
 
     /// Sends what there is, when the client has room for it.
-    #[allow(
-        clippy::disallowed_methods,
-        reason = "a worker waits, which makes room for others meanwhile"
-    )]
     fn send(&mut self, share: f64) -> Result<(), Fault> {
         use pb::stream_simulate_clip_response::Message;
-        let mut message = Ok(pb::StreamSimulateClipResponse {
+        let message = pb::StreamSimulateClipResponse {
             message: Some(Message::Progress(pb::SimulationProgress {
                 progress: share,
                 frames: std::mem::take(&mut self.frames),
             })),
-        });
+        };
         self.bytes = 0;
-        let begun = Instant::now();
-        loop {
-            message = match self.out.try_send(message) {
-                Ok(()) => break,
-                Err(TrySendError::Closed(_)) => return Err(Turn::gone()),
-                Err(TrySendError::Full(message)) => message,
-            };
-            if self.turn.stop() {
-                return Err(Turn::gone());
-            }
-            if begun.elapsed() > PATIENCE {
-                return Err(Fault::Aborted {
-                    reason: "SLOW_READER",
-                    message: "frames were not read for half a minute".into(),
-                });
-            }
-            std::thread::sleep(LOOK);
-        }
+        long::hand_over(&self.out, message, self.turn)?;
         self.since = Instant::now();
         Ok(())
     }
@@ -142,7 +113,7 @@ impl simulate::Parts for Parts<'_> {
             self.bytes += frame.encoded_len();
             self.frames.push(frame);
         }
-        if self.bytes >= PART.0 || self.since.elapsed() >= PART.1 {
+        if self.bytes >= long::PART.0 || self.since.elapsed() >= long::PART.1 {
             self.send(share)?;
         }
         Ok(())

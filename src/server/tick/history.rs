@@ -1,15 +1,38 @@
-//! Frames of the last ticks, held for late readers.
+//! Frames of the last ticks, held for late readers, and what happened that is worth a mark on a time line.
 
 use crate::wire::status::Fault;
-use crate::wire::types::Snapshot;
+use crate::wire::types::{EventKind, Snapshot, WorldEvent};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// The last frames of one world, one per tick.
+/// Events of one world that are held.
+const MARKS: usize = 512;
+
+/// True for what people look for in the past of a world. The rest comes many times a second, or is of the connection.
+fn is_mark(e: &WorldEvent) -> bool {
+    !matches!(
+        e.kind,
+        EventKind::SupportGained(_)
+            | EventKind::SupportLost(_)
+            | EventKind::Saturated(_)
+            | EventKind::Relieved(_)
+            | EventKind::Touched(..)
+            | EventKind::Parted(..)
+            | EventKind::DriveResynced(_)
+            | EventKind::ControlAcquired(_)
+            | EventKind::ControlReleased(_)
+            | EventKind::ControlPreempted(_)
+            | EventKind::ControlOffered(_)
+            | EventKind::AccessRefused(_)
+    )
+}
+
+/// The last frames of one world, one per tick, and its last events of interest.
 #[derive(Debug)]
 pub struct History {
     held: VecDeque<Arc<Snapshot>>,
     most: usize,
+    marks: VecDeque<WorldEvent>,
 }
 
 impl History {
@@ -18,7 +41,23 @@ impl History {
         Self {
             held: VecDeque::new(),
             most,
+            marks: VecDeque::new(),
         }
+    }
+
+    /// Adds those of these events that people look for.
+    pub fn note(&mut self, events: &[WorldEvent]) {
+        let marks = events.iter().filter(|e| is_mark(e));
+        self.marks.extend(marks.cloned());
+        let more = self.marks.len().saturating_sub(MARKS);
+        self.marks.drain(..more);
+    }
+
+    /// The events of these ticks that are held.
+    pub fn marks(&self, from: u64, until: u64) -> Vec<WorldEvent> {
+        let marks = self.marks.iter();
+        let marks = marks.filter(|e| (from..=until).contains(&e.tick));
+        marks.cloned().collect()
     }
 
     /// Adds the frame of a new tick, or replaces that of the last one: the roster may change between ticks.
@@ -35,6 +74,13 @@ impl History {
     /// Forgets all: the world has another past now.
     pub fn clear(&mut self) {
         self.held.clear();
+        self.marks.clear();
+    }
+
+    /// The world goes back to a tick of its past: what came later is forgotten, and frames can no longer be resumed.
+    pub fn go_back(&mut self, tick: u64) {
+        self.held.clear();
+        self.marks.retain(|e| e.tick <= tick);
     }
 
     fn expired(&self, asked: i64) -> Fault {
@@ -70,5 +116,38 @@ impl History {
         }
         let first = self.held.partition_point(|s| s.tick as i64 <= tick);
         Ok(self.held.iter().skip(first).cloned().collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn event(tick: u64, kind: EventKind) -> WorldEvent {
+        WorldEvent {
+            tick,
+            time: tick as f64 / 60.0,
+            figure: "a".into(),
+            kind,
+        }
+    }
+
+    #[test]
+    fn the_last_events_of_interest_are_held() {
+        let mut history = History::new(8);
+        for tick in 0..2 * MARKS as u64 {
+            let kinds = [EventKind::Fell, EventKind::Saturated(3)];
+            history.note(&kinds.map(|kind| event(tick, kind)));
+        }
+        let marks = history.marks(0, u64::MAX);
+        assert_eq!(marks.len(), MARKS);
+        assert!(marks.iter().all(|e| e.kind == EventKind::Fell));
+        let first = MARKS as u64;
+        let ticks = |marks: Vec<WorldEvent>| marks.iter().map(|e| e.tick).collect::<Vec<_>>();
+        assert_eq!(ticks(history.marks(0, first + 1)), [first, first + 1]);
+        // The world goes back: what came later has not happened.
+        history.go_back(first + 2);
+        let left = ticks(history.marks(0, u64::MAX));
+        assert_eq!(left, [first, first + 1, first + 2]);
     }
 }

@@ -363,6 +363,10 @@ fn describe(shard: &mut Shard, outlet: &Outlet) {
 fn publish_events(shard: &mut Shard, outlet: &Outlet) {
     let events = shard.take_events();
     if !events.is_empty() {
+        let history = outlet.history.lock();
+        history
+            .unwrap_or_else(PoisonError::into_inner)
+            .note(&events);
         // An error only means that nobody listens.
         let _ = outlet.events.send(Arc::new(events));
     }

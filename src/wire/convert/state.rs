@@ -108,6 +108,7 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::LoadTaken(..) => pb::EventType::LoadTaken,
         EventKind::LoadDropped(..) => pb::EventType::LoadDropped,
         EventKind::LoadSlipped(..) => pb::EventType::LoadSlipped,
+        EventKind::Pushed(..) => pb::EventType::Pushed,
         EventKind::Touched(..) => pb::EventType::Touched,
         EventKind::Parted(..) => pb::EventType::Parted,
         EventKind::ObstacleAdded(_) => pb::EventType::ObstacleAdded,
@@ -158,6 +159,10 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         | EventKind::LoadSlipped(s, m) => {
             out.segment = s.name().into();
             out.mass_kg = *m;
+        }
+        EventKind::Pushed(s, impulse) => {
+            out.segment = s.name().into();
+            out.impulse_newton_seconds = *impulse;
         }
         EventKind::Touched(s, other, part) | EventKind::Parted(s, other, part) => {
             out.segment = s.name().into();

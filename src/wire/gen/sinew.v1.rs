@@ -7390,6 +7390,878 @@ impl ::prost::Name for AppliedForces {
         "/sinew.v1.AppliedForces".into()
     }
 }
+/// What of a world is sent.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct View {
+    /// Figures by the last parts of their names. Empty: all.
+    #[prost(string, repeated, tag = "1")]
+    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
+    /// `root_pose`, `joint_angles`, `torque`, `status`.
+    #[prost(message, optional, tag = "2")]
+    pub fields: ::core::option::Option<::prost_types::FieldMask>,
+    /// How numbers are written.
+    #[prost(enumeration = "Encoding", tag = "3")]
+    pub encoding: i32,
+    /// Sends one frame for every n ticks, 1…1000. 0 or absent: 1. Ignored by `GetWorldFrame`.
+    #[prost(int32, tag = "4")]
+    pub rate_divisor: i32,
+}
+impl ::prost::Name for View {
+    const NAME: &'static str = "View";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.View".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.View".into()
+    }
+}
+/// Names of the figures, by their index in the frames that follow.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Roster {
+    /// World: resource name.
+    #[prost(string, tag = "1")]
+    pub world: ::prost::alloc::string::String,
+    /// Ticks per second of world time.
+    #[prost(double, tag = "2")]
+    pub rate_hz: f64,
+    /// Version of this roster; frames carry the version they refer to.
+    #[prost(int32, tag = "3")]
+    pub version: i32,
+    /// Figures of the view.
+    #[prost(message, repeated, tag = "4")]
+    pub figures: ::prost::alloc::vec::Vec<RosterEntry>,
+}
+impl ::prost::Name for Roster {
+    const NAME: &'static str = "Roster";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Roster".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Roster".into()
+    }
+}
+/// One figure of a roster.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct RosterEntry {
+    /// Index in frames. Indices of removed figures are not used again.
+    #[prost(int32, tag = "1")]
+    pub figure_index: i32,
+    /// Last part of the figure's name.
+    #[prost(string, tag = "2")]
+    pub figure_id: ::prost::alloc::string::String,
+    /// Body: resource name.
+    #[prost(string, tag = "3")]
+    pub body: ::prost::alloc::string::String,
+}
+impl ::prost::Name for RosterEntry {
+    const NAME: &'static str = "RosterEntry";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RosterEntry".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RosterEntry".into()
+    }
+}
+/// Asks for a frame.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetWorldFrameRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub world: ::prost::alloc::string::String,
+    /// Tick wanted. Absent: the latest. OUT_OF_RANGE (`RESUME_EXPIRED`) when it is no longer held or not yet computed.
+    #[prost(int64, optional, tag = "2")]
+    pub tick: ::core::option::Option<i64>,
+    /// What is sent.
+    #[prost(message, optional, tag = "3")]
+    pub view: ::core::option::Option<View>,
+}
+impl ::prost::Name for GetWorldFrameRequest {
+    const NAME: &'static str = "GetWorldFrameRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldFrameRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldFrameRequest".into()
+    }
+}
+/// A frame.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct GetWorldFrameResponse {
+    /// Names of the figures by index.
+    #[prost(message, optional, tag = "1")]
+    pub roster: ::core::option::Option<Roster>,
+    /// The frame.
+    #[prost(message, optional, tag = "2")]
+    pub frame: ::core::option::Option<WorldFrame>,
+}
+impl ::prost::Name for GetWorldFrameResponse {
+    const NAME: &'static str = "GetWorldFrameResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetWorldFrameResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetWorldFrameResponse".into()
+    }
+}
+/// Asks for frames as they come.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct WatchWorldRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub world: ::prost::alloc::string::String,
+    /// What is sent.
+    #[prost(message, optional, tag = "2")]
+    pub view: ::core::option::Option<View>,
+    /// Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
+    /// is no longer held. Absent: from now.
+    #[prost(int64, optional, tag = "3")]
+    pub resume_tick: ::core::option::Option<i64>,
+}
+impl ::prost::Name for WatchWorldRequest {
+    const NAME: &'static str = "WatchWorldRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WatchWorldRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WatchWorldRequest".into()
+    }
+}
+/// One event.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Event {
+    /// What happened.
+    #[prost(enumeration = "EventType", tag = "1")]
+    pub r#type: i32,
+    /// Tick after which it was true.
+    #[prost(int64, tag = "2")]
+    pub tick: i64,
+    /// World time, s.
+    #[prost(double, tag = "3")]
+    pub time_s: f64,
+    /// Last part of the figure's name; empty for events of the world.
+    #[prost(string, tag = "4")]
+    pub figure_id: ::prost::alloc::string::String,
+    /// Segment name, where there is one.
+    #[prost(string, tag = "5")]
+    pub segment: ::prost::alloc::string::String,
+    /// DOF name, where there is one.
+    #[prost(string, tag = "6")]
+    pub dof: ::prost::alloc::string::String,
+    /// Mass of the load, kg, where there is one.
+    #[prost(double, tag = "7")]
+    pub mass_kg: f64,
+    /// Driver or reason, where there is one.
+    #[prost(string, tag = "8")]
+    pub detail: ::prost::alloc::string::String,
+    /// What is touched, added or removed: `figures/{figure}` or `obstacles/{obstacle}`, where there is one.
+    #[prost(string, tag = "9")]
+    pub other: ::prost::alloc::string::String,
+    /// Name of the segment of the other figure, where there is one.
+    #[prost(string, tag = "10")]
+    pub other_segment: ::prost::alloc::string::String,
+    /// Size of a push, N·s.
+    #[prost(double, tag = "11")]
+    pub impulse_newton_seconds: f64,
+}
+impl ::prost::Name for Event {
+    const NAME: &'static str = "Event";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Event".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Event".into()
+    }
+}
+/// Asks for events as they come.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct WatchEventsRequest {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub world: ::prost::alloc::string::String,
+    /// Figures by the last parts of their names. Empty: all, and events of the world.
+    #[prost(string, repeated, tag = "2")]
+    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// Types wanted. Empty: all.
+    #[prost(enumeration = "EventType", repeated, packed = "false", tag = "3")]
+    pub types: ::prost::alloc::vec::Vec<i32>,
+}
+impl ::prost::Name for WatchEventsRequest {
+    const NAME: &'static str = "WatchEventsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WatchEventsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WatchEventsRequest".into()
+    }
+}
+/// One or more events of one tick.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct WatchEventsResponse {
+    /// The events; empty in the first message, which says that the watch has begun.
+    #[prost(message, repeated, tag = "1")]
+    pub events: ::prost::alloc::vec::Vec<Event>,
+    /// Messages that this viewer was too slow for, so far.
+    #[prost(int64, tag = "2")]
+    pub missed_count: i64,
+}
+impl ::prost::Name for WatchEventsResponse {
+    const NAME: &'static str = "WatchEventsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.WatchEventsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.WatchEventsResponse".into()
+    }
+}
+/// What happened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum EventType {
+    /// Never sent.
+    Unspecified = 0,
+    /// A segment began to support the figure.
+    SupportGained = 1,
+    /// A segment no longer supports the figure.
+    SupportLost = 2,
+    /// A DOF reached the limit of its strength.
+    Saturated = 3,
+    /// A DOF is no longer at its limit.
+    Relieved = 4,
+    /// Balance was lost.
+    BalanceLost = 5,
+    /// Balance was found again.
+    Recovered = 6,
+    /// The figure fell.
+    Fell = 7,
+    /// A load was taken.
+    LoadTaken = 8,
+    /// A load was dropped.
+    LoadDropped = 9,
+    /// A load slipped from a hand: the force exceeded its grip.
+    LoadSlipped = 30,
+    /// The figure was pushed: an impulse was applied to the segment.
+    Pushed = 46,
+    /// The figure's state became unusable; it is frozen at its last good one.
+    Quarantined = 10,
+    /// A figure was added.
+    FigureAdded = 11,
+    /// A figure was removed.
+    FigureRemoved = 12,
+    /// A driver took a figure.
+    DriveBegan = 13,
+    /// A driver gave a figure back or lost it.
+    DriveEnded = 14,
+    /// A clip began to play: the detail is its name, `clips/{clip}`.
+    ClipBegan = 19,
+    /// A clip is over, or was ended: the detail is its name, `clips/{clip}`.
+    ClipEnded = 20,
+    /// The stream of a driver began anew; the detail says why.
+    DriveResynced = 35,
+    /// The world was paused.
+    WorldPaused = 15,
+    /// The world was resumed.
+    WorldResumed = 16,
+    /// The world failed.
+    WorldFailed = 17,
+    /// The world was deleted, and this is its last event; the detail says by whom or why.
+    WorldDeleted = 21,
+    /// The figure stands again after a fall.
+    GotUp = 18,
+    /// The world was put into the state of a checkpoint; `detail` is its tick.
+    WorldRestored = 45,
+    /// A segment began to touch another figure or an obstacle.
+    Touched = 31,
+    /// A segment no longer touches it.
+    Parted = 32,
+    /// An obstacle was added.
+    ObstacleAdded = 33,
+    /// An obstacle was removed.
+    ObstacleRemoved = 34,
+    /// A lease of the figure began, or went to another holder; the detail names the holder.
+    ControlAcquired = 40,
+    /// A lease of the figure ended; the detail names the holder and says why.
+    ControlReleased = 41,
+    /// A lease was taken by someone of higher priority; the detail names both.
+    ControlPreempted = 42,
+    /// The holder of a lease offered it to someone; the detail names both.
+    ControlOffered = 43,
+    /// Someone was refused what only the holder of the lease, or a higher role, may do; the detail names him. At most one
+    /// a second of each world.
+    AccessRefused = 44,
+}
+impl EventType {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "EVENT_TYPE_UNSPECIFIED",
+            Self::SupportGained => "EVENT_TYPE_SUPPORT_GAINED",
+            Self::SupportLost => "EVENT_TYPE_SUPPORT_LOST",
+            Self::Saturated => "EVENT_TYPE_SATURATED",
+            Self::Relieved => "EVENT_TYPE_RELIEVED",
+            Self::BalanceLost => "EVENT_TYPE_BALANCE_LOST",
+            Self::Recovered => "EVENT_TYPE_RECOVERED",
+            Self::Fell => "EVENT_TYPE_FELL",
+            Self::LoadTaken => "EVENT_TYPE_LOAD_TAKEN",
+            Self::LoadDropped => "EVENT_TYPE_LOAD_DROPPED",
+            Self::LoadSlipped => "EVENT_TYPE_LOAD_SLIPPED",
+            Self::Pushed => "EVENT_TYPE_PUSHED",
+            Self::Quarantined => "EVENT_TYPE_QUARANTINED",
+            Self::FigureAdded => "EVENT_TYPE_FIGURE_ADDED",
+            Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
+            Self::DriveBegan => "EVENT_TYPE_DRIVE_BEGAN",
+            Self::DriveEnded => "EVENT_TYPE_DRIVE_ENDED",
+            Self::ClipBegan => "EVENT_TYPE_CLIP_BEGAN",
+            Self::ClipEnded => "EVENT_TYPE_CLIP_ENDED",
+            Self::DriveResynced => "EVENT_TYPE_DRIVE_RESYNCED",
+            Self::WorldPaused => "EVENT_TYPE_WORLD_PAUSED",
+            Self::WorldResumed => "EVENT_TYPE_WORLD_RESUMED",
+            Self::WorldFailed => "EVENT_TYPE_WORLD_FAILED",
+            Self::WorldDeleted => "EVENT_TYPE_WORLD_DELETED",
+            Self::GotUp => "EVENT_TYPE_GOT_UP",
+            Self::WorldRestored => "EVENT_TYPE_WORLD_RESTORED",
+            Self::Touched => "EVENT_TYPE_TOUCHED",
+            Self::Parted => "EVENT_TYPE_PARTED",
+            Self::ObstacleAdded => "EVENT_TYPE_OBSTACLE_ADDED",
+            Self::ObstacleRemoved => "EVENT_TYPE_OBSTACLE_REMOVED",
+            Self::ControlAcquired => "EVENT_TYPE_CONTROL_ACQUIRED",
+            Self::ControlReleased => "EVENT_TYPE_CONTROL_RELEASED",
+            Self::ControlPreempted => "EVENT_TYPE_CONTROL_PREEMPTED",
+            Self::ControlOffered => "EVENT_TYPE_CONTROL_OFFERED",
+            Self::AccessRefused => "EVENT_TYPE_ACCESS_REFUSED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "EVENT_TYPE_UNSPECIFIED" => Some(Self::Unspecified),
+            "EVENT_TYPE_SUPPORT_GAINED" => Some(Self::SupportGained),
+            "EVENT_TYPE_SUPPORT_LOST" => Some(Self::SupportLost),
+            "EVENT_TYPE_SATURATED" => Some(Self::Saturated),
+            "EVENT_TYPE_RELIEVED" => Some(Self::Relieved),
+            "EVENT_TYPE_BALANCE_LOST" => Some(Self::BalanceLost),
+            "EVENT_TYPE_RECOVERED" => Some(Self::Recovered),
+            "EVENT_TYPE_FELL" => Some(Self::Fell),
+            "EVENT_TYPE_LOAD_TAKEN" => Some(Self::LoadTaken),
+            "EVENT_TYPE_LOAD_DROPPED" => Some(Self::LoadDropped),
+            "EVENT_TYPE_LOAD_SLIPPED" => Some(Self::LoadSlipped),
+            "EVENT_TYPE_PUSHED" => Some(Self::Pushed),
+            "EVENT_TYPE_QUARANTINED" => Some(Self::Quarantined),
+            "EVENT_TYPE_FIGURE_ADDED" => Some(Self::FigureAdded),
+            "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),
+            "EVENT_TYPE_DRIVE_BEGAN" => Some(Self::DriveBegan),
+            "EVENT_TYPE_DRIVE_ENDED" => Some(Self::DriveEnded),
+            "EVENT_TYPE_CLIP_BEGAN" => Some(Self::ClipBegan),
+            "EVENT_TYPE_CLIP_ENDED" => Some(Self::ClipEnded),
+            "EVENT_TYPE_DRIVE_RESYNCED" => Some(Self::DriveResynced),
+            "EVENT_TYPE_WORLD_PAUSED" => Some(Self::WorldPaused),
+            "EVENT_TYPE_WORLD_RESUMED" => Some(Self::WorldResumed),
+            "EVENT_TYPE_WORLD_FAILED" => Some(Self::WorldFailed),
+            "EVENT_TYPE_WORLD_DELETED" => Some(Self::WorldDeleted),
+            "EVENT_TYPE_GOT_UP" => Some(Self::GotUp),
+            "EVENT_TYPE_WORLD_RESTORED" => Some(Self::WorldRestored),
+            "EVENT_TYPE_TOUCHED" => Some(Self::Touched),
+            "EVENT_TYPE_PARTED" => Some(Self::Parted),
+            "EVENT_TYPE_OBSTACLE_ADDED" => Some(Self::ObstacleAdded),
+            "EVENT_TYPE_OBSTACLE_REMOVED" => Some(Self::ObstacleRemoved),
+            "EVENT_TYPE_CONTROL_ACQUIRED" => Some(Self::ControlAcquired),
+            "EVENT_TYPE_CONTROL_RELEASED" => Some(Self::ControlReleased),
+            "EVENT_TYPE_CONTROL_PREEMPTED" => Some(Self::ControlPreempted),
+            "EVENT_TYPE_CONTROL_OFFERED" => Some(Self::ControlOffered),
+            "EVENT_TYPE_ACCESS_REFUSED" => Some(Self::AccessRefused),
+            _ => None,
+        }
+    }
+}
+/// Generated client implementations.
+pub mod state_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// What worlds do: frames and events.
+    #[derive(Debug, Clone)]
+    pub struct StateServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl StateServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> StateServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> StateServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            StateServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// One frame: the latest, or one that is still held.
+        pub async fn get_world_frame(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetWorldFrameRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetWorldFrameResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.StateService/GetWorldFrame",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.StateService", "GetWorldFrame"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Frames as they come. The first message is a roster; another follows whenever the figures of the view change. A slow
+        /// viewer gets the latest frame, never a backlog; what it missed is counted.
+        pub async fn watch_world(
+            &mut self,
+            request: impl tonic::IntoRequest<super::WatchWorldRequest>,
+        ) -> std::result::Result<
+            tonic::Response<
+                tonic::codec::Streaming<crate::wire::watched::WatchWorldResponse>,
+            >,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.StateService/WatchWorld",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.StateService", "WatchWorld"));
+            self.inner.server_streaming(req, path, codec).await
+        }
+        /// Events as they come.
+        pub async fn watch_events(
+            &mut self,
+            request: impl tonic::IntoRequest<super::WatchEventsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<tonic::codec::Streaming<super::WatchEventsResponse>>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.StateService/WatchEvents",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.StateService", "WatchEvents"));
+            self.inner.server_streaming(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod state_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with StateServiceServer.
+    #[async_trait]
+    pub trait StateService: std::marker::Send + std::marker::Sync + 'static {
+        /// One frame: the latest, or one that is still held.
+        async fn get_world_frame(
+            &self,
+            request: tonic::Request<super::GetWorldFrameRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetWorldFrameResponse>,
+            tonic::Status,
+        >;
+        /// Server streaming response type for the WatchWorld method.
+        type WatchWorldStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<
+                    crate::wire::watched::WatchWorldResponse,
+                    tonic::Status,
+                >,
+            >
+            + std::marker::Send
+            + 'static;
+        /// Frames as they come. The first message is a roster; another follows whenever the figures of the view change. A slow
+        /// viewer gets the latest frame, never a backlog; what it missed is counted.
+        async fn watch_world(
+            &self,
+            request: tonic::Request<super::WatchWorldRequest>,
+        ) -> std::result::Result<tonic::Response<Self::WatchWorldStream>, tonic::Status>;
+        /// Server streaming response type for the WatchEvents method.
+        type WatchEventsStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<super::WatchEventsResponse, tonic::Status>,
+            >
+            + std::marker::Send
+            + 'static;
+        /// Events as they come.
+        async fn watch_events(
+            &self,
+            request: tonic::Request<super::WatchEventsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<Self::WatchEventsStream>,
+            tonic::Status,
+        >;
+    }
+    /// What worlds do: frames and events.
+    #[derive(Debug)]
+    pub struct StateServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> StateServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for StateServiceServer<T>
+    where
+        T: StateService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.StateService/GetWorldFrame" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetWorldFrameSvc<T: StateService>(pub Arc<T>);
+                    impl<
+                        T: StateService,
+                    > tonic::server::UnaryService<super::GetWorldFrameRequest>
+                    for GetWorldFrameSvc<T> {
+                        type Response = super::GetWorldFrameResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetWorldFrameRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as StateService>::get_world_frame(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetWorldFrameSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.StateService/WatchWorld" => {
+                    #[allow(non_camel_case_types)]
+                    struct WatchWorldSvc<T: StateService>(pub Arc<T>);
+                    impl<
+                        T: StateService,
+                    > tonic::server::ServerStreamingService<super::WatchWorldRequest>
+                    for WatchWorldSvc<T> {
+                        type Response = crate::wire::watched::WatchWorldResponse;
+                        type ResponseStream = T::WatchWorldStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::WatchWorldRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as StateService>::watch_world(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = WatchWorldSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.server_streaming(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.StateService/WatchEvents" => {
+                    #[allow(non_camel_case_types)]
+                    struct WatchEventsSvc<T: StateService>(pub Arc<T>);
+                    impl<
+                        T: StateService,
+                    > tonic::server::ServerStreamingService<super::WatchEventsRequest>
+                    for WatchEventsSvc<T> {
+                        type Response = super::WatchEventsResponse;
+                        type ResponseStream = T::WatchEventsStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::WatchEventsRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as StateService>::watch_events(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = WatchEventsSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.server_streaming(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for StateServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.StateService";
+    impl<T> tonic::server::NamedService for StateServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
 /// Asks what is held.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetHistoryRequest {
@@ -7408,7 +8280,7 @@ impl ::prost::Name for GetHistoryRequest {
     }
 }
 /// What is held.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+#[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetHistoryResponse {
     /// The first tick whose state can be made; −1: none.
     #[prost(int64, tag = "1")]
@@ -7416,6 +8288,11 @@ pub struct GetHistoryResponse {
     /// The last one; −1: none.
     #[prost(int64, tag = "2")]
     pub newest_tick: i64,
+    /// What happened between them and is worth a mark on a time line, from the oldest on, at most the last 512: balance
+    /// lost and found, falls, pushes, loads, clips, drives, figures and obstacles that came and went, pauses. None from
+    /// before the server started.
+    #[prost(message, repeated, tag = "3")]
+    pub events: ::prost::alloc::vec::Vec<Event>,
 }
 impl ::prost::Name for GetHistoryResponse {
     const NAME: &'static str = "GetHistoryResponse";
@@ -7425,6 +8302,53 @@ impl ::prost::Name for GetHistoryResponse {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/sinew.v1.GetHistoryResponse".into()
+    }
+}
+/// Asks for frames of the past.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ReadHistoryRequest {
+    /// Resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// What is sent. Figures that it names and that were not there are left out.
+    #[prost(message, optional, tag = "2")]
+    pub view: ::core::option::Option<View>,
+    /// Tick to begin with. Absent: the oldest that is held.
+    #[prost(int64, optional, tag = "3")]
+    pub first_tick: ::core::option::Option<i64>,
+    /// Tick to end with. Absent: the newest.
+    #[prost(int64, optional, tag = "4")]
+    pub last_tick: ::core::option::Option<i64>,
+}
+impl ::prost::Name for ReadHistoryRequest {
+    const NAME: &'static str = "ReadHistoryRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ReadHistoryRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ReadHistoryRequest".into()
+    }
+}
+/// Some frames of the past.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ReadHistoryResponse {
+    /// Names of the figures by index, for these frames and those that follow; in the first message with frames, and
+    /// whenever figures came or went.
+    #[prost(message, optional, tag = "1")]
+    pub roster: ::core::option::Option<Roster>,
+    /// Frames. The last message may have none.
+    #[prost(message, repeated, tag = "2")]
+    pub frames: ::prost::alloc::vec::Vec<WorldFrame>,
+}
+impl ::prost::Name for ReadHistoryResponse {
+    const NAME: &'static str = "ReadHistoryResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ReadHistoryResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ReadHistoryResponse".into()
     }
 }
 /// Puts a world back.
@@ -7557,7 +8481,8 @@ pub mod history_service_client {
     )]
     use tonic::codegen::*;
     use tonic::codegen::http::Uri;
-    /// The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    /// The last minutes of a world: shows them, goes back to one of their ticks, does them again. `ForkWorld` makes a new
+    /// world of one.
     /// How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
     /// OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
     #[derive(Debug, Clone)]
@@ -7640,7 +8565,7 @@ pub mod history_service_client {
             self.inner = self.inner.max_encoding_message_size(limit);
             self
         }
-        /// What is held of the past of a world.
+        /// What is held of the past of a world, and what happened in it.
         pub async fn get_history(
             &mut self,
             request: impl tonic::IntoRequest<super::GetHistoryRequest>,
@@ -7664,6 +8589,33 @@ pub mod history_service_client {
             req.extensions_mut()
                 .insert(GrpcMethod::new("sinew.v1.HistoryService", "GetHistory"));
             self.inner.unary(req, path, codec).await
+        }
+        /// Frames of a part of the past, which is simulated again beside the world. The world goes on and is not changed.
+        /// Frames come in the order of their ticks; they have neither `epoch` nor `server_time_ns`. Ending the call gives the
+        /// work up. DATA_LOSS (`REPLAY_DIFFERS`) if a state is not the one that was recorded.
+        pub async fn read_history(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ReadHistoryRequest>,
+        ) -> std::result::Result<
+            tonic::Response<tonic::codec::Streaming<super::ReadHistoryResponse>>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.HistoryService/ReadHistory",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.HistoryService", "ReadHistory"));
+            self.inner.server_streaming(req, path, codec).await
         }
         /// Puts a world back into the state that it had after a tick of its past, before anything changed it there. What came
         /// later is no longer its past; fork the world first to keep it. Viewers get a full frame of the next epoch and the
@@ -7734,12 +8686,28 @@ pub mod history_service_server {
     /// Generated trait containing gRPC methods that should be implemented for use with HistoryServiceServer.
     #[async_trait]
     pub trait HistoryService: std::marker::Send + std::marker::Sync + 'static {
-        /// What is held of the past of a world.
+        /// What is held of the past of a world, and what happened in it.
         async fn get_history(
             &self,
             request: tonic::Request<super::GetHistoryRequest>,
         ) -> std::result::Result<
             tonic::Response<super::GetHistoryResponse>,
+            tonic::Status,
+        >;
+        /// Server streaming response type for the ReadHistory method.
+        type ReadHistoryStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<super::ReadHistoryResponse, tonic::Status>,
+            >
+            + std::marker::Send
+            + 'static;
+        /// Frames of a part of the past, which is simulated again beside the world. The world goes on and is not changed.
+        /// Frames come in the order of their ticks; they have neither `epoch` nor `server_time_ns`. Ending the call gives the
+        /// work up. DATA_LOSS (`REPLAY_DIFFERS`) if a state is not the one that was recorded.
+        async fn read_history(
+            &self,
+            request: tonic::Request<super::ReadHistoryRequest>,
+        ) -> std::result::Result<
+            tonic::Response<Self::ReadHistoryStream>,
             tonic::Status,
         >;
         /// Puts a world back into the state that it had after a tick of its past, before anything changed it there. What came
@@ -7763,7 +8731,8 @@ pub mod history_service_server {
             tonic::Status,
         >;
     }
-    /// The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    /// The last minutes of a world: shows them, goes back to one of their ticks, does them again. `ForkWorld` makes a new
+    /// world of one.
     /// How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
     /// OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
     #[derive(Debug)]
@@ -7883,6 +8852,52 @@ pub mod history_service_server {
                                 max_encoding_message_size,
                             );
                         let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.HistoryService/ReadHistory" => {
+                    #[allow(non_camel_case_types)]
+                    struct ReadHistorySvc<T: HistoryService>(pub Arc<T>);
+                    impl<
+                        T: HistoryService,
+                    > tonic::server::ServerStreamingService<super::ReadHistoryRequest>
+                    for ReadHistorySvc<T> {
+                        type Response = super::ReadHistoryResponse;
+                        type ResponseStream = T::ReadHistoryStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ReadHistoryRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as HistoryService>::read_history(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ReadHistorySvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.server_streaming(method, req).await;
                         Ok(res)
                     };
                     Box::pin(fut)
@@ -11577,871 +12592,6 @@ pub mod perturbation_service_server {
     /// Generated gRPC service name
     pub const SERVICE_NAME: &str = "sinew.v1.PerturbationService";
     impl<T> tonic::server::NamedService for PerturbationServiceServer<T> {
-        const NAME: &'static str = SERVICE_NAME;
-    }
-}
-/// What of a world is sent.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct View {
-    /// Figures by the last parts of their names. Empty: all.
-    #[prost(string, repeated, tag = "1")]
-    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-    /// Fields of `FigureFrame`, for example `root_pose`, `joint_angles`, `torque`, or `*` for all. Absent or empty:
-    /// `root_pose`, `joint_angles`, `torque`, `status`.
-    #[prost(message, optional, tag = "2")]
-    pub fields: ::core::option::Option<::prost_types::FieldMask>,
-    /// How numbers are written.
-    #[prost(enumeration = "Encoding", tag = "3")]
-    pub encoding: i32,
-    /// Sends one frame for every n ticks, 1…1000. 0 or absent: 1. Ignored by `GetWorldFrame`.
-    #[prost(int32, tag = "4")]
-    pub rate_divisor: i32,
-}
-impl ::prost::Name for View {
-    const NAME: &'static str = "View";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.View".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.View".into()
-    }
-}
-/// Names of the figures, by their index in the frames that follow.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct Roster {
-    /// World: resource name.
-    #[prost(string, tag = "1")]
-    pub world: ::prost::alloc::string::String,
-    /// Ticks per second of world time.
-    #[prost(double, tag = "2")]
-    pub rate_hz: f64,
-    /// Version of this roster; frames carry the version they refer to.
-    #[prost(int32, tag = "3")]
-    pub version: i32,
-    /// Figures of the view.
-    #[prost(message, repeated, tag = "4")]
-    pub figures: ::prost::alloc::vec::Vec<RosterEntry>,
-}
-impl ::prost::Name for Roster {
-    const NAME: &'static str = "Roster";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.Roster".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.Roster".into()
-    }
-}
-/// One figure of a roster.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct RosterEntry {
-    /// Index in frames. Indices of removed figures are not used again.
-    #[prost(int32, tag = "1")]
-    pub figure_index: i32,
-    /// Last part of the figure's name.
-    #[prost(string, tag = "2")]
-    pub figure_id: ::prost::alloc::string::String,
-    /// Body: resource name.
-    #[prost(string, tag = "3")]
-    pub body: ::prost::alloc::string::String,
-}
-impl ::prost::Name for RosterEntry {
-    const NAME: &'static str = "RosterEntry";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.RosterEntry".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.RosterEntry".into()
-    }
-}
-/// Asks for a frame.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct GetWorldFrameRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub world: ::prost::alloc::string::String,
-    /// Tick wanted. Absent: the latest. OUT_OF_RANGE (`RESUME_EXPIRED`) when it is no longer held or not yet computed.
-    #[prost(int64, optional, tag = "2")]
-    pub tick: ::core::option::Option<i64>,
-    /// What is sent.
-    #[prost(message, optional, tag = "3")]
-    pub view: ::core::option::Option<View>,
-}
-impl ::prost::Name for GetWorldFrameRequest {
-    const NAME: &'static str = "GetWorldFrameRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.GetWorldFrameRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.GetWorldFrameRequest".into()
-    }
-}
-/// A frame.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct GetWorldFrameResponse {
-    /// Names of the figures by index.
-    #[prost(message, optional, tag = "1")]
-    pub roster: ::core::option::Option<Roster>,
-    /// The frame.
-    #[prost(message, optional, tag = "2")]
-    pub frame: ::core::option::Option<WorldFrame>,
-}
-impl ::prost::Name for GetWorldFrameResponse {
-    const NAME: &'static str = "GetWorldFrameResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.GetWorldFrameResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.GetWorldFrameResponse".into()
-    }
-}
-/// Asks for frames as they come.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct WatchWorldRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub world: ::prost::alloc::string::String,
-    /// What is sent.
-    #[prost(message, optional, tag = "2")]
-    pub view: ::core::option::Option<View>,
-    /// Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
-    /// is no longer held. Absent: from now.
-    #[prost(int64, optional, tag = "3")]
-    pub resume_tick: ::core::option::Option<i64>,
-}
-impl ::prost::Name for WatchWorldRequest {
-    const NAME: &'static str = "WatchWorldRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.WatchWorldRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.WatchWorldRequest".into()
-    }
-}
-/// One event.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct Event {
-    /// What happened.
-    #[prost(enumeration = "EventType", tag = "1")]
-    pub r#type: i32,
-    /// Tick after which it was true.
-    #[prost(int64, tag = "2")]
-    pub tick: i64,
-    /// World time, s.
-    #[prost(double, tag = "3")]
-    pub time_s: f64,
-    /// Last part of the figure's name; empty for events of the world.
-    #[prost(string, tag = "4")]
-    pub figure_id: ::prost::alloc::string::String,
-    /// Segment name, where there is one.
-    #[prost(string, tag = "5")]
-    pub segment: ::prost::alloc::string::String,
-    /// DOF name, where there is one.
-    #[prost(string, tag = "6")]
-    pub dof: ::prost::alloc::string::String,
-    /// Mass of the load, kg, where there is one.
-    #[prost(double, tag = "7")]
-    pub mass_kg: f64,
-    /// Driver or reason, where there is one.
-    #[prost(string, tag = "8")]
-    pub detail: ::prost::alloc::string::String,
-    /// What is touched, added or removed: `figures/{figure}` or `obstacles/{obstacle}`, where there is one.
-    #[prost(string, tag = "9")]
-    pub other: ::prost::alloc::string::String,
-    /// Name of the segment of the other figure, where there is one.
-    #[prost(string, tag = "10")]
-    pub other_segment: ::prost::alloc::string::String,
-}
-impl ::prost::Name for Event {
-    const NAME: &'static str = "Event";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.Event".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.Event".into()
-    }
-}
-/// Asks for events as they come.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct WatchEventsRequest {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub world: ::prost::alloc::string::String,
-    /// Figures by the last parts of their names. Empty: all, and events of the world.
-    #[prost(string, repeated, tag = "2")]
-    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-    /// Types wanted. Empty: all.
-    #[prost(enumeration = "EventType", repeated, packed = "false", tag = "3")]
-    pub types: ::prost::alloc::vec::Vec<i32>,
-}
-impl ::prost::Name for WatchEventsRequest {
-    const NAME: &'static str = "WatchEventsRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.WatchEventsRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.WatchEventsRequest".into()
-    }
-}
-/// One or more events of one tick.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct WatchEventsResponse {
-    /// The events; empty in the first message, which says that the watch has begun.
-    #[prost(message, repeated, tag = "1")]
-    pub events: ::prost::alloc::vec::Vec<Event>,
-    /// Messages that this viewer was too slow for, so far.
-    #[prost(int64, tag = "2")]
-    pub missed_count: i64,
-}
-impl ::prost::Name for WatchEventsResponse {
-    const NAME: &'static str = "WatchEventsResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.WatchEventsResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.WatchEventsResponse".into()
-    }
-}
-/// What happened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum EventType {
-    /// Never sent.
-    Unspecified = 0,
-    /// A segment began to support the figure.
-    SupportGained = 1,
-    /// A segment no longer supports the figure.
-    SupportLost = 2,
-    /// A DOF reached the limit of its strength.
-    Saturated = 3,
-    /// A DOF is no longer at its limit.
-    Relieved = 4,
-    /// Balance was lost.
-    BalanceLost = 5,
-    /// Balance was found again.
-    Recovered = 6,
-    /// The figure fell.
-    Fell = 7,
-    /// A load was taken.
-    LoadTaken = 8,
-    /// A load was dropped.
-    LoadDropped = 9,
-    /// A load slipped from a hand: the force exceeded its grip.
-    LoadSlipped = 30,
-    /// The figure's state became unusable; it is frozen at its last good one.
-    Quarantined = 10,
-    /// A figure was added.
-    FigureAdded = 11,
-    /// A figure was removed.
-    FigureRemoved = 12,
-    /// A driver took a figure.
-    DriveBegan = 13,
-    /// A driver gave a figure back or lost it.
-    DriveEnded = 14,
-    /// A clip began to play: the detail is its name, `clips/{clip}`.
-    ClipBegan = 19,
-    /// A clip is over, or was ended: the detail is its name, `clips/{clip}`.
-    ClipEnded = 20,
-    /// The stream of a driver began anew; the detail says why.
-    DriveResynced = 35,
-    /// The world was paused.
-    WorldPaused = 15,
-    /// The world was resumed.
-    WorldResumed = 16,
-    /// The world failed.
-    WorldFailed = 17,
-    /// The world was deleted, and this is its last event; the detail says by whom or why.
-    WorldDeleted = 21,
-    /// The figure stands again after a fall.
-    GotUp = 18,
-    /// The world was put into the state of a checkpoint; `detail` is its tick.
-    WorldRestored = 45,
-    /// A segment began to touch another figure or an obstacle.
-    Touched = 31,
-    /// A segment no longer touches it.
-    Parted = 32,
-    /// An obstacle was added.
-    ObstacleAdded = 33,
-    /// An obstacle was removed.
-    ObstacleRemoved = 34,
-    /// A lease of the figure began, or went to another holder; the detail names the holder.
-    ControlAcquired = 40,
-    /// A lease of the figure ended; the detail names the holder and says why.
-    ControlReleased = 41,
-    /// A lease was taken by someone of higher priority; the detail names both.
-    ControlPreempted = 42,
-    /// The holder of a lease offered it to someone; the detail names both.
-    ControlOffered = 43,
-    /// Someone was refused what only the holder of the lease, or a higher role, may do; the detail names him. At most one
-    /// a second of each world.
-    AccessRefused = 44,
-}
-impl EventType {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "EVENT_TYPE_UNSPECIFIED",
-            Self::SupportGained => "EVENT_TYPE_SUPPORT_GAINED",
-            Self::SupportLost => "EVENT_TYPE_SUPPORT_LOST",
-            Self::Saturated => "EVENT_TYPE_SATURATED",
-            Self::Relieved => "EVENT_TYPE_RELIEVED",
-            Self::BalanceLost => "EVENT_TYPE_BALANCE_LOST",
-            Self::Recovered => "EVENT_TYPE_RECOVERED",
-            Self::Fell => "EVENT_TYPE_FELL",
-            Self::LoadTaken => "EVENT_TYPE_LOAD_TAKEN",
-            Self::LoadDropped => "EVENT_TYPE_LOAD_DROPPED",
-            Self::LoadSlipped => "EVENT_TYPE_LOAD_SLIPPED",
-            Self::Quarantined => "EVENT_TYPE_QUARANTINED",
-            Self::FigureAdded => "EVENT_TYPE_FIGURE_ADDED",
-            Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
-            Self::DriveBegan => "EVENT_TYPE_DRIVE_BEGAN",
-            Self::DriveEnded => "EVENT_TYPE_DRIVE_ENDED",
-            Self::ClipBegan => "EVENT_TYPE_CLIP_BEGAN",
-            Self::ClipEnded => "EVENT_TYPE_CLIP_ENDED",
-            Self::DriveResynced => "EVENT_TYPE_DRIVE_RESYNCED",
-            Self::WorldPaused => "EVENT_TYPE_WORLD_PAUSED",
-            Self::WorldResumed => "EVENT_TYPE_WORLD_RESUMED",
-            Self::WorldFailed => "EVENT_TYPE_WORLD_FAILED",
-            Self::WorldDeleted => "EVENT_TYPE_WORLD_DELETED",
-            Self::GotUp => "EVENT_TYPE_GOT_UP",
-            Self::WorldRestored => "EVENT_TYPE_WORLD_RESTORED",
-            Self::Touched => "EVENT_TYPE_TOUCHED",
-            Self::Parted => "EVENT_TYPE_PARTED",
-            Self::ObstacleAdded => "EVENT_TYPE_OBSTACLE_ADDED",
-            Self::ObstacleRemoved => "EVENT_TYPE_OBSTACLE_REMOVED",
-            Self::ControlAcquired => "EVENT_TYPE_CONTROL_ACQUIRED",
-            Self::ControlReleased => "EVENT_TYPE_CONTROL_RELEASED",
-            Self::ControlPreempted => "EVENT_TYPE_CONTROL_PREEMPTED",
-            Self::ControlOffered => "EVENT_TYPE_CONTROL_OFFERED",
-            Self::AccessRefused => "EVENT_TYPE_ACCESS_REFUSED",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "EVENT_TYPE_UNSPECIFIED" => Some(Self::Unspecified),
-            "EVENT_TYPE_SUPPORT_GAINED" => Some(Self::SupportGained),
-            "EVENT_TYPE_SUPPORT_LOST" => Some(Self::SupportLost),
-            "EVENT_TYPE_SATURATED" => Some(Self::Saturated),
-            "EVENT_TYPE_RELIEVED" => Some(Self::Relieved),
-            "EVENT_TYPE_BALANCE_LOST" => Some(Self::BalanceLost),
-            "EVENT_TYPE_RECOVERED" => Some(Self::Recovered),
-            "EVENT_TYPE_FELL" => Some(Self::Fell),
-            "EVENT_TYPE_LOAD_TAKEN" => Some(Self::LoadTaken),
-            "EVENT_TYPE_LOAD_DROPPED" => Some(Self::LoadDropped),
-            "EVENT_TYPE_LOAD_SLIPPED" => Some(Self::LoadSlipped),
-            "EVENT_TYPE_QUARANTINED" => Some(Self::Quarantined),
-            "EVENT_TYPE_FIGURE_ADDED" => Some(Self::FigureAdded),
-            "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),
-            "EVENT_TYPE_DRIVE_BEGAN" => Some(Self::DriveBegan),
-            "EVENT_TYPE_DRIVE_ENDED" => Some(Self::DriveEnded),
-            "EVENT_TYPE_CLIP_BEGAN" => Some(Self::ClipBegan),
-            "EVENT_TYPE_CLIP_ENDED" => Some(Self::ClipEnded),
-            "EVENT_TYPE_DRIVE_RESYNCED" => Some(Self::DriveResynced),
-            "EVENT_TYPE_WORLD_PAUSED" => Some(Self::WorldPaused),
-            "EVENT_TYPE_WORLD_RESUMED" => Some(Self::WorldResumed),
-            "EVENT_TYPE_WORLD_FAILED" => Some(Self::WorldFailed),
-            "EVENT_TYPE_WORLD_DELETED" => Some(Self::WorldDeleted),
-            "EVENT_TYPE_GOT_UP" => Some(Self::GotUp),
-            "EVENT_TYPE_WORLD_RESTORED" => Some(Self::WorldRestored),
-            "EVENT_TYPE_TOUCHED" => Some(Self::Touched),
-            "EVENT_TYPE_PARTED" => Some(Self::Parted),
-            "EVENT_TYPE_OBSTACLE_ADDED" => Some(Self::ObstacleAdded),
-            "EVENT_TYPE_OBSTACLE_REMOVED" => Some(Self::ObstacleRemoved),
-            "EVENT_TYPE_CONTROL_ACQUIRED" => Some(Self::ControlAcquired),
-            "EVENT_TYPE_CONTROL_RELEASED" => Some(Self::ControlReleased),
-            "EVENT_TYPE_CONTROL_PREEMPTED" => Some(Self::ControlPreempted),
-            "EVENT_TYPE_CONTROL_OFFERED" => Some(Self::ControlOffered),
-            "EVENT_TYPE_ACCESS_REFUSED" => Some(Self::AccessRefused),
-            _ => None,
-        }
-    }
-}
-/// Generated client implementations.
-pub mod state_service_client {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    use tonic::codegen::http::Uri;
-    /// What worlds do: frames and events.
-    #[derive(Debug, Clone)]
-    pub struct StateServiceClient<T> {
-        inner: tonic::client::Grpc<T>,
-    }
-    impl StateServiceClient<tonic::transport::Channel> {
-        /// Attempt to create a new client by connecting to a given endpoint.
-        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
-        where
-            D: TryInto<tonic::transport::Endpoint>,
-            D::Error: Into<StdError>,
-        {
-            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
-            Ok(Self::new(conn))
-        }
-    }
-    impl<T> StateServiceClient<T>
-    where
-        T: tonic::client::GrpcService<tonic::body::Body>,
-        T::Error: Into<StdError>,
-        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
-        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
-    {
-        pub fn new(inner: T) -> Self {
-            let inner = tonic::client::Grpc::new(inner);
-            Self { inner }
-        }
-        pub fn with_origin(inner: T, origin: Uri) -> Self {
-            let inner = tonic::client::Grpc::with_origin(inner, origin);
-            Self { inner }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> StateServiceClient<InterceptedService<T, F>>
-        where
-            F: tonic::service::Interceptor,
-            T::ResponseBody: Default,
-            T: tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-                Response = http::Response<
-                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
-                >,
-            >,
-            <T as tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
-        {
-            StateServiceClient::new(InterceptedService::new(inner, interceptor))
-        }
-        /// Compress requests with the given encoding.
-        ///
-        /// This requires the server to support it otherwise it might respond with an
-        /// error.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.send_compressed(encoding);
-            self
-        }
-        /// Enable decompressing responses.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.accept_compressed(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_decoding_message_size(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_encoding_message_size(limit);
-            self
-        }
-        /// One frame: the latest, or one that is still held.
-        pub async fn get_world_frame(
-            &mut self,
-            request: impl tonic::IntoRequest<super::GetWorldFrameRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::GetWorldFrameResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.StateService/GetWorldFrame",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.StateService", "GetWorldFrame"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Frames as they come. The first message is a roster; another follows whenever the figures of the view change. A slow
-        /// viewer gets the latest frame, never a backlog; what it missed is counted.
-        pub async fn watch_world(
-            &mut self,
-            request: impl tonic::IntoRequest<super::WatchWorldRequest>,
-        ) -> std::result::Result<
-            tonic::Response<
-                tonic::codec::Streaming<crate::wire::watched::WatchWorldResponse>,
-            >,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.StateService/WatchWorld",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.StateService", "WatchWorld"));
-            self.inner.server_streaming(req, path, codec).await
-        }
-        /// Events as they come.
-        pub async fn watch_events(
-            &mut self,
-            request: impl tonic::IntoRequest<super::WatchEventsRequest>,
-        ) -> std::result::Result<
-            tonic::Response<tonic::codec::Streaming<super::WatchEventsResponse>>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.StateService/WatchEvents",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.StateService", "WatchEvents"));
-            self.inner.server_streaming(req, path, codec).await
-        }
-    }
-}
-/// Generated server implementations.
-pub mod state_service_server {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    /// Generated trait containing gRPC methods that should be implemented for use with StateServiceServer.
-    #[async_trait]
-    pub trait StateService: std::marker::Send + std::marker::Sync + 'static {
-        /// One frame: the latest, or one that is still held.
-        async fn get_world_frame(
-            &self,
-            request: tonic::Request<super::GetWorldFrameRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::GetWorldFrameResponse>,
-            tonic::Status,
-        >;
-        /// Server streaming response type for the WatchWorld method.
-        type WatchWorldStream: tonic::codegen::tokio_stream::Stream<
-                Item = std::result::Result<
-                    crate::wire::watched::WatchWorldResponse,
-                    tonic::Status,
-                >,
-            >
-            + std::marker::Send
-            + 'static;
-        /// Frames as they come. The first message is a roster; another follows whenever the figures of the view change. A slow
-        /// viewer gets the latest frame, never a backlog; what it missed is counted.
-        async fn watch_world(
-            &self,
-            request: tonic::Request<super::WatchWorldRequest>,
-        ) -> std::result::Result<tonic::Response<Self::WatchWorldStream>, tonic::Status>;
-        /// Server streaming response type for the WatchEvents method.
-        type WatchEventsStream: tonic::codegen::tokio_stream::Stream<
-                Item = std::result::Result<super::WatchEventsResponse, tonic::Status>,
-            >
-            + std::marker::Send
-            + 'static;
-        /// Events as they come.
-        async fn watch_events(
-            &self,
-            request: tonic::Request<super::WatchEventsRequest>,
-        ) -> std::result::Result<
-            tonic::Response<Self::WatchEventsStream>,
-            tonic::Status,
-        >;
-    }
-    /// What worlds do: frames and events.
-    #[derive(Debug)]
-    pub struct StateServiceServer<T> {
-        inner: Arc<T>,
-        accept_compression_encodings: EnabledCompressionEncodings,
-        send_compression_encodings: EnabledCompressionEncodings,
-        max_decoding_message_size: Option<usize>,
-        max_encoding_message_size: Option<usize>,
-    }
-    impl<T> StateServiceServer<T> {
-        pub fn new(inner: T) -> Self {
-            Self::from_arc(Arc::new(inner))
-        }
-        pub fn from_arc(inner: Arc<T>) -> Self {
-            Self {
-                inner,
-                accept_compression_encodings: Default::default(),
-                send_compression_encodings: Default::default(),
-                max_decoding_message_size: None,
-                max_encoding_message_size: None,
-            }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> InterceptedService<Self, F>
-        where
-            F: tonic::service::Interceptor,
-        {
-            InterceptedService::new(Self::new(inner), interceptor)
-        }
-        /// Enable decompressing requests with the given encoding.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.accept_compression_encodings.enable(encoding);
-            self
-        }
-        /// Compress responses with the given encoding, if the client supports it.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.send_compression_encodings.enable(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.max_decoding_message_size = Some(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.max_encoding_message_size = Some(limit);
-            self
-        }
-    }
-    impl<T, B> tonic::codegen::Service<http::Request<B>> for StateServiceServer<T>
-    where
-        T: StateService,
-        B: Body + std::marker::Send + 'static,
-        B::Error: Into<StdError> + std::marker::Send + 'static,
-    {
-        type Response = http::Response<tonic::body::Body>;
-        type Error = std::convert::Infallible;
-        type Future = BoxFuture<Self::Response, Self::Error>;
-        fn poll_ready(
-            &mut self,
-            _cx: &mut Context<'_>,
-        ) -> Poll<std::result::Result<(), Self::Error>> {
-            Poll::Ready(Ok(()))
-        }
-        fn call(&mut self, req: http::Request<B>) -> Self::Future {
-            match req.uri().path() {
-                "/sinew.v1.StateService/GetWorldFrame" => {
-                    #[allow(non_camel_case_types)]
-                    struct GetWorldFrameSvc<T: StateService>(pub Arc<T>);
-                    impl<
-                        T: StateService,
-                    > tonic::server::UnaryService<super::GetWorldFrameRequest>
-                    for GetWorldFrameSvc<T> {
-                        type Response = super::GetWorldFrameResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::GetWorldFrameRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as StateService>::get_world_frame(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = GetWorldFrameSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.StateService/WatchWorld" => {
-                    #[allow(non_camel_case_types)]
-                    struct WatchWorldSvc<T: StateService>(pub Arc<T>);
-                    impl<
-                        T: StateService,
-                    > tonic::server::ServerStreamingService<super::WatchWorldRequest>
-                    for WatchWorldSvc<T> {
-                        type Response = crate::wire::watched::WatchWorldResponse;
-                        type ResponseStream = T::WatchWorldStream;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::ResponseStream>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::WatchWorldRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as StateService>::watch_world(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = WatchWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.server_streaming(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.StateService/WatchEvents" => {
-                    #[allow(non_camel_case_types)]
-                    struct WatchEventsSvc<T: StateService>(pub Arc<T>);
-                    impl<
-                        T: StateService,
-                    > tonic::server::ServerStreamingService<super::WatchEventsRequest>
-                    for WatchEventsSvc<T> {
-                        type Response = super::WatchEventsResponse;
-                        type ResponseStream = T::WatchEventsStream;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::ResponseStream>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::WatchEventsRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as StateService>::watch_events(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = WatchEventsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.server_streaming(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                _ => {
-                    Box::pin(async move {
-                        let mut response = http::Response::new(
-                            tonic::body::Body::default(),
-                        );
-                        let headers = response.headers_mut();
-                        headers
-                            .insert(
-                                tonic::Status::GRPC_STATUS,
-                                (tonic::Code::Unimplemented as i32).into(),
-                            );
-                        headers
-                            .insert(
-                                http::header::CONTENT_TYPE,
-                                tonic::metadata::GRPC_CONTENT_TYPE,
-                            );
-                        Ok(response)
-                    })
-                }
-            }
-        }
-    }
-    impl<T> Clone for StateServiceServer<T> {
-        fn clone(&self) -> Self {
-            let inner = self.inner.clone();
-            Self {
-                inner,
-                accept_compression_encodings: self.accept_compression_encodings,
-                send_compression_encodings: self.send_compression_encodings,
-                max_decoding_message_size: self.max_decoding_message_size,
-                max_encoding_message_size: self.max_encoding_message_size,
-            }
-        }
-    }
-    /// Generated gRPC service name
-    pub const SERVICE_NAME: &str = "sinew.v1.StateService";
-    impl<T> tonic::server::NamedService for StateServiceServer<T> {
         const NAME: &'static str = SERVICE_NAME;
     }
 }

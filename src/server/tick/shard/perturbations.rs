@@ -3,7 +3,7 @@
 use super::Shard;
 use crate::server::tick::scene::Input;
 use crate::wire::status::Fault;
-use crate::wire::types::FigureDisturbance;
+use crate::wire::types::{Disturbance, EventKind, FigureDisturbance};
 
 impl Shard {
     /// Checks that a batch is of figures that there are.
@@ -24,6 +24,20 @@ impl Shard {
     pub fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<u64, Fault> {
         self.known(batch)?;
         self.scene.apply(Input::Perturb(batch.to_vec()))?;
+        for d in batch {
+            // A force without end is no push.
+            if let Disturbance::Force {
+                segment,
+                force,
+                duration,
+                ..
+            } = d.what
+                && duration.is_finite()
+            {
+                let impulse = force.norm() * duration;
+                self.event(&d.figure, EventKind::Pushed(segment, impulse));
+            }
+        }
         Ok(self.scene.world().tick())
     }
 

@@ -24,11 +24,13 @@ _sym_db = _symbol_database.Default()
 
 from google.api import field_behavior_pb2 as google_dot_api_dot_field__behavior__pb2
 from google.api import resource_pb2 as google_dot_api_dot_resource__pb2
+from sinew.v1 import frame_pb2 as sinew_dot_v1_dot_frame__pb2
 from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
+from sinew.v1 import state_pb2 as sinew_dot_v1_dot_state__pb2
 from sinew.v1 import world_pb2 as sinew_dot_v1_dot_world__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x16sinew/v1/history.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/world.proto\"7\n\x11GetHistoryRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\">\n\x12GetHistoryResponse\x12\x13\n\x0boldest_tick\x18\x01 \x01(\x03\x12\x13\n\x0bnewest_tick\x18\x02 \x01(\x03\"d\n\x10SeekWorldRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\x12\n\x04tick\x18\x02 \x01(\x03\x42\x04\xe2\x41\x01\x02\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"3\n\x11SeekWorldResponse\x12\x1e\n\x05world\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.World\"\xae\x01\n\x12ReplayWorldRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\x1d\n\nfirst_tick\x18\x02 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x00\x88\x01\x01\x12\x1c\n\tlast_tick\x18\x03 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x01\x88\x01\x01\x12\x1a\n\x0cthread_count\x18\x04 \x01(\x05\x42\x04\xe2\x41\x01\x01\x42\r\n\x0b_first_tickB\x0c\n\n_last_tick\"\x89\x01\n\x13ReplayWorldResponse\x12\x12\n\nfirst_tick\x18\x01 \x01(\x03\x12\x11\n\tlast_tick\x18\x02 \x01(\x03\x12\x1b\n\x13\x63ompared_tick_count\x18\x03 \x01(\x03\x12.\n\ndifference\x18\x04 \x01(\x0b\x32\x1a.sinew.v1.ReplayDifference\"j\n\x10ReplayDifference\x12\x0c\n\x04tick\x18\x01 \x01(\x03\x12\x1b\n\x13recorded_state_hash\x18\x02 \x01(\x10\x12\x1b\n\x13replayed_state_hash\x18\x03 \x01(\x10\x12\x0e\n\x06\x64\x65tail\x18\x04 \x01(\t2\xfd\x01\n\x0eHistoryService\x12M\n\nGetHistory\x12\x1b.sinew.v1.GetHistoryRequest\x1a\x1c.sinew.v1.GetHistoryResponse\"\x04\xe8\xe0\x18\x01\x12J\n\tSeekWorld\x12\x1a.sinew.v1.SeekWorldRequest\x1a\x1b.sinew.v1.SeekWorldResponse\"\x04\xe8\xe0\x18\x04\x12P\n\x0bReplayWorld\x12\x1c.sinew.v1.ReplayWorldRequest\x1a\x1d.sinew.v1.ReplayWorldResponse\"\x04\xe8\xe0\x18\x04\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x16sinew/v1/history.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x14sinew/v1/frame.proto\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/state.proto\x1a\x14sinew/v1/world.proto\"7\n\x11GetHistoryRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\"_\n\x12GetHistoryResponse\x12\x13\n\x0boldest_tick\x18\x01 \x01(\x03\x12\x13\n\x0bnewest_tick\x18\x02 \x01(\x03\x12\x1f\n\x06\x65vents\x18\x03 \x03(\x0b\x32\x0f.sinew.v1.Event\"\xb6\x01\n\x12ReadHistoryRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\"\n\x04view\x18\x02 \x01(\x0b\x32\x0e.sinew.v1.ViewB\x04\xe2\x41\x01\x01\x12\x1d\n\nfirst_tick\x18\x03 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x00\x88\x01\x01\x12\x1c\n\tlast_tick\x18\x04 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x01\x88\x01\x01\x42\r\n\x0b_first_tickB\x0c\n\n_last_tick\"]\n\x13ReadHistoryResponse\x12 \n\x06roster\x18\x01 \x01(\x0b\x32\x10.sinew.v1.Roster\x12$\n\x06\x66rames\x18\x02 \x03(\x0b\x32\x14.sinew.v1.WorldFrame\"d\n\x10SeekWorldRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\x12\n\x04tick\x18\x02 \x01(\x03\x42\x04\xe2\x41\x01\x02\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"3\n\x11SeekWorldResponse\x12\x1e\n\x05world\x18\x01 \x01(\x0b\x32\x0f.sinew.v1.World\"\xae\x01\n\x12ReplayWorldRequest\x12\"\n\x04name\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\x1d\n\nfirst_tick\x18\x02 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x00\x88\x01\x01\x12\x1c\n\tlast_tick\x18\x03 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x01\x88\x01\x01\x12\x1a\n\x0cthread_count\x18\x04 \x01(\x05\x42\x04\xe2\x41\x01\x01\x42\r\n\x0b_first_tickB\x0c\n\n_last_tick\"\x89\x01\n\x13ReplayWorldResponse\x12\x12\n\nfirst_tick\x18\x01 \x01(\x03\x12\x11\n\tlast_tick\x18\x02 \x01(\x03\x12\x1b\n\x13\x63ompared_tick_count\x18\x03 \x01(\x03\x12.\n\ndifference\x18\x04 \x01(\x0b\x32\x1a.sinew.v1.ReplayDifference\"j\n\x10ReplayDifference\x12\x0c\n\x04tick\x18\x01 \x01(\x03\x12\x1b\n\x13recorded_state_hash\x18\x02 \x01(\x10\x12\x1b\n\x13replayed_state_hash\x18\x03 \x01(\x10\x12\x0e\n\x06\x64\x65tail\x18\x04 \x01(\t2\xd1\x02\n\x0eHistoryService\x12M\n\nGetHistory\x12\x1b.sinew.v1.GetHistoryRequest\x1a\x1c.sinew.v1.GetHistoryResponse\"\x04\xe8\xe0\x18\x01\x12R\n\x0bReadHistory\x12\x1c.sinew.v1.ReadHistoryRequest\x1a\x1d.sinew.v1.ReadHistoryResponse\"\x04\xe8\xe0\x18\x01\x30\x01\x12J\n\tSeekWorld\x12\x1a.sinew.v1.SeekWorldRequest\x1a\x1b.sinew.v1.SeekWorldResponse\"\x04\xe8\xe0\x18\x04\x12P\n\x0bReplayWorld\x12\x1c.sinew.v1.ReplayWorldRequest\x1a\x1d.sinew.v1.ReplayWorldResponse\"\x04\xe8\xe0\x18\x04\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
@@ -37,6 +39,14 @@ if not _descriptor._USE_C_DESCRIPTORS:
   DESCRIPTOR._loaded_options = None
   _globals['_GETHISTORYREQUEST'].fields_by_name['name']._loaded_options = None
   _globals['_GETHISTORYREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/World'
+  _globals['_READHISTORYREQUEST'].fields_by_name['name']._loaded_options = None
+  _globals['_READHISTORYREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/World'
+  _globals['_READHISTORYREQUEST'].fields_by_name['view']._loaded_options = None
+  _globals['_READHISTORYREQUEST'].fields_by_name['view']._serialized_options = b'\342A\001\001'
+  _globals['_READHISTORYREQUEST'].fields_by_name['first_tick']._loaded_options = None
+  _globals['_READHISTORYREQUEST'].fields_by_name['first_tick']._serialized_options = b'\342A\001\001'
+  _globals['_READHISTORYREQUEST'].fields_by_name['last_tick']._loaded_options = None
+  _globals['_READHISTORYREQUEST'].fields_by_name['last_tick']._serialized_options = b'\342A\001\001'
   _globals['_SEEKWORLDREQUEST'].fields_by_name['name']._loaded_options = None
   _globals['_SEEKWORLDREQUEST'].fields_by_name['name']._serialized_options = b'\342A\001\002\372A\r\n\013sinew/World'
   _globals['_SEEKWORLDREQUEST'].fields_by_name['tick']._loaded_options = None
@@ -53,24 +63,30 @@ if not _descriptor._USE_C_DESCRIPTORS:
   _globals['_REPLAYWORLDREQUEST'].fields_by_name['thread_count']._serialized_options = b'\342A\001\001'
   _globals['_HISTORYSERVICE'].methods_by_name['GetHistory']._loaded_options = None
   _globals['_HISTORYSERVICE'].methods_by_name['GetHistory']._serialized_options = b'\350\340\030\001'
+  _globals['_HISTORYSERVICE'].methods_by_name['ReadHistory']._loaded_options = None
+  _globals['_HISTORYSERVICE'].methods_by_name['ReadHistory']._serialized_options = b'\350\340\030\001'
   _globals['_HISTORYSERVICE'].methods_by_name['SeekWorld']._loaded_options = None
   _globals['_HISTORYSERVICE'].methods_by_name['SeekWorld']._serialized_options = b'\350\340\030\004'
   _globals['_HISTORYSERVICE'].methods_by_name['ReplayWorld']._loaded_options = None
   _globals['_HISTORYSERVICE'].methods_by_name['ReplayWorld']._serialized_options = b'\350\340\030\004'
-  _globals['_GETHISTORYREQUEST']._serialized_start=142
-  _globals['_GETHISTORYREQUEST']._serialized_end=197
-  _globals['_GETHISTORYRESPONSE']._serialized_start=199
-  _globals['_GETHISTORYRESPONSE']._serialized_end=261
-  _globals['_SEEKWORLDREQUEST']._serialized_start=263
-  _globals['_SEEKWORLDREQUEST']._serialized_end=363
-  _globals['_SEEKWORLDRESPONSE']._serialized_start=365
-  _globals['_SEEKWORLDRESPONSE']._serialized_end=416
-  _globals['_REPLAYWORLDREQUEST']._serialized_start=419
-  _globals['_REPLAYWORLDREQUEST']._serialized_end=593
-  _globals['_REPLAYWORLDRESPONSE']._serialized_start=596
-  _globals['_REPLAYWORLDRESPONSE']._serialized_end=733
-  _globals['_REPLAYDIFFERENCE']._serialized_start=735
-  _globals['_REPLAYDIFFERENCE']._serialized_end=841
-  _globals['_HISTORYSERVICE']._serialized_start=844
-  _globals['_HISTORYSERVICE']._serialized_end=1097
+  _globals['_GETHISTORYREQUEST']._serialized_start=186
+  _globals['_GETHISTORYREQUEST']._serialized_end=241
+  _globals['_GETHISTORYRESPONSE']._serialized_start=243
+  _globals['_GETHISTORYRESPONSE']._serialized_end=338
+  _globals['_READHISTORYREQUEST']._serialized_start=341
+  _globals['_READHISTORYREQUEST']._serialized_end=523
+  _globals['_READHISTORYRESPONSE']._serialized_start=525
+  _globals['_READHISTORYRESPONSE']._serialized_end=618
+  _globals['_SEEKWORLDREQUEST']._serialized_start=620
+  _globals['_SEEKWORLDREQUEST']._serialized_end=720
+  _globals['_SEEKWORLDRESPONSE']._serialized_start=722
+  _globals['_SEEKWORLDRESPONSE']._serialized_end=773
+  _globals['_REPLAYWORLDREQUEST']._serialized_start=776
+  _globals['_REPLAYWORLDREQUEST']._serialized_end=950
+  _globals['_REPLAYWORLDRESPONSE']._serialized_start=953
+  _globals['_REPLAYWORLDRESPONSE']._serialized_end=1090
+  _globals['_REPLAYDIFFERENCE']._serialized_start=1092
+  _globals['_REPLAYDIFFERENCE']._serialized_end=1198
+  _globals['_HISTORYSERVICE']._serialized_start=1201
+  _globals['_HISTORYSERVICE']._serialized_end=1538
 # @@protoc_insertion_point(module_scope)

@@ -3,8 +3,12 @@
 isort:skip_file
 """
 
+from collections import abc as _abc
 from google.protobuf import descriptor as _descriptor
 from google.protobuf import message as _message
+from google.protobuf.internal import containers as _containers
+from sinew.v1 import frame_pb2 as _frame_pb2
+from sinew.v1 import state_pb2 as _state_pb2
 from sinew.v1 import world_pb2 as _world_pb2
 import builtins as _builtins
 import sys
@@ -47,23 +51,107 @@ class GetHistoryResponse(_message.Message):
 
     OLDEST_TICK_FIELD_NUMBER: _builtins.int
     NEWEST_TICK_FIELD_NUMBER: _builtins.int
+    EVENTS_FIELD_NUMBER: _builtins.int
     oldest_tick: _builtins.int
     """The first tick whose state can be made; −1: none."""
     newest_tick: _builtins.int
     """The last one; −1: none."""
+    @_builtins.property
+    def events(self) -> _containers.RepeatedCompositeFieldContainer[_state_pb2.Event]:
+        """What happened between them and is worth a mark on a time line, from the oldest on, at most the last 512: balance
+        lost and found, falls, pushes, loads, clips, drives, figures and obstacles that came and went, pauses. None from
+        before the server started.
+        """
+
     def __init__(
         self,
         *,
         oldest_tick: _builtins.int = ...,
         newest_tick: _builtins.int = ...,
+        events: _abc.Iterable[_state_pb2.Event] | None = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["newest_tick", b"newest_tick", "oldest_tick", b"oldest_tick"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["events", b"events", "newest_tick", b"newest_tick", "oldest_tick", b"oldest_tick"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
 Global___GetHistoryResponse: _TypeAlias = GetHistoryResponse  # noqa: Y015
+
+@_typing.final
+class ReadHistoryRequest(_message.Message):
+    """Asks for frames of the past."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    NAME_FIELD_NUMBER: _builtins.int
+    VIEW_FIELD_NUMBER: _builtins.int
+    FIRST_TICK_FIELD_NUMBER: _builtins.int
+    LAST_TICK_FIELD_NUMBER: _builtins.int
+    name: _builtins.str
+    """Resource name `worlds/{world}`."""
+    first_tick: _builtins.int
+    """Tick to begin with. Absent: the oldest that is held."""
+    last_tick: _builtins.int
+    """Tick to end with. Absent: the newest."""
+    @_builtins.property
+    def view(self) -> _state_pb2.View:
+        """What is sent. Figures that it names and that were not there are left out."""
+
+    def __init__(
+        self,
+        *,
+        name: _builtins.str = ...,
+        view: _state_pb2.View | None = ...,
+        first_tick: _builtins.int | None = ...,
+        last_tick: _builtins.int | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_first_tick", b"_first_tick", "_last_tick", b"_last_tick", "first_tick", b"first_tick", "last_tick", b"last_tick", "view", b"view"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_first_tick", b"_first_tick", "_last_tick", b"_last_tick", "first_tick", b"first_tick", "last_tick", b"last_tick", "name", b"name", "view", b"view"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__first_tick: _TypeAlias = _typing.Literal["first_tick"]  # noqa: Y015
+    _WhichOneofArgType__first_tick: _TypeAlias = _typing.Literal["_first_tick", b"_first_tick"]  # noqa: Y015
+    _WhichOneofReturnType__last_tick: _TypeAlias = _typing.Literal["last_tick"]  # noqa: Y015
+    _WhichOneofArgType__last_tick: _TypeAlias = _typing.Literal["_last_tick", b"_last_tick"]  # noqa: Y015
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__first_tick) -> _WhichOneofReturnType__first_tick | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__last_tick) -> _WhichOneofReturnType__last_tick | None: ...
+
+Global___ReadHistoryRequest: _TypeAlias = ReadHistoryRequest  # noqa: Y015
+
+@_typing.final
+class ReadHistoryResponse(_message.Message):
+    """Some frames of the past."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    ROSTER_FIELD_NUMBER: _builtins.int
+    FRAMES_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def roster(self) -> _state_pb2.Roster:
+        """Names of the figures by index, for these frames and those that follow; in the first message with frames, and
+        whenever figures came or went.
+        """
+
+    @_builtins.property
+    def frames(self) -> _containers.RepeatedCompositeFieldContainer[_frame_pb2.WorldFrame]:
+        """Frames. The last message may have none."""
+
+    def __init__(
+        self,
+        *,
+        roster: _state_pb2.Roster | None = ...,
+        frames: _abc.Iterable[_frame_pb2.WorldFrame] | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["roster", b"roster"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["frames", b"frames", "roster", b"roster"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___ReadHistoryResponse: _TypeAlias = ReadHistoryResponse  # noqa: Y015
 
 @_typing.final
 class SeekWorldRequest(_message.Message):

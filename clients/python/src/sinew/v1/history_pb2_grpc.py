@@ -26,7 +26,8 @@ if _version_not_supported:
 
 
 class HistoryServiceStub:
-    """The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    """The last minutes of a world: shows them, goes back to one of their ticks, does them again. `ForkWorld` makes a new
+    world of one.
     How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
     OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
     """
@@ -42,6 +43,11 @@ class HistoryServiceStub:
                 request_serializer=sinew_dot_v1_dot_history__pb2.GetHistoryRequest.SerializeToString,
                 response_deserializer=sinew_dot_v1_dot_history__pb2.GetHistoryResponse.FromString,
                 _registered_method=True)
+        self.ReadHistory = channel.unary_stream(
+                '/sinew.v1.HistoryService/ReadHistory',
+                request_serializer=sinew_dot_v1_dot_history__pb2.ReadHistoryRequest.SerializeToString,
+                response_deserializer=sinew_dot_v1_dot_history__pb2.ReadHistoryResponse.FromString,
+                _registered_method=True)
         self.SeekWorld = channel.unary_unary(
                 '/sinew.v1.HistoryService/SeekWorld',
                 request_serializer=sinew_dot_v1_dot_history__pb2.SeekWorldRequest.SerializeToString,
@@ -55,13 +61,23 @@ class HistoryServiceStub:
 
 
 class HistoryServiceServicer:
-    """The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    """The last minutes of a world: shows them, goes back to one of their ticks, does them again. `ForkWorld` makes a new
+    world of one.
     How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
     OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
     """
 
     def GetHistory(self, request, context):
-        """What is held of the past of a world.
+        """What is held of the past of a world, and what happened in it.
+        """
+        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
+        context.set_details('Method not implemented!')
+        raise NotImplementedError('Method not implemented!')
+
+    def ReadHistory(self, request, context):
+        """Frames of a part of the past, which is simulated again beside the world. The world goes on and is not changed.
+        Frames come in the order of their ticks; they have neither `epoch` nor `server_time_ns`. Ending the call gives the
+        work up. DATA_LOSS (`REPLAY_DIFFERS`) if a state is not the one that was recorded.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -93,6 +109,11 @@ def add_HistoryServiceServicer_to_server(servicer, server):
                     request_deserializer=sinew_dot_v1_dot_history__pb2.GetHistoryRequest.FromString,
                     response_serializer=sinew_dot_v1_dot_history__pb2.GetHistoryResponse.SerializeToString,
             ),
+            'ReadHistory': grpc.unary_stream_rpc_method_handler(
+                    servicer.ReadHistory,
+                    request_deserializer=sinew_dot_v1_dot_history__pb2.ReadHistoryRequest.FromString,
+                    response_serializer=sinew_dot_v1_dot_history__pb2.ReadHistoryResponse.SerializeToString,
+            ),
             'SeekWorld': grpc.unary_unary_rpc_method_handler(
                     servicer.SeekWorld,
                     request_deserializer=sinew_dot_v1_dot_history__pb2.SeekWorldRequest.FromString,
@@ -112,7 +133,8 @@ def add_HistoryServiceServicer_to_server(servicer, server):
 
  # This class is part of an EXPERIMENTAL API.
 class HistoryService:
-    """The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    """The last minutes of a world: shows them, goes back to one of their ticks, does them again. `ForkWorld` makes a new
+    world of one.
     How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
     OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
     """
@@ -134,6 +156,33 @@ class HistoryService:
             '/sinew.v1.HistoryService/GetHistory',
             sinew_dot_v1_dot_history__pb2.GetHistoryRequest.SerializeToString,
             sinew_dot_v1_dot_history__pb2.GetHistoryResponse.FromString,
+            options,
+            channel_credentials,
+            insecure,
+            call_credentials,
+            compression,
+            wait_for_ready,
+            timeout,
+            metadata,
+            _registered_method=True)
+
+    @staticmethod
+    def ReadHistory(request,
+            target,
+            options=(),
+            channel_credentials=None,
+            call_credentials=None,
+            insecure=False,
+            compression=None,
+            wait_for_ready=None,
+            timeout=None,
+            metadata=None):
+        return grpc.experimental.unary_stream(
+            request,
+            target,
+            '/sinew.v1.HistoryService/ReadHistory',
+            sinew_dot_v1_dot_history__pb2.ReadHistoryRequest.SerializeToString,
+            sinew_dot_v1_dot_history__pb2.ReadHistoryResponse.FromString,
             options,
             channel_credentials,
             insecure,

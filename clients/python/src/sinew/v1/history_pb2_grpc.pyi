@@ -27,7 +27,8 @@ GRPC_GENERATED_VERSION: str
 GRPC_VERSION: str
 
 class HistoryServiceStub:
-    """The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    """The last minutes of a world: shows them, goes back to one of their ticks, does them again. `ForkWorld` makes a new
+    world of one.
     How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
     OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
     """
@@ -37,7 +38,12 @@ class HistoryServiceStub:
     @_typing.overload
     def __new__(cls, channel: _aio.Channel) -> HistoryServiceAsyncStub: ...
     GetHistory: _grpc.UnaryUnaryMultiCallable[_history_pb2.GetHistoryRequest, _history_pb2.GetHistoryResponse]
-    """What is held of the past of a world."""
+    """What is held of the past of a world, and what happened in it."""
+    ReadHistory: _grpc.UnaryStreamMultiCallable[_history_pb2.ReadHistoryRequest, _history_pb2.ReadHistoryResponse]
+    """Frames of a part of the past, which is simulated again beside the world. The world goes on and is not changed.
+    Frames come in the order of their ticks; they have neither `epoch` nor `server_time_ns`. Ending the call gives the
+    work up. DATA_LOSS (`REPLAY_DIFFERS`) if a state is not the one that was recorded.
+    """
     SeekWorld: _grpc.UnaryUnaryMultiCallable[_history_pb2.SeekWorldRequest, _history_pb2.SeekWorldResponse]
     """Puts a world back into the state that it had after a tick of its past, before anything changed it there. What came
     later is no longer its past; fork the world first to keep it. Viewers get a full frame of the next epoch and the
@@ -51,14 +57,20 @@ class HistoryServiceStub:
 
 @_typing.type_check_only
 class HistoryServiceAsyncStub(HistoryServiceStub):
-    """The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    """The last minutes of a world: shows them, goes back to one of their ticks, does them again. `ForkWorld` makes a new
+    world of one.
     How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
     OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
     """
 
     def __init__(self, channel: _aio.Channel) -> None: ...
     GetHistory: _aio.UnaryUnaryMultiCallable[_history_pb2.GetHistoryRequest, _history_pb2.GetHistoryResponse]  # type: ignore[assignment]
-    """What is held of the past of a world."""
+    """What is held of the past of a world, and what happened in it."""
+    ReadHistory: _aio.UnaryStreamMultiCallable[_history_pb2.ReadHistoryRequest, _history_pb2.ReadHistoryResponse]  # type: ignore[assignment]
+    """Frames of a part of the past, which is simulated again beside the world. The world goes on and is not changed.
+    Frames come in the order of their ticks; they have neither `epoch` nor `server_time_ns`. Ending the call gives the
+    work up. DATA_LOSS (`REPLAY_DIFFERS`) if a state is not the one that was recorded.
+    """
     SeekWorld: _aio.UnaryUnaryMultiCallable[_history_pb2.SeekWorldRequest, _history_pb2.SeekWorldResponse]  # type: ignore[assignment]
     """Puts a world back into the state that it had after a tick of its past, before anything changed it there. What came
     later is no longer its past; fork the world first to keep it. Viewers get a full frame of the next epoch and the
@@ -71,7 +83,8 @@ class HistoryServiceAsyncStub(HistoryServiceStub):
     """
 
 class HistoryServiceServicer(metaclass=_abc_1.ABCMeta):
-    """The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+    """The last minutes of a world: shows them, goes back to one of their ticks, does them again. `ForkWorld` makes a new
+    world of one.
     How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
     OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
     """
@@ -82,7 +95,18 @@ class HistoryServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _history_pb2.GetHistoryRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_history_pb2.GetHistoryResponse, _abc.Awaitable[_history_pb2.GetHistoryResponse]]:
-        """What is held of the past of a world."""
+        """What is held of the past of a world, and what happened in it."""
+
+    @_abc_1.abstractmethod
+    def ReadHistory(
+        self,
+        request: _history_pb2.ReadHistoryRequest,
+        context: _ServicerContext,
+    ) -> _typing.Union[_abc.Iterator[_history_pb2.ReadHistoryResponse], _abc.AsyncIterator[_history_pb2.ReadHistoryResponse]]:
+        """Frames of a part of the past, which is simulated again beside the world. The world goes on and is not changed.
+        Frames come in the order of their ticks; they have neither `epoch` nor `server_time_ns`. Ending the call gives the
+        work up. DATA_LOSS (`REPLAY_DIFFERS`) if a state is not the one that was recorded.
+        """
 
     @_abc_1.abstractmethod
     def SeekWorld(

@@ -50,6 +50,8 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """A load was dropped."""
     EVENT_TYPE_LOAD_SLIPPED: _EventType.ValueType  # 30
     """A load slipped from a hand: the force exceeded its grip."""
+    EVENT_TYPE_PUSHED: _EventType.ValueType  # 46
+    """The figure was pushed: an impulse was applied to the segment."""
     EVENT_TYPE_QUARANTINED: _EventType.ValueType  # 10
     """The figure's state became unusable; it is frozen at its last good one."""
     EVENT_TYPE_FIGURE_ADDED: _EventType.ValueType  # 11
@@ -124,6 +126,8 @@ EVENT_TYPE_LOAD_DROPPED: EventType.ValueType  # 9
 """A load was dropped."""
 EVENT_TYPE_LOAD_SLIPPED: EventType.ValueType  # 30
 """A load slipped from a hand: the force exceeded its grip."""
+EVENT_TYPE_PUSHED: EventType.ValueType  # 46
+"""The figure was pushed: an impulse was applied to the segment."""
 EVENT_TYPE_QUARANTINED: EventType.ValueType  # 10
 """The figure's state became unusable; it is frozen at its last good one."""
 EVENT_TYPE_FIGURE_ADDED: EventType.ValueType  # 11
@@ -428,6 +432,7 @@ class Event(_message.Message):
     DETAIL_FIELD_NUMBER: _builtins.int
     OTHER_FIELD_NUMBER: _builtins.int
     OTHER_SEGMENT_FIELD_NUMBER: _builtins.int
+    IMPULSE_NEWTON_SECONDS_FIELD_NUMBER: _builtins.int
     type: Global___EventType.ValueType
     """What happened."""
     tick: _builtins.int
@@ -448,6 +453,8 @@ class Event(_message.Message):
     """What is touched, added or removed: `figures/{figure}` or `obstacles/{obstacle}`, where there is one."""
     other_segment: _builtins.str
     """Name of the segment of the other figure, where there is one."""
+    impulse_newton_seconds: _builtins.float
+    """Size of a push, N·s."""
     def __init__(
         self,
         *,
@@ -461,10 +468,11 @@ class Event(_message.Message):
         detail: _builtins.str = ...,
         other: _builtins.str = ...,
         other_segment: _builtins.str = ...,
+        impulse_newton_seconds: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["detail", b"detail", "dof", b"dof", "figure_id", b"figure_id", "mass_kg", b"mass_kg", "other", b"other", "other_segment", b"other_segment", "segment", b"segment", "tick", b"tick", "time_s", b"time_s", "type", b"type"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["detail", b"detail", "dof", b"dof", "figure_id", b"figure_id", "impulse_newton_seconds", b"impulse_newton_seconds", "mass_kg", b"mass_kg", "other", b"other", "other_segment", b"other_segment", "segment", b"segment", "tick", b"tick", "time_s", b"time_s", "type", b"type"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -6,7 +6,11 @@ import type { GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegen
 import { fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
 import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
 import { file_google_api_resource } from "../../google/api/resource_pb.js";
+import type { WorldFrame } from "./frame_pb.js";
+import { file_sinew_v1_frame } from "./frame_pb.js";
 import { file_sinew_v1_options } from "./options_pb.js";
+import type { Event, Roster, View } from "./state_pb.js";
+import { file_sinew_v1_state } from "./state_pb.js";
 import type { World } from "./world_pb.js";
 import { file_sinew_v1_world } from "./world_pb.js";
 import type { Message } from "@bufbuild/protobuf";
@@ -15,7 +19,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/history.proto.
  */
 export const file_sinew_v1_history: GenFile = /*@__PURE__*/
-  fileDesc("ChZzaW5ldy92MS9oaXN0b3J5LnByb3RvEghzaW5ldy52MSI3ChFHZXRIaXN0b3J5UmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZCI+ChJHZXRIaXN0b3J5UmVzcG9uc2USEwoLb2xkZXN0X3RpY2sYASABKAMSEwoLbmV3ZXN0X3RpY2sYAiABKAMiZAoQU2Vla1dvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBISCgR0aWNrGAIgASgDQgTiQQECEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiMwoRU2Vla1dvcmxkUmVzcG9uc2USHgoFd29ybGQYASABKAsyDy5zaW5ldy52MS5Xb3JsZCKuAQoSUmVwbGF5V29ybGRSZXF1ZXN0EiIKBG5hbWUYASABKAlCFOJBAQL6QQ0KC3NpbmV3L1dvcmxkEh0KCmZpcnN0X3RpY2sYAiABKANCBOJBAQFIAIgBARIcCglsYXN0X3RpY2sYAyABKANCBOJBAQFIAYgBARIaCgx0aHJlYWRfY291bnQYBCABKAVCBOJBAQFCDQoLX2ZpcnN0X3RpY2tCDAoKX2xhc3RfdGljayKJAQoTUmVwbGF5V29ybGRSZXNwb25zZRISCgpmaXJzdF90aWNrGAEgASgDEhEKCWxhc3RfdGljaxgCIAEoAxIbChNjb21wYXJlZF90aWNrX2NvdW50GAMgASgDEi4KCmRpZmZlcmVuY2UYBCABKAsyGi5zaW5ldy52MS5SZXBsYXlEaWZmZXJlbmNlImoKEFJlcGxheURpZmZlcmVuY2USDAoEdGljaxgBIAEoAxIbChNyZWNvcmRlZF9zdGF0ZV9oYXNoGAIgASgQEhsKE3JlcGxheWVkX3N0YXRlX2hhc2gYAyABKBASDgoGZGV0YWlsGAQgASgJMv0BCg5IaXN0b3J5U2VydmljZRJNCgpHZXRIaXN0b3J5Ehsuc2luZXcudjEuR2V0SGlzdG9yeVJlcXVlc3QaHC5zaW5ldy52MS5HZXRIaXN0b3J5UmVzcG9uc2UiBOjgGAESSgoJU2Vla1dvcmxkEhouc2luZXcudjEuU2Vla1dvcmxkUmVxdWVzdBobLnNpbmV3LnYxLlNlZWtXb3JsZFJlc3BvbnNlIgTo4BgEElAKC1JlcGxheVdvcmxkEhwuc2luZXcudjEuUmVwbGF5V29ybGRSZXF1ZXN0Gh0uc2luZXcudjEuUmVwbGF5V29ybGRSZXNwb25zZSIE6OAYBGIGcHJvdG8z", [file_google_api_field_behavior, file_google_api_resource, file_sinew_v1_options, file_sinew_v1_world]);
+  fileDesc("ChZzaW5ldy92MS9oaXN0b3J5LnByb3RvEghzaW5ldy52MSI3ChFHZXRIaXN0b3J5UmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZCJfChJHZXRIaXN0b3J5UmVzcG9uc2USEwoLb2xkZXN0X3RpY2sYASABKAMSEwoLbmV3ZXN0X3RpY2sYAiABKAMSHwoGZXZlbnRzGAMgAygLMg8uc2luZXcudjEuRXZlbnQitgEKElJlYWRIaXN0b3J5UmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIiCgR2aWV3GAIgASgLMg4uc2luZXcudjEuVmlld0IE4kEBARIdCgpmaXJzdF90aWNrGAMgASgDQgTiQQEBSACIAQESHAoJbGFzdF90aWNrGAQgASgDQgTiQQEBSAGIAQFCDQoLX2ZpcnN0X3RpY2tCDAoKX2xhc3RfdGljayJdChNSZWFkSGlzdG9yeVJlc3BvbnNlEiAKBnJvc3RlchgBIAEoCzIQLnNpbmV3LnYxLlJvc3RlchIkCgZmcmFtZXMYAiADKAsyFC5zaW5ldy52MS5Xb3JsZEZyYW1lImQKEFNlZWtXb3JsZFJlcXVlc3QSIgoEbmFtZRgBIAEoCUIU4kEBAvpBDQoLc2luZXcvV29ybGQSEgoEdGljaxgCIAEoA0IE4kEBAhIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBIjMKEVNlZWtXb3JsZFJlc3BvbnNlEh4KBXdvcmxkGAEgASgLMg8uc2luZXcudjEuV29ybGQirgEKElJlcGxheVdvcmxkUmVxdWVzdBIiCgRuYW1lGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIdCgpmaXJzdF90aWNrGAIgASgDQgTiQQEBSACIAQESHAoJbGFzdF90aWNrGAMgASgDQgTiQQEBSAGIAQESGgoMdGhyZWFkX2NvdW50GAQgASgFQgTiQQEBQg0KC19maXJzdF90aWNrQgwKCl9sYXN0X3RpY2siiQEKE1JlcGxheVdvcmxkUmVzcG9uc2USEgoKZmlyc3RfdGljaxgBIAEoAxIRCglsYXN0X3RpY2sYAiABKAMSGwoTY29tcGFyZWRfdGlja19jb3VudBgDIAEoAxIuCgpkaWZmZXJlbmNlGAQgASgLMhouc2luZXcudjEuUmVwbGF5RGlmZmVyZW5jZSJqChBSZXBsYXlEaWZmZXJlbmNlEgwKBHRpY2sYASABKAMSGwoTcmVjb3JkZWRfc3RhdGVfaGFzaBgCIAEoEBIbChNyZXBsYXllZF9zdGF0ZV9oYXNoGAMgASgQEg4KBmRldGFpbBgEIAEoCTLRAgoOSGlzdG9yeVNlcnZpY2USTQoKR2V0SGlzdG9yeRIbLnNpbmV3LnYxLkdldEhpc3RvcnlSZXF1ZXN0Ghwuc2luZXcudjEuR2V0SGlzdG9yeVJlc3BvbnNlIgTo4BgBElIKC1JlYWRIaXN0b3J5Ehwuc2luZXcudjEuUmVhZEhpc3RvcnlSZXF1ZXN0Gh0uc2luZXcudjEuUmVhZEhpc3RvcnlSZXNwb25zZSIE6OAYATABEkoKCVNlZWtXb3JsZBIaLnNpbmV3LnYxLlNlZWtXb3JsZFJlcXVlc3QaGy5zaW5ldy52MS5TZWVrV29ybGRSZXNwb25zZSIE6OAYBBJQCgtSZXBsYXlXb3JsZBIcLnNpbmV3LnYxLlJlcGxheVdvcmxkUmVxdWVzdBodLnNpbmV3LnYxLlJlcGxheVdvcmxkUmVzcG9uc2UiBOjgGARiBnByb3RvMw", [file_google_api_field_behavior, file_google_api_resource, file_sinew_v1_frame, file_sinew_v1_options, file_sinew_v1_state, file_sinew_v1_world]);
 
 /**
  * Asks what is held.
@@ -57,6 +61,15 @@ export type GetHistoryResponse = Message<"sinew.v1.GetHistoryResponse"> & {
    * @generated from field: int64 newest_tick = 2;
    */
   newestTick: bigint;
+
+  /**
+   * What happened between them and is worth a mark on a time line, from the oldest on, at most the last 512: balance
+   * lost and found, falls, pushes, loads, clips, drives, figures and obstacles that came and went, pauses. None from
+   * before the server started.
+   *
+   * @generated from field: repeated sinew.v1.Event events = 3;
+   */
+  events: Event[];
 };
 
 /**
@@ -65,6 +78,77 @@ export type GetHistoryResponse = Message<"sinew.v1.GetHistoryResponse"> & {
  */
 export const GetHistoryResponseSchema: GenMessage<GetHistoryResponse> = /*@__PURE__*/
   messageDesc(file_sinew_v1_history, 1);
+
+/**
+ * Asks for frames of the past.
+ *
+ * @generated from message sinew.v1.ReadHistoryRequest
+ */
+export type ReadHistoryRequest = Message<"sinew.v1.ReadHistoryRequest"> & {
+  /**
+   * Resource name `worlds/{world}`.
+   *
+   * @generated from field: string name = 1;
+   */
+  name: string;
+
+  /**
+   * What is sent. Figures that it names and that were not there are left out.
+   *
+   * @generated from field: sinew.v1.View view = 2;
+   */
+  view?: View | undefined;
+
+  /**
+   * Tick to begin with. Absent: the oldest that is held.
+   *
+   * @generated from field: optional int64 first_tick = 3;
+   */
+  firstTick?: bigint | undefined;
+
+  /**
+   * Tick to end with. Absent: the newest.
+   *
+   * @generated from field: optional int64 last_tick = 4;
+   */
+  lastTick?: bigint | undefined;
+};
+
+/**
+ * Describes the message sinew.v1.ReadHistoryRequest.
+ * Use `create(ReadHistoryRequestSchema)` to create a new message.
+ */
+export const ReadHistoryRequestSchema: GenMessage<ReadHistoryRequest> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_history, 2);
+
+/**
+ * Some frames of the past.
+ *
+ * @generated from message sinew.v1.ReadHistoryResponse
+ */
+export type ReadHistoryResponse = Message<"sinew.v1.ReadHistoryResponse"> & {
+  /**
+   * Names of the figures by index, for these frames and those that follow; in the first message with frames, and
+   * whenever figures came or went.
+   *
+   * @generated from field: sinew.v1.Roster roster = 1;
+   */
+  roster?: Roster | undefined;
+
+  /**
+   * Frames. The last message may have none.
+   *
+   * @generated from field: repeated sinew.v1.WorldFrame frames = 2;
+   */
+  frames: WorldFrame[];
+};
+
+/**
+ * Describes the message sinew.v1.ReadHistoryResponse.
+ * Use `create(ReadHistoryResponseSchema)` to create a new message.
+ */
+export const ReadHistoryResponseSchema: GenMessage<ReadHistoryResponse> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_history, 3);
 
 /**
  * Puts a world back.
@@ -100,7 +184,7 @@ export type SeekWorldRequest = Message<"sinew.v1.SeekWorldRequest"> & {
  * Use `create(SeekWorldRequestSchema)` to create a new message.
  */
 export const SeekWorldRequestSchema: GenMessage<SeekWorldRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_history, 2);
+  messageDesc(file_sinew_v1_history, 4);
 
 /**
  * The world is in that state.
@@ -121,7 +205,7 @@ export type SeekWorldResponse = Message<"sinew.v1.SeekWorldResponse"> & {
  * Use `create(SeekWorldResponseSchema)` to create a new message.
  */
 export const SeekWorldResponseSchema: GenMessage<SeekWorldResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_history, 3);
+  messageDesc(file_sinew_v1_history, 5);
 
 /**
  * Does a part of the past again.
@@ -163,7 +247,7 @@ export type ReplayWorldRequest = Message<"sinew.v1.ReplayWorldRequest"> & {
  * Use `create(ReplayWorldRequestSchema)` to create a new message.
  */
 export const ReplayWorldRequestSchema: GenMessage<ReplayWorldRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_history, 4);
+  messageDesc(file_sinew_v1_history, 6);
 
 /**
  * What it came to.
@@ -205,7 +289,7 @@ export type ReplayWorldResponse = Message<"sinew.v1.ReplayWorldResponse"> & {
  * Use `create(ReplayWorldResponseSchema)` to create a new message.
  */
 export const ReplayWorldResponseSchema: GenMessage<ReplayWorldResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_history, 5);
+  messageDesc(file_sinew_v1_history, 7);
 
 /**
  * A state that is not the one that was recorded.
@@ -247,10 +331,11 @@ export type ReplayDifference = Message<"sinew.v1.ReplayDifference"> & {
  * Use `create(ReplayDifferenceSchema)` to create a new message.
  */
 export const ReplayDifferenceSchema: GenMessage<ReplayDifference> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_history, 6);
+  messageDesc(file_sinew_v1_history, 8);
 
 /**
- * The last minutes of a world: goes back to one of their ticks, does them again. `ForkWorld` makes a new world of one.
+ * The last minutes of a world: shows them, goes back to one of their ticks, does them again. `ForkWorld` makes a new
+ * world of one.
  * How much is held is set by `memory_s` and `max_world_memory_bytes` of the server. A tick that is not held is
  * OUT_OF_RANGE (`RESUME_EXPIRED`) with `oldest_tick` and `newest_tick`.
  *
@@ -258,7 +343,7 @@ export const ReplayDifferenceSchema: GenMessage<ReplayDifference> = /*@__PURE__*
  */
 export const HistoryService: GenService<{
   /**
-   * What is held of the past of a world.
+   * What is held of the past of a world, and what happened in it.
    *
    * @generated from rpc sinew.v1.HistoryService.GetHistory
    */
@@ -266,6 +351,18 @@ export const HistoryService: GenService<{
     methodKind: "unary";
     input: typeof GetHistoryRequestSchema;
     output: typeof GetHistoryResponseSchema;
+  },
+  /**
+   * Frames of a part of the past, which is simulated again beside the world. The world goes on and is not changed.
+   * Frames come in the order of their ticks; they have neither `epoch` nor `server_time_ns`. Ending the call gives the
+   * work up. DATA_LOSS (`REPLAY_DIFFERS`) if a state is not the one that was recorded.
+   *
+   * @generated from rpc sinew.v1.HistoryService.ReadHistory
+   */
+  readHistory: {
+    methodKind: "server_streaming";
+    input: typeof ReadHistoryRequestSchema;
+    output: typeof ReadHistoryResponseSchema;
   },
   /**
    * Puts a world back into the state that it had after a tick of its past, before anything changed it there. What came

@@ -1,0 +1,127 @@
+//! Frames of the past of a world: it is simulated again, and shown as it goes.
+
+use super::long;
+use crate::server::progress::Progress;
+use crate::server::tick::journal::Segment;
+use crate::server::tick::replay::{Replay, ReplayError};
+use crate::server::tick::scene::Scene;
+use crate::server::workers::Turn;
+use crate::wire::frame::{roster, world_frame};
+use crate::wire::pb;
+use crate::wire::status::Fault;
+use crate::wire::types::{RosterEntry, ViewSpec};
+use prost::Message as _;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A part of the past that is to be shown.
+pub(super) struct Part {
+    /// Last part of the name of the world.
+    pub world: Arc<str>,
+    /// What leads to it.
+    pub past: Vec<Arc<Segment>>,
+    /// First tick and last.
+    pub ticks: (u64, u64),
+    /// What is shown.
+    pub view: ViewSpec,
+}
+
+/// Sends the frames of a part of the past, and returns those that are left at its end.
+///
+/// # Errors
+/// A state is not the one that was recorded; nobody takes the frames any more.
+pub(super) fn read(
+    part: &Part,
+    out: long::Out<pb::ReadHistoryResponse>,
+    progress: &Progress,
+    turn: &Turn,
+) -> Result<pb::ReadHistoryResponse, Fault> {
+    let (first, last) = part.ticks;
+    let mut replay = Replay::of(&part.past)?;
+    let begun = replay.scene.world().tick();
+    let mut frames = Frames {
+        part,
+        out,
+        turn,
+        roster: Arc::new([]),
+        version: 0,
+        ready: pb::ReadHistoryResponse::default(),
+        bytes: 0,
+        since: Instant::now(),
+    };
+    let mut failed = None;
+    let mut each = |scene: &Scene| {
+        let tick = scene.world().tick();
+        progress.tell((tick - begun) as f64, (last - begun + 1) as f64);
+        if turn.stop() {
+            return false;
+        }
+        if tick < first || tick % u64::from(part.view.divisor) != 0 {
+            return true;
+        }
+        failed = frames.take(scene).err();
+        failed.is_none()
+    };
+    let done = if begun == first && !each(&replay.scene) {
+        Err(ReplayError::Stopped)
+    } else {
+        replay.through_past(&part.past, last, &mut each)
+    };
+    match (done, failed) {
+        (_, Some(fault)) => Err(fault),
+        (Ok(()), None) => Ok(frames.ready),
+        (Err(ReplayError::Stopped), None) => Err(Turn::gone()),
+        (Err(why), None) => Err(Fault::DataLoss {
+            reason: "REPLAY_DIFFERS",
+            message: why.to_string(),
+        }),
+    }
+}
+
+/// Frames on their way to a client, a few at a time.
+struct Frames<'a> {
+    part: &'a Part,
+    out: long::Out<pb::ReadHistoryResponse>,
+    turn: &'a Turn,
+    roster: Arc<[RosterEntry]>,
+    /// Of the roster; 0: none yet.
+    version: i32,
+    ready: pb::ReadHistoryResponse,
+    bytes: usize,
+    since: Instant,
+}
+
+impl Frames<'_> {
+    fn take(&mut self, scene: &Scene) -> Result<(), Fault> {
+        let now = scene.roster();
+        let anew = self.version == 0 || now != self.roster;
+        if anew {
+            self.send()?;
+            self.version += 1;
+            self.roster = now;
+        }
+        let shown = (Arc::clone(&self.roster), self.version);
+        let snapshot = scene.snapshot(&self.part.world, shown);
+        if anew {
+            self.ready.roster = Some(roster(&snapshot, &self.part.view));
+        }
+        let frame = world_frame(&snapshot, &self.part.view);
+        self.bytes += frame.encoded_len();
+        self.ready.frames.push(frame);
+        if self.bytes >= long::PART.0 || self.since.elapsed() >= long::PART.1 {
+            self.send()?;
+        }
+        Ok(())
+    }
+
+    /// Sends what there is, when the client has room for it.
+    fn send(&mut self) -> Result<(), Fault> {
+        self.bytes = 0;
+        let ready = std::mem::take(&mut self.ready);
+        if !ready.frames.is_empty() {
+            long::hand_over(&self.out, ready, self.turn)?;
+        }
+        self.since = Instant::now();
+        Ok(())
+    }
+}
