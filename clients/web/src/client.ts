@@ -4,6 +4,7 @@ import { Code, ConnectError, createClient, type Client, type Interceptor, type T
 import { createGrpcWebTransport } from "@connectrpc/connect-web";
 import { AccessService } from "./gen/sinew/v1/access_pb.js";
 import { BodyService } from "./gen/sinew/v1/body_pb.js";
+import { CheckpointService } from "./gen/sinew/v1/checkpoint_pb.js";
 import { ControlService } from "./gen/sinew/v1/control_pb.js";
 import { FigureService } from "./gen/sinew/v1/figure_pb.js";
 import { HistoryService } from "./gen/sinew/v1/history_pb.js";
@@ -26,15 +27,50 @@ function bearer(token: string): Interceptor {
   };
 }
 
+/**
+ * `fetch` whose answers end with their signal. Node holds the link between the signal and a request weakly: it may be
+ * collected while an answer is awaited, and a stream that is silent then goes on after it was aborted, with its
+ * connection.
+ */
+const abortable: typeof fetch = async (input, init) => {
+  const response = await fetch(input, init);
+  const signal = init?.signal;
+  if (!signal || !response.body) return response;
+  const reader = response.body.getReader();
+  const body = new ReadableStream<Uint8Array>({
+    start(controller): void {
+      const abort = (): void => {
+        controller.error(signal.reason);
+        reader.cancel(signal.reason).catch(() => undefined);
+      };
+      if (signal.aborted) abort();
+      else signal.addEventListener("abort", abort, { once: true });
+    },
+    async pull(controller): Promise<void> {
+      const { done, value } = await reader.read();
+      if (signal.aborted) return;
+      if (done) controller.close();
+      else controller.enqueue(value);
+    },
+    cancel: (reason) => reader.cancel(reason),
+  });
+  return new Response(body, response);
+};
+
 /** gRPC-Web over the platform's `fetch`, with a bearer token if there is one. */
 export function connect(address: string, token = ""): Transport {
-  return createGrpcWebTransport({ baseUrl: address, interceptors: token ? [bearer(token)] : [] });
+  return createGrpcWebTransport({
+    baseUrl: address,
+    interceptors: token ? [bearer(token)] : [],
+    ...(typeof document === "undefined" && { fetch: abortable }),
+  });
 }
 
 /** Every service of one server. */
 export class Sinew {
   readonly access: Client<typeof AccessService>;
   readonly bodies: Client<typeof BodyService>;
+  readonly checkpoints: Client<typeof CheckpointService>;
   readonly control: Client<typeof ControlService>;
   readonly figures: Client<typeof FigureService>;
   readonly history: Client<typeof HistoryService>;
@@ -52,6 +88,7 @@ export class Sinew {
   constructor(address: string, transport: Transport = connect(address)) {
     this.access = createClient(AccessService, transport);
     this.bodies = createClient(BodyService, transport);
+    this.checkpoints = createClient(CheckpointService, transport);
     this.control = createClient(ControlService, transport);
     this.figures = createClient(FigureService, transport);
     this.history = createClient(HistoryService, transport);
