@@ -3,7 +3,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { statSync } from "node:fs";
 import type { Page } from "@playwright/test";
-import { expect, live, test } from "../test/support.js";
+import { expect, live, Sinew, test } from "../test/support.js";
 
 const images = join(dirname(fileURLToPath(import.meta.url)), "../../../docs/images");
 /** A picture may have this many bytes. */
@@ -26,6 +26,34 @@ test("the demo world, and what 20 kg do", async ({ page, server }) => {
   await page.keyboard.press("Space");
   await page.waitForTimeout(500);
   await keep(page, "viewer-load.jpg");
+});
+
+test("two futures of the demo world", async ({ page, server }) => {
+  await server.start();
+  await live(page, server.url);
+  await page.locator("#hint-close").click();
+  // The branch begins before the crate is lifted, and the original has gone on.
+  await expect(page.locator("#clock")).toHaveText(/^(14|22|30|38)\.\d s$/);
+  await page.locator("#time").fill(String(60 * 9));
+  await page.locator("#branch").click();
+  await expect(page.locator("#compare")).toBeVisible();
+  await page.locator("#load-slider").fill("16");
+  await expect(page.locator("#load-value")).toHaveText("16 kg");
+  const api = new Sinew(`http://${server.address}`);
+  const loaded = async (): Promise<number> => {
+    await api.worlds.stepWorld({ name: "worlds/demo-branch", tickCount: 1 });
+    const { frame } = await api.state.getWorldFrame({
+      world: "worlds/demo-branch",
+      view: { fields: { paths: ["status"] } },
+    });
+    const carried = (frame?.figures ?? []).map((f) => (f.status?.loads ?? []).reduce((sum, l) => sum + l.massKg, 0));
+    return Math.min(...carried);
+  };
+  await expect.poll(loaded).toBeGreaterThan(15);
+  await api.worlds.stepWorld({ name: "worlds/demo-branch", tickCount: 150 });
+  await expect(page.locator("#since")).toHaveText(/^Since the branch: 2\.\d s$/);
+  await page.waitForTimeout(1500);
+  await keep(page, "viewer-futures.jpg");
 });
 
 test("dark", async ({ page, server }) => {

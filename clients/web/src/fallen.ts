@@ -65,7 +65,7 @@ export class Fallen {
     button.setAttribute("aria-label", `Stand ${name} up again`);
     button.addEventListener("click", () => this.standUp(name));
     const key = document.createElement("kbd");
-    key.textContent = "R";
+    key.textContent = "U";
     key.setAttribute("aria-hidden", "true");
     button.append(" ", key);
     row.append(text, button);

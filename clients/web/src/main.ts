@@ -1,17 +1,26 @@
 // The viewer: puts session, scene and panel together.
 import "./viewer.css";
+import { Beside } from "./beside.js";
+import { cannotBranch, cannotRewind, fork } from "./branches.js";
 import { Captions } from "./captions.js";
 import { connect, message, Sinew } from "./client.js";
+import { Compare } from "./compare.js";
 import { Fallen } from "./fallen.js";
-import type { FigureFrame, WorldFrame } from "./gen/sinew/v1/frame_pb.js";
+import { createFigure, createWorld, fresh, makeAnew, until } from "./figures.js";
+import type { WorldFrame } from "./gen/sinew/v1/frame_pb.js";
+import { helpText, listen } from "./keys.js";
+import { Labels } from "./labels.js";
+import { Load } from "./load.js";
+import { indexed, PastPeople, timeOf, type Moment } from "./moment.js";
 import type { Person } from "./model.js";
 import { Obstacles } from "./obstacles.js";
 import { el, Panel, type Anew } from "./panel.js";
-import { Scene, type Shown } from "./scene.js";
+import { keep, kept } from "./preferences.js";
+import { Scene, type Push, type Shown } from "./scene.js";
 import { Session, type Phase } from "./session.js";
-import { asCommand, asPython, cast, read, settingsOf, write, type Address } from "./share.js";
+import { asCommand, asPython, cast, read, write, type Address } from "./share.js";
+import { REWIND_S, Timeline } from "./timeline.js";
 import { takeToken } from "./token.js";
-import { kilograms } from "./words.js";
 
 function get<T extends HTMLElement>(id: string, kind: new () => T): T {
   const found = document.getElementById(id);
@@ -25,12 +34,7 @@ const [pauseButton, stepButton, speed] = [
   get("step", HTMLButtonElement),
   get("speed", HTMLSelectElement),
 ];
-const [slider, sliderValue] = [get("load-slider", HTMLInputElement), get("load-value", HTMLOutputElement)];
-const [state, dialog, labels] = [
-  get("state", HTMLElement),
-  get("dialog", HTMLDialogElement),
-  get("labels", HTMLElement),
-];
+const [state, dialog] = [get("state", HTMLElement), get("dialog", HTMLDialogElement)];
 const worldChoice = get("world", HTMLSelectElement);
 const panelToggle = get("panel-toggle", HTMLButtonElement);
 const [resetButton, followButton] = [get("reset", HTMLButtonElement), get("follow", HTMLButtonElement)];
@@ -50,9 +54,10 @@ const captions = new Captions(get("captions", HTMLElement));
 const say = (text: string, grave = false): void => captions.say(text, now(), grave);
 const attempt = (what: Promise<unknown>): void => void what.catch((error: unknown) => say(message(error), true));
 
-/** One change after the other: each sees what the one before it has brought about. */
+/** One change after the other, of the present: each sees what the one before it has brought about. */
 let turn: Promise<unknown> = Promise.resolve();
 function inTurn(what: () => Promise<unknown>): void {
+  timeline.live();
   const done = turn.then(what);
   turn = done.catch(() => undefined);
   attempt(done);
@@ -82,43 +87,46 @@ const session = new Session(
     if (what === "world") worldChanged();
     if (what === "lists") listsChanged();
   },
-  (event) => captions.event(event, now()),
+  (event) => {
+    // Who looks at the past is not told of the present.
+    if (timeline.shown === undefined) captions.event(event, now());
+  },
   (frame) => {
     lastFrame = frame;
     if (session.world) void obstacles.follow(session.api, session.world.name, frame);
   },
 );
 
+/** Carries out a push that was drawn. */
+async function pushed(of: Session, { person, segment, local, impulse }: Push): Promise<void> {
+  await of.api.perturbations.applyPerturbations({
+    world: of.world?.name ?? "",
+    perturbations: [
+      {
+        figureId: person.name,
+        kind: {
+          case: "impulse",
+          value: {
+            segment,
+            pointM: { x: local.x, y: local.y, z: local.z },
+            impulseNewtonSeconds: { x: impulse.x, y: impulse.y, z: impulse.z },
+            durationS: 0.1,
+          },
+        },
+      },
+    ],
+  });
+  say(`Pushed ${person.name}: ${impulse.length().toFixed(0)} N·s`);
+}
+
+const labels = new Labels(get("labels", HTMLElement));
 let scene: Scene | undefined;
-let pushLabel: { text: string; x: number; y: number } | undefined;
 try {
   scene = new Scene(canvas, {
-    choose: (p) => choose(p),
-    pushing: (push, x, y) => (pushLabel = push ? { text: `${push.impulse.length().toFixed(0)} N·s`, x, y } : undefined),
-    push: ({ person, segment, local, impulse }) => {
-      const size = impulse.length();
-      attempt(
-        session.api.perturbations
-          .applyPerturbations({
-            world: session.world?.name ?? "",
-            perturbations: [
-              {
-                figureId: person.name,
-                kind: {
-                  case: "impulse",
-                  value: {
-                    segment,
-                    pointM: { x: local.x, y: local.y, z: local.z },
-                    impulseNewtonSeconds: { x: impulse.x, y: impulse.y, z: impulse.z },
-                    durationS: 0.1,
-                  },
-                },
-              },
-            ],
-          })
-          .then(() => say(`Pushed ${person.name}: ${size.toFixed(0)} N·s`)),
-      );
-    },
+    choose: (p) => choose(p && session.person(p.name)),
+    pushing: (push, x, y) =>
+      (labels.push = push ? { text: `${push.impulse.length().toFixed(0)} N·s`, x, y } : undefined),
+    push: (push) => attempt(pushed(session, push)),
     following: (on) => {
       followButton.setAttribute("aria-pressed", String(on));
       remember();
@@ -155,6 +163,134 @@ const panel = new Panel(
   shown,
 );
 
+const load = new Load(get("load-slider", HTMLInputElement), get("load-value", HTMLOutputElement), session, {
+  change: () => timeline.live(),
+  done: remember,
+  failed: (error) => say(message(error), true),
+});
+
+// ── The past, and other futures ─────────────────────────────────────────────────────────────────────────────────────
+
+const timeline = new Timeline(
+  get("timeline", HTMLElement),
+  get("time", HTMLInputElement),
+  get("marks", HTMLElement),
+  get("moment", HTMLOutputElement),
+  () => {
+    document.body.dataset.time = timeline.shown === undefined ? "live" : "past";
+    for (const s of [scene, beside.scene]) if (s) s.pushable = timeline.shown === undefined;
+  },
+);
+const pastPeople = new PastPeople(session);
+
+const beside = new Beside(
+  session.api,
+  {
+    pane: get("beside", HTMLElement),
+    canvas: get("beside-view", HTMLCanvasElement),
+    labels: get("beside-labels", HTMLElement),
+    slider: get("beside-load", HTMLInputElement),
+    output: get("beside-load-value", HTMLOutputElement),
+    pause: get("beside-pause", HTMLButtonElement),
+    push: get("beside-push", HTMLButtonElement),
+  },
+  {
+    say,
+    choose: (name) => choose(session.person(name)),
+    push: (of) => {
+      const p = of.person(chosen?.name ?? "") ?? [...of.people.values()][0];
+      if (p) attempt(panel.push(p, of));
+    },
+    drawn: (of, push) => attempt(pushed(of, push)),
+    gone: () => compare.leave(),
+  },
+);
+const compare = new Compare(
+  session,
+  beside,
+  {
+    strip: get("compare", HTMLElement),
+    since: get("since", HTMLOutputElement),
+    lag: get("lag", HTMLElement),
+    catchUp: get("catch-up", HTMLButtonElement),
+    swap: get("swap", HTMLButtonElement),
+    done: get("compare-done", HTMLButtonElement),
+    mainHeader: get("main-header", HTMLElement),
+    mainTitle: get("main-title", HTMLElement),
+    besideTitle: get("beside-title", HTMLElement),
+  },
+  {
+    say,
+    ask: (title, ...content) => {
+      show(title, ...content);
+      return () => dialog.close();
+    },
+    show: (world) => {
+      // View and load stay as they are.
+      reproduced = true;
+      session.show(world);
+    },
+    changed: () => {
+      // On a small screen two pictures need all of it.
+      if (compare.pair && innerWidth <= 900) openPanel(false);
+      remember();
+    },
+  },
+);
+/** The picture whose camera was moved last: the other one follows. */
+let besideLeads = false;
+for (const [element, leads] of [
+  [canvas, false],
+  [get("beside-view", HTMLCanvasElement), true],
+] as const)
+  for (const kind of ["pointerdown", "wheel"])
+    element.addEventListener(kind, () => (besideLeads = leads), { capture: true, passive: true });
+
+/** Puts the world back by some seconds, counted from the moment that is shown. */
+async function rewind(): Promise<void> {
+  const { past, world } = session;
+  if (!past || !world || past.oldest < 0) return say("Nothing of the past is held here.");
+  const refused = cannotRewind(await session.roles());
+  if (refused) return say(refused, true);
+  const tick = Math.max(past.oldest, Math.round(timeline.tick - REWIND_S * past.rateHz));
+  await session.api.history.seekWorld({ name: world.name, tick: BigInt(tick) });
+  timeline.live();
+  await session.refresh();
+  say(`The world was rewound to ${(tick / past.rateHz).toFixed(1)} s`);
+}
+
+/** Makes a new world of the moment that is shown, and shows both. */
+async function branch(): Promise<void> {
+  const { past, world } = session;
+  if (!past || !world) return;
+  const refused = cannotBranch(await session.roles());
+  if (refused) return say(refused, true);
+  const of = world.name.slice("worlds/".length);
+  const { worlds } = await session.api.worlds.listWorlds({ pageSize: 1000 });
+  const name = fresh(
+    `${of}-branch`,
+    worlds.map((w) => w.name.slice("worlds/".length)),
+  );
+  const pair = await fork(session, timeline.shown === undefined ? undefined : timeline.tick, name);
+  compare.leave();
+  timeline.live();
+  compare.begin(pair);
+}
+
+/** One at a time: a second press must not do it twice. */
+let travelling = false;
+function travel(what: () => Promise<void>): void {
+  if (travelling) return;
+  travelling = true;
+  attempt(what().finally(() => (travelling = false)));
+}
+get("rewind", HTMLButtonElement).addEventListener("click", () => travel(rewind));
+get("branch", HTMLButtonElement).addEventListener("click", () => travel(branch));
+get("to-live", HTMLButtonElement).addEventListener("click", () => {
+  timeline.live();
+  get("time", HTMLInputElement).focus();
+});
+
 // ── What is chosen ──────────────────────────────────────────────────────────────────────────────────────────────────
 
 function choose(person: Person | undefined): void {
@@ -165,7 +301,7 @@ function choose(person: Person | undefined): void {
 }
 
 function roster(): void {
-  scene?.populate(session.people.values());
+  populated = undefined;
   // A figure that is being made anew stays the chosen one.
   chosen = session.person(wantedFigure) ?? (rebuilding ? chosen : [...session.people.values()][0]);
   panel.lists(chosen);
@@ -182,6 +318,8 @@ function listsChanged(): void {
 
 function worldChanged(): void {
   const name = session.world?.name.slice("worlds/".length) ?? "";
+  timeline.of(session.past);
+  if (compare.pair && name && name !== compare.pair.branch && name !== compare.pair.original) compare.leave();
   worldChoice.value = name;
   pauseButton.textContent = session.paused ? "Resume" : "Pause";
   pauseButton.setAttribute("aria-pressed", String(session.paused));
@@ -193,7 +331,11 @@ function worldChanged(): void {
 // ── States ──────────────────────────────────────────────────────────────────────────────────────────────────────────
 
 function showPhase(phase: Phase): void {
-  if (phase.kind === "error") lastFrame = undefined;
+  if (phase.kind === "error") {
+    lastFrame = undefined;
+    compare.leave();
+  }
+  timeline.of(session.past);
   state.dataset.kind = phase.kind;
   state.hidden = phase.kind === "live";
   document.body.dataset.phase = phase.kind;
@@ -239,22 +381,13 @@ function showPhase(phase: Phase): void {
   if (same(place.children) !== same(actions)) place.replaceChildren(...actions);
   for (const b of [pauseButton, stepButton, speed, resetButton])
     b.disabled = phase.kind !== "live" && !(phase.kind === "empty" && session.world);
+  load.enable(phase.kind === "live");
   if (phase.kind === "live") reproduce();
 }
 
 async function makeWorld(from?: Address): Promise<void> {
-  const { world } = await session.api.worlds.createWorld({ worldId: from?.world ?? "" });
-  if (!world) return;
-  for (const c of from?.figures ?? []) {
-    const { figure } = await session.api.figures.createFigure({
-      parent: world.name,
-      figureId: c.id,
-      figure: settingsOf(c),
-    });
-    if (figure && c.clip)
-      await session.api.motion.playClip({ figure: figure.name, clip: `clips/${c.clip}`, loop: true, reset: true });
-  }
-  session.show(world.name.slice("worlds/".length));
+  const made = await createWorld(session.api, from);
+  if (made) session.show(made);
 }
 
 /** Applies the view and the load of the address, once. */
@@ -266,65 +399,17 @@ function reproduce(): void {
     scene.place = address.camera;
     scene.follow = address.follow;
   }
-  if (address.load !== undefined && address.load !== slider.valueAsNumber) {
-    slider.value = String(address.load);
-    loadChanged();
-  } else readLoad();
+  if (address.load !== undefined && address.load !== load.mass && !address.beside) load.set(address.load);
+  else load.read();
 }
-
-// ── Load ────────────────────────────────────────────────────────────────────────────────────────────────────────────
-
-let carrying: Promise<void> | undefined;
-let wantedLoad: number | undefined;
-
-function loadChanged(): void {
-  wantedLoad = slider.valueAsNumber;
-  showLoad(wantedLoad);
-  carrying ??= carry().finally(() => (carrying = undefined));
-}
-
-async function carry(): Promise<void> {
-  try {
-    while (wantedLoad !== undefined) {
-      const mass = wantedLoad;
-      wantedLoad = undefined;
-      // A fallen figure stands up first, so that it can take the new load.
-      const people = [...session.people.values()];
-      for (const p of people) if (session.says(p, "FALLEN")) await session.standUp(p);
-      await session.carry(people, mass);
-      remember();
-    }
-  } catch (error) {
-    say(message(error), true);
-  }
-}
-
-function showLoad(mass: number): void {
-  sliderValue.textContent = kilograms(mass);
-  slider.setAttribute("aria-valuetext", `${mass} kilograms in both hands of every figure`);
-}
-
-/** Takes over a load that another viewer set. */
-function readLoad(): void {
-  if (carrying || document.activeElement === slider) return;
-  const loads = [...session.people.values()].filter((p) => p.frame).map((p) => p.loadKg());
-  if (!loads.length) return;
-  const mass = Math.max(...loads);
-  if (Math.abs(mass - slider.valueAsNumber) > 0.01 && mass <= 20) slider.value = String(mass);
-  showLoad(mass);
-}
-
-slider.addEventListener("input", loadChanged);
 
 // ── Reset ───────────────────────────────────────────────────────────────────────────────────────────────────────────
 
 /** Every figure back at its start, all clips from their beginning, no loads, no pushes. */
 async function resetWorld(): Promise<void> {
-  wantedLoad = undefined;
-  await carrying;
+  await load.none();
   const failed = await session.reset();
-  slider.value = "0";
-  showLoad(0);
+  load.gone();
   await session.refresh();
   remember();
   if (failed.length) say(`Not reset: ${failed.join("; ")}`, true);
@@ -347,18 +432,6 @@ async function play(p: Person, clip: string): Promise<void> {
 async function takeAgain(p: Person): Promise<void> {
   const load = p.loadKg();
   if (load > 0) await session.carry([p], load);
-}
-
-/** A valid last part of a name that is not taken. */
-function fresh(base: string, taken: string[]): string {
-  const clean =
-    base
-      .toLowerCase()
-      .replace(/[^a-z0-9]+/g, "-")
-      .replace(/^[^a-z]+|-+$/g, "")
-      .slice(0, 48) || "motion";
-  if (!taken.includes(clean)) return clean;
-  for (let n = 2; ; n++) if (!taken.includes(`${clean}-${n}`)) return `${clean}-${n}`;
 }
 
 async function openFile(file: File): Promise<void> {
@@ -411,21 +484,11 @@ addEventListener("drop", (e) => {
 // ── Figures ─────────────────────────────────────────────────────────────────────────────────────────────────────────
 
 async function addFigure(): Promise<void> {
-  const people = [...session.people.values()];
   if (!session.world) return makeWorld();
-  const y = people.length ? Math.min(...people.map((p) => p.figure.placement?.yM ?? 0)) - 1.2 : 0;
-  const id = fresh(
-    "figure",
-    people.map((p) => p.name),
-  );
-  wantedFigure = id;
-  const { figure } = await session.api.figures.createFigure({
-    parent: session.world.name,
-    figureId: id,
-    figure: { body: chosen?.body.name ?? "bodies/adult-man", placement: { yM: y } },
-  });
-  if (figure) await session.api.motion.playClip({ figure: figure.name, clip: "clips/idle", loop: true, reset: true });
-  await until(() => chosen?.name === id);
+  const taken = [...session.people.values()].map((p) => p.name);
+  wantedFigure = fresh("figure", taken);
+  await createFigure(session, wantedFigure, chosen?.body.name ?? "bodies/adult-man");
+  await until(() => chosen?.name === wantedFigure);
   await session.refresh();
 }
 
@@ -433,64 +496,31 @@ async function addFigure(): Promise<void> {
 async function rebuild(p: Person, change: Anew): Promise<void> {
   rebuilding = true;
   try {
-    await makeAnew(p, change);
+    const load = p.loadKg();
+    wantedFigure = p.name;
+    await makeAnew(session, p, change, say);
+    await until(() => chosen !== p && chosen?.name === p.name);
+    if (chosen && load > 0) await session.carry([chosen], load);
+    await session.refresh();
+    remember();
   } finally {
     rebuilding = false;
   }
-}
-
-async function makeAnew(p: Person, change: Anew): Promise<void> {
-  const f = p.figure;
-  const load = p.loadKg();
-  wantedFigure = p.name;
-  const parent = f.name.slice(0, f.name.indexOf("/figures/"));
-  const { clip } = p;
-  await session.api.figures.deleteFigure({ name: f.name });
-  const same = {
-    body: p.body.name,
-    stepper: f.stepper,
-    controller: f.controller,
-    strength: f.strength,
-    assist: f.assist,
-    fatigueTimeScale: f.fatigueTimeScale,
-    paper: f.paper,
-    placement: f.placement,
-  };
-  const figure = {
-    ...same,
-    ...(change.body && { body: `bodies/${change.body}` }),
-    ...(change.profile && { body: "", profile: change.profile }),
-    ...(change.stepper && { stepper: change.stepper }),
-  };
-  let made;
-  try {
-    made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure })).figure;
-  } catch (error) {
-    say(message(error), true);
-    made = (await session.api.figures.createFigure({ parent, figureId: p.name, figure: same })).figure;
-  }
-  if (made && clip) await session.api.motion.playClip({ figure: made.name, clip, loop: true, reset: true });
-  await until(() => chosen !== p && chosen?.name === p.name);
-  if (chosen && load > 0) await session.carry([chosen], load);
-  await session.refresh();
-  remember();
-}
-
-async function until(condition: () => boolean): Promise<void> {
-  for (let n = 0; n < 100 && !condition(); n++) await new Promise((done) => setTimeout(done, 30));
 }
 
 // ── Address and copies ──────────────────────────────────────────────────────────────────────────────────────────────
 
 function here(full: boolean): string {
   return write({
-    world: session.world?.name.slice("worlds/".length) ?? address.world,
+    world: compare.pair?.branch ?? session.world?.name.slice("worlds/".length) ?? address.world,
     figure: chosen?.name ?? "",
-    load: slider.valueAsNumber || undefined,
+    load: load.mass || undefined,
     hide: Object.entries(shown).flatMap(([key, on]) => (on ? [] : [key])),
     camera: scene?.place,
     follow: scene?.follow ?? false,
     figures: full ? [...session.people.values()].map(cast) : [],
+    beside: compare.pair?.original ?? "",
+    since: compare.pair?.since ?? 0,
   });
 }
 
@@ -509,8 +539,16 @@ addEventListener("hashchange", () => {
   address = read(location.hash);
   wantedFigure = address.figure;
   reproduced = false;
-  session.show(address.world);
+  start();
 });
+
+/** Shows what the address says. */
+function start(): void {
+  const { world, beside: original, since } = address;
+  compare.leave();
+  if (world && original && world !== original) compare.begin({ branch: world, original, since });
+  else session.show(world);
+}
 
 function copy(what: "python" | "cli" | "link"): void {
   const text =
@@ -529,10 +567,14 @@ function copy(what: "python" | "cli" | "link"): void {
 // ── Bar, keys ───────────────────────────────────────────────────────────────────────────────────────────────────────
 
 pauseButton.addEventListener("click", () => attempt(session.setPaused(!session.paused)));
-stepButton.addEventListener("click", () => attempt(session.step()));
+stepButton.addEventListener("click", () => {
+  timeline.live();
+  attempt(session.step());
+});
 speed.addEventListener("change", () => attempt(session.setSpeed(Number(speed.value))));
 worldChoice.addEventListener("change", () => {
   reproduced = true;
+  compare.leave();
   session.show(worldChoice.value);
 });
 
@@ -547,21 +589,7 @@ const prefersDark = matchMedia("(prefers-color-scheme: dark)");
 function theme(dark: boolean): void {
   document.documentElement.dataset.theme = dark ? "dark" : "light";
   scene?.theme(dark);
-}
-/** What the browser keeps for this page; nothing where it keeps nothing. */
-function kept(key: string): string | null {
-  try {
-    return localStorage.getItem(key);
-  } catch {
-    return null;
-  }
-}
-function keep(key: string, value: string): void {
-  try {
-    localStorage.setItem(key, value);
-  } catch {
-    // Then it holds for this visit.
-  }
+  beside.theme(dark);
 }
 theme(kept("sinew-theme") ? kept("sinew-theme") === "dark" : prefersDark.matches);
 prefersDark.addEventListener("change", () => kept("sinew-theme") ?? theme(prefersDark.matches));
@@ -577,39 +605,10 @@ function show(title: string, ...content: HTMLElement[]): void {
   dialog.showModal();
 }
 
-const KEYS: [string, string][] = [
-  ["Space", "pause or resume"],
-  [".", "advance one tick (pauses first)"],
-  ["S", "slow motion on or off"],
-  ["[  ]", "choose the previous or next figure"],
-  ["L  K", "more or less load"],
-  ["P", "push the chosen figure as set in the panel"],
-  ["R", "stand the chosen figure up again"],
-  ["Shift R", "reset the world"],
-  ["T", "follow the chosen figure"],
-  ["F", "fit all figures in the view"],
-  ["← → ↑ ↓", "turn the view (with the scene focused)"],
-  ["+  −", "zoom in or out"],
-  ["G  E  C  B", "show desired motion, joint effort, contact forces, support"],
-  ["Esc", "cancel a push while dragging"],
-];
-get("help", HTMLButtonElement).addEventListener("click", help);
 function help(): void {
-  const table = el(
-    "table",
-    {},
-    ...KEYS.map(([key, text]) =>
-      el("tr", {}, el("td", {}, ...key.split("  ").flatMap((k) => [el("kbd", {}, k), " "])), el("td", {}, text)),
-    ),
-  );
-  const pointer = el(
-    "p",
-    {},
-    "Drag a figure to push it. Drag beside the figures to turn the view, with the right button to pan, and use the " +
-      "wheel or two fingers to zoom. Drop a BVH file anywhere on the page to play it.",
-  );
-  show("Help", pointer, table);
+  show("Help", ...helpText());
 }
+get("help", HTMLButtonElement).addEventListener("click", help);
 
 // The hint is shown until it is dismissed, and then never again in this browser.
 const hint = get("hint", HTMLElement);
@@ -632,116 +631,60 @@ function toggle(key: keyof Shown): void {
   document.getElementById(`show-${key}`)?.click();
 }
 
-function nudge(by: number): void {
-  slider.valueAsNumber += by;
-  loadChanged();
+/** Chooses the figure that is so many places farther on. */
+function next(by: number): void {
+  const people = [...session.people.values()];
+  if (people.length) choose(people[(people.indexOf(chosen as Person) + by + people.length) % people.length]);
 }
 
-addEventListener("keydown", (e) => {
-  if (e.ctrlKey || e.metaKey || e.altKey || dialog.open) return;
-  const at = e.target instanceof HTMLElement ? e.target : document.body;
-  const typing = at.matches("input:not([type=checkbox]):not([type=range]), select, textarea");
-  if (e.key === "Escape") scene?.release(false);
-  if (typing) return;
-  const people = [...session.people.values()];
-  const next = (by: number): void => {
-    if (people.length) choose(people[(people.indexOf(chosen as Person) + by + people.length) % people.length]);
-  };
-  const inScene = at === canvas;
-  const done = (what: () => void): void => {
-    e.preventDefault();
-    what();
-  };
-  if (e.key === " " && !at.matches("button, summary, a, input:not([type=range])"))
-    return done(() => pauseButton.click());
-  if (inScene) {
-    const turns: Record<string, [number, number, number]> = {
-      ArrowLeft: [-0.12, 0, 1],
-      ArrowRight: [0.12, 0, 1],
-      ArrowUp: [0, 0.08, 1],
-      ArrowDown: [0, -0.08, 1],
-    };
-    const turn = turns[e.key];
-    if (turn)
-      return done(() => {
-        scene?.turn(...turn);
-        remember();
-      });
-  }
-  const actions: Record<string, () => void> = {
+/** The same keys move whichever view has the focus. */
+function zoom(factor: number): void {
+  besideLeads = false;
+  scene?.turn(0, 0, factor);
+}
+
+listen({
+  blocked: () => dialog.open,
+  pause: () => pauseButton.click(),
+  cancel: () => {
+    scene?.release(false);
+    beside.scene?.release(false);
+    timeline.live();
+  },
+  turn: (...by) => {
+    besideLeads = false;
+    scene?.turn(...by);
+    remember();
+  },
+  keys: {
     ".": () => stepButton.click(),
     "[": () => next(-1),
     "]": () => next(1),
-    l: () => nudge(1),
-    k: () => nudge(-1),
+    l: () => load.set(load.mass + 1),
+    k: () => load.set(load.mass - 1),
     p: () => forChosen((p) => panel.push(p)),
-    r: () => (e.shiftKey ? resetButton.click() : forChosen((p) => session.standUp(p))),
+    r: () => travel(rewind),
+    n: () => travel(branch),
+    u: () => forChosen((p) => session.standUp(p)),
+    "shift+r": () => resetButton.click(),
     t: follow,
     s: () => {
       speed.value = speed.value === "1" ? "0.25" : "1";
       attempt(session.setSpeed(Number(speed.value)));
     },
-    "+": () => scene?.turn(0, 0, 0.88),
-    "=": () => scene?.turn(0, 0, 0.88),
-    "-": () => scene?.turn(0, 0, 1.14),
+    "+": () => zoom(0.88),
+    "=": () => zoom(0.88),
+    "-": () => zoom(1.14),
     f: () => scene?.recentre(),
     g: () => toggle("ghost"),
     e: () => toggle("effort"),
     c: () => toggle("forces"),
     b: () => toggle("support"),
     "?": help,
-  };
-  const action = actions[e.key.length === 1 ? e.key.toLowerCase() : e.key];
-  if (action) done(action);
+  },
 });
 
 // ── Every picture ───────────────────────────────────────────────────────────────────────────────────────────────────
-
-const byFrame = new WeakMap<WorldFrame, Map<number, FigureFrame>>();
-function indexed(frame: WorldFrame): Map<number, FigureFrame> {
-  let map = byFrame.get(frame);
-  if (!map) {
-    map = new Map(frame.figures.map((f) => [f.figureIndex, f]));
-    byFrame.set(frame, map);
-  }
-  return map;
-}
-
-const tags = new Map<string, HTMLSpanElement>();
-function tag(key: string, text: string, kind: string, place: { x: number; y: number } | undefined): void {
-  let span = tags.get(key);
-  if (!place) {
-    if (span) span.hidden = true;
-    return;
-  }
-  if (!span) {
-    span = el("span");
-    tags.set(key, span);
-    labels.append(span);
-  }
-  span.hidden = false;
-  if (span.textContent !== text) span.textContent = text;
-  if (span.className !== kind) span.className = kind;
-  span.style.transform = `translate(${place.x.toFixed(1)}px, ${place.y.toFixed(1)}px) translate(-50%, -100%)`;
-}
-
-/** Names above heads: of all figures when there are few, else of the chosen one only. */
-const FEW = 6;
-function label(): void {
-  const people =
-    session.phase.kind === "live" || session.phase.kind === "reconnecting" ? [...session.people.values()] : [];
-  const present = new Set(people.map((p) => p.name));
-  for (const [key, span] of tags)
-    if (key !== "\u0000push" && !present.has(key)) {
-      span.remove();
-      tags.delete(key);
-    }
-  for (const p of people) {
-    const visible = p === chosen || (people.length <= FEW && !pushLabel);
-    tag(p.name, p.name, p === chosen ? "chosen" : "", visible ? scene?.label(p) : undefined);
-  }
-  tag("\u0000push", pushLabel?.text ?? "", "impulse", pushLabel && { x: pushLabel.x, y: pushLabel.y - 16 });
-}
 
 /** Time that a picture takes, ms, smoothed: the page's own part, and with the renderer. Tests read them. */
 let scripted = 0;
@@ -752,36 +695,80 @@ let reframed = 0;
 /** A picture that took longer than this (s) is drawn in software: then half of the time is left to others. */
 const SLOW_S = 0.04;
 let notBefore = 0;
+/** Whom the scene has been made for. */
+let populated: ReadonlyMap<number, Person> | undefined;
+
+/** The present of the world, s and frames. */
+function present(t: number): Moment | undefined {
+  const pair = session.playhead.at(t, session.paused ? 1 : (session.world?.speed ?? 1));
+  return pair && { ...pair, time: timeOf(pair), people: session.people, exact: true };
+}
+
+/** What both panes show: the present, a moment of the past, or the same time of two worlds. */
+function moments(t: number): [Moment | undefined, Moment | undefined] {
+  const main = present(t);
+  const other = beside.open ? beside.live(t) : undefined;
+  const name = chosen?.name ?? "";
+  const common = compare.time(main, other);
+  const mainTime = timeline.shown ?? (compare.pair && !compare.mainIsBranch ? common : undefined);
+  const otherTime = timeline.shown ?? (compare.mainIsBranch ? common : undefined);
+  return [
+    mainTime === undefined ? main : pastPeople.at(mainTime, name),
+    otherTime === undefined ? other : beside.past(otherTime, name),
+  ];
+}
+
+function words(moment: Moment | undefined, t: number): void {
+  const shows = timeline.shown;
+  load.read();
+  if (beside.open) beside.read();
+  timeline.update();
+  compare.update(moment?.time);
+  const trouble = shows === undefined || moment?.exact ? "" : session.past?.trouble;
+  if (trouble) captions.say(trouble, t, true);
+}
+
 function picture(): void {
   requestAnimationFrame(picture);
   const t = now();
   if (t < notBefore) return;
-  const pair = session.playhead.at(t, session.paused ? 1 : (session.world?.speed ?? 1));
+  const [moment, other] = moments(t);
+  const people = moment?.people ?? session.people;
+  if (populated !== people) {
+    scene?.populate(people.values());
+    populated = people;
+  }
+  const seen = chosen && (people.get(chosen.index)?.name === chosen.name ? people.get(chosen.index) : undefined);
+  panel.view(seen);
   scene?.prepare(
-    pair && { before: indexed(pair.before), after: indexed(pair.after), share: pair.share },
+    moment && { before: indexed(moment.before), after: indexed(moment.after), share: moment.share },
     shown,
-    chosen,
+    seen,
   );
-  if (pair) obstacles.place(pair.before, pair.after, pair.share);
-  if (pair && reframed !== session.people.size) {
+  if (moment) obstacles.place(moment.before, moment.after, moment.share);
+  if (moment && reframed !== session.people.size) {
     reframed = session.people.size;
     scene?.frameAllOnce();
   }
-  label();
+  const drawn = ["live", "reconnecting"].includes(session.phase.kind);
+  labels.update(drawn ? people.values() : [], chosen?.name, scene);
   if (t - plotsAt > 0.066) {
     plotsAt = t;
-    const words = t - wordsAt > 0.25;
-    if (words) wordsAt = t;
-    panel.update(t, words);
-    if (words) readLoad();
-    captions.update(session.people.values(), lastFrame?.timeS ?? 0, t);
-    fallen.update(session.people.values(), (p) => session.says(p, "FALLEN"), chosen);
-    const time = `${(lastFrame?.timeS ?? 0).toFixed(1)} s`;
+    const due = t - wordsAt > 0.25;
+    if (due) wordsAt = t;
+    panel.update(t, due);
+    if (due) words(moment, t);
+    const at = moment?.time ?? 0;
+    captions.update(people.values(), timeline.shown === undefined ? (lastFrame?.timeS ?? 0) : at, t);
+    // Only the present can be helped.
+    fallen.update(timeline.shown === undefined ? people.values() : [], (p) => session.says(p, "FALLEN"), chosen);
+    const time = `${(people === session.people ? (lastFrame?.timeS ?? 0) : at).toFixed(1)} s`;
     const clock = get("clock", HTMLOutputElement);
     if (clock.textContent !== time) clock.textContent = time;
   }
   const script = (now() - t) * 1000;
   scene?.draw3d();
+  if (beside.open && scene) beside.draw(other, shown, chosen?.name, scene, besideLeads);
   const took = now() - t;
   if (took > SLOW_S) notBefore = t + 2 * Math.min(took, 0.5);
   scripted += 0.05 * (script - scripted);
@@ -789,9 +776,11 @@ function picture(): void {
   document.body.dataset.script = scripted.toFixed(2);
   document.body.dataset.drawn = String(scene?.drawn ?? 0);
   document.body.dataset.cost = cost.toFixed(2);
+  document.body.dataset.shown = `${moment?.time.toFixed(2)} ${moment?.exact}`;
+  document.body.dataset.beside = beside.open ? `${other?.time.toFixed(2)} ${other?.exact}` : "";
 }
 
 bar.dataset.ready = "true";
 showPhase(session.phase);
-session.show(address.world);
+start();
 requestAnimationFrame(picture);

@@ -133,6 +133,15 @@ export class Playhead {
     this.time = NaN;
   }
 
+  /** The two frames around a moment (s) and the share of the second, if it is as young as that. */
+  around(time: number): { before: WorldFrame; after: WorldFrame; share: number } | undefined {
+    const i = this.frames.findIndex((f) => f.timeS >= time);
+    if (i < 0 || (i === 0 && this.frames[0].timeS > time)) return undefined;
+    const [before, after] = [this.frames[Math.max(0, i - 1)], this.frames[i]];
+    const span = after.timeS - before.timeS;
+    return { before, after, share: span > 0 ? (time - before.timeS) / span : 1 };
+  }
+
   /** The two frames around the moment to draw at wall time `now` (s) and the share of the second. */
   at(now: number, speed: number): { before: WorldFrame; after: WorldFrame; share: number } | undefined {
     const newest = this.newest();

@@ -218,7 +218,7 @@ export class Panel {
     push.addEventListener("click", () => this.wishes.forChosen((p) => this.push(p)));
     const stand = button("Stand up", {
       id: "stand",
-      title: "Puts the figure back on its feet and starts its clip again (R)",
+      title: "Puts the figure back on its feet and starts its clip again (U)",
     });
     stand.addEventListener("click", () => this.wishes.forChosen((p) => this.session.standUp(p)));
     const add = button("Add figure", { id: "add" });
@@ -356,11 +356,19 @@ export class Panel {
     );
   }
 
-  private person: Person | undefined;
+  /** The chosen figure as it is at the moment that is shown. */
+  private seen: Person | undefined;
+
+  /** Shows this figure's state and torques: the chosen one, as it was. */
+  view(person: Person | undefined): void {
+    if (person === this.seen) return;
+    this.seen = person;
+    this.busiestAt = 0;
+  }
 
   /** Pushes a figure as the controls say. */
-  push(p: Person): Promise<void> {
-    if (!this.session.world) return Promise.resolve();
+  push(p: Person, of = this.session): Promise<void> {
+    if (!of.world) return Promise.resolve();
     const size = Number(this.impulse.value);
     const [x, y] = DIRECTIONS.find(([d]) => d === this.direction.value)?.[2] ?? [1, 0];
     const yaw = p.figure.placement?.yawRad ?? 0;
@@ -369,9 +377,9 @@ export class Panel {
       y: size * (x * Math.sin(yaw) + y * Math.cos(yaw)),
       z: 0,
     };
-    return this.session.api.perturbations
+    return of.api.perturbations
       .applyPerturbations({
-        world: this.session.world.name,
+        world: of.world.name,
         perturbations: [
           {
             figureId: p.name,
@@ -409,7 +417,6 @@ export class Panel {
 
   /** Brings what can be chosen up to date. */
   lists(person: Person | undefined): void {
-    this.person = person;
     const people = [...this.session.people.values()];
     const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.figure : undefined;
     this.figures.replaceChildren(
@@ -522,7 +529,7 @@ export class Panel {
 
   /** Words and plots, a few times a second. */
   update(now: number, words: boolean): void {
-    const p = this.person;
+    const p = this.seen;
     if (words) {
       const facts = p && this.describe(p);
       for (const [key] of FACTS) {

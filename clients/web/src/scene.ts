@@ -274,7 +274,7 @@ class Actor {
   private readonly touchable: Touchable;
 
   constructor(
-    readonly person: Person,
+    public person: Person,
     look: (typeof LOOKS)["light"],
   ) {
     const geometry = surface(person.body);
@@ -581,6 +581,8 @@ export class Scene {
   private preparedAt = NaN;
   /** Pictures drawn with a figure in them. */
   drawn = 0;
+  /** Whether a drag on a figure pushes it: not in the past. */
+  pushable = true;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -675,7 +677,12 @@ export class Scene {
   populate(people: Iterable<Person>): void {
     const wanted = new Map([...people].map((p) => [p.index, p]));
     for (const [index, actor] of this.actors) {
-      if (wanted.get(index) === actor.person) continue;
+      const person = wanted.get(index);
+      // The same figure at another time is drawn with the same surfaces.
+      if (person?.body === actor.person.body && person.name === actor.person.name) {
+        actor.person = person;
+        continue;
+      }
       this.scene.remove(actor.group);
       actor.dispose();
       this.actors.delete(index);
@@ -783,6 +790,13 @@ export class Scene {
     this.orbit.update();
   }
 
+  /** Looks from where another scene looks. */
+  takeView(other: Scene): void {
+    this.moved = true;
+    this.camera.position.copy(other.camera.position);
+    this.orbit.target.copy(other.orbit.target);
+  }
+
   /** Puts everything where one picture has it. */
   prepare(
     frames: { before: Map<number, FigureFrame>; after: Map<number, FigureFrame>; share: number } | undefined,
@@ -874,6 +888,7 @@ export class Scene {
     if (!found) return;
     const { actor, touch } = found;
     const { person } = actor;
+    if (!this.pushable) return this.on.choose(person);
     const pointer = new THREE.Vector2(e.clientX, e.clientY);
     this.push = {
       actor,

@@ -1,10 +1,12 @@
 // One world as it is on the server: its figures, frames and events; connects again by itself.
 import { Code, ConnectError } from "@connectrpc/connect";
 import { isConnectionLoss, message, numbers, type Sinew } from "./client.js";
+import { Past } from "./history.js";
 import type { Body } from "./gen/sinew/v1/body_pb.js";
 import type { WorldFrame } from "./gen/sinew/v1/frame_pb.js";
 import type { Event, Roster } from "./gen/sinew/v1/state_pb.js";
 import type { Clip } from "./gen/sinew/v1/motion_pb.js";
+import type { Role } from "./gen/sinew/v1/options_pb.js";
 import { WorldState, type World } from "./gen/sinew/v1/world_pb.js";
 import { Person, Playhead } from "./model.js";
 
@@ -22,6 +24,10 @@ const FIELDS = ["segment_transforms", "torque", "torque_limits", "contacts", "ba
 const FIRST_RETRY_MS = 250;
 const LONGEST_RETRY_MS = 3000;
 
+/** The pasts of the worlds that this page has shown last: whoever comes back to one finds its frames. */
+const pasts = new Map<string, Past>();
+const MOST_PASTS = 2;
+
 export class Session {
   readonly people = new Map<number, Person>();
   readonly playhead = new Playhead();
@@ -33,6 +39,10 @@ export class Session {
   capabilities: string[] = [];
   flagNames: string[] = [];
   phase: Phase = { kind: "connecting" };
+  /** Who is in the newest frames. */
+  roster: Roster | undefined;
+  /** The last minutes of the world. */
+  past: Past | undefined;
   private watching = new AbortController();
   private generation = 0;
 
@@ -58,8 +68,21 @@ export class Session {
     this.watching = new AbortController();
     this.playhead.clear();
     this.people.clear();
+    this.past = undefined;
+    this.roster = undefined;
     this.enter({ kind: "connecting" });
     void this.keep(wanted, generation, this.watching.signal);
+  }
+
+  /** Shows nothing any more. */
+  end(): void {
+    this.generation++;
+    this.watching.abort();
+    this.playhead.clear();
+    this.people.clear();
+    this.world = undefined;
+    this.past = undefined;
+    this.roster = undefined;
   }
 
   private enter(phase: Phase): void {
@@ -123,6 +146,8 @@ export class Session {
 
   private async watch(name: string, signal: AbortSignal, alive: () => void): Promise<void> {
     this.world = (await this.api.worlds.getWorld({ name }, { signal })).world;
+    this.past = this.world && this.pastOf(this.world);
+    void this.past?.look();
     this.changed("world");
     const crowd = (this.world?.figureCount ?? 0) > CROWD;
     const view = { fields: { paths: FIELDS }, rateDivisor: crowd ? 2 : 1 };
@@ -134,6 +159,7 @@ export class Session {
     try {
       for await (const { message: m } of this.api.state.watchWorld({ world: name, view }, { signal })) {
         if (m.case === "roster") {
+          this.roster = m.value;
           await this.enroll(m.value);
           if (this.phase.kind !== "live" && !this.people.size) this.enter({ kind: "empty" });
         } else if (m.case === "frame") {
@@ -155,7 +181,10 @@ export class Session {
   private async listen(world: string, signal: AbortSignal): Promise<void> {
     try {
       for await (const { events } of this.api.state.watchEvents({ world }, { signal }))
-        for (const e of events) this.happened(e);
+        for (const e of events) {
+          if (this.world?.name === world) this.past?.happened(e);
+          this.happened(e);
+        }
     } catch {
       // The watch of frames ends with the same cause and says so.
     }
@@ -182,9 +211,26 @@ export class Session {
     this.changed("roster");
   }
 
+  private pastOf(world: World): Past {
+    // A world of the same name may be another one.
+    const key = `${world.name} ${world.createTime?.seconds} ${world.createTime?.nanos}`;
+    const past = pasts.get(key) ?? new Past(this.api, world.name, FIELDS);
+    pasts.delete(key);
+    pasts.set(key, past);
+    for (const oldest of pasts.keys()) if (pasts.size > MOST_PASTS) pasts.delete(oldest);
+    return past;
+  }
+
+  /** The roles of this page in the world, those that others contain included. */
+  async roles(): Promise<Set<Role>> {
+    const { roles } = await this.api.access.getCaller({ world: this.world?.name ?? "" });
+    return new Set(roles);
+  }
+
   private readonly described = new Map<string, Promise<Body>>();
 
-  private body(name: string): Promise<Body> {
+  /** The description of a body. */
+  body(name: string): Promise<Body> {
     let body = this.described.get(name);
     if (!body) {
       body = this.api.bodies.getBody({ name, includeGeometry: true }).then((r) => {
@@ -200,6 +246,7 @@ export class Session {
   private take(frame: WorldFrame): void {
     const last = this.playhead.newest();
     this.playhead.push(frame);
+    if (this.roster) this.past?.add(frame, this.roster);
     // A paused world sends its tick again when a figure was changed.
     for (const f of frame.figures) this.people.get(f.figureIndex)?.take(f, frame.timeS);
     if (last?.tick !== frame.tick) this.framed(frame);

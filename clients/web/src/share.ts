@@ -22,6 +22,10 @@ export interface Address {
   camera: number[] | undefined;
   follow: boolean;
   figures: Cast[];
+  /** World that is shown beside it; empty: none. */
+  beside: string;
+  /** Tick at which both parted. */
+  since: number;
 }
 
 /** One figure of an address. */
@@ -72,6 +76,8 @@ export function write(a: Address): string {
   if (a.hide.length) q.set("hide", a.hide.join("."));
   if (a.camera) q.set("camera", a.camera.join("_"));
   if (a.follow) q.set("follow", "1");
+  if (a.beside) q.set("beside", a.beside);
+  if (a.beside) q.set("since", String(a.since));
   for (const c of a.figures)
     q.append(
       "f",
@@ -129,6 +135,8 @@ export function read(text: string): Address {
     camera: camera?.every(Number.isFinite) ? camera : undefined,
     follow: q.get("follow") === "1",
     figures,
+    beside: name("beside"),
+    since: Math.max(0, Math.trunc(Number(q.get("since") ?? 0)) || 0),
   };
 }
 

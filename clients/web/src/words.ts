@@ -53,6 +53,49 @@ export function event(e: Event): { text: string; grave: boolean } | undefined {
   }
 }
 
+/** Kinds of marks on the time line; each has a shape of its own. */
+export type MarkKind = "fall" | "push" | "clip" | "mass" | "world";
+
+/** What a mark on the time line says, and its kind; nothing for what is not worth one. */
+export function mark(e: Event): { kind: MarkKind; text: string } | undefined {
+  const { figureId: figure } = e;
+  const clip = e.detail.replace(/^clips\//, "");
+  switch (e.type) {
+    case EventType.BALANCE_LOST:
+      return { kind: "fall", text: `${figure} loses balance` };
+    case EventType.FELL:
+      return { kind: "fall", text: `${figure} falls` };
+    case EventType.QUARANTINED:
+      return { kind: "fall", text: `${figure} is frozen` };
+    case EventType.PUSHED:
+      return { kind: "push", text: `${figure} is pushed: ${e.impulseNewtonSeconds.toFixed(0)} N·s` };
+    case EventType.CLIP_BEGAN:
+      return { kind: "clip", text: `${figure} begins “${clip}”` };
+    case EventType.DRIVE_BEGAN:
+      return { kind: "clip", text: `${figure} is driven live` };
+    case EventType.LOAD_TAKEN:
+      return { kind: "mass", text: `${figure} takes ${kilograms(e.massKg)}` };
+    case EventType.LOAD_DROPPED:
+      return { kind: "mass", text: `${figure} puts down ${kilograms(e.massKg)}` };
+    case EventType.LOAD_SLIPPED:
+      return { kind: "mass", text: `${figure} drops ${kilograms(e.massKg)}` };
+    case EventType.FIGURE_ADDED:
+      return { kind: "world", text: `${figure} is added` };
+    case EventType.FIGURE_REMOVED:
+      return { kind: "world", text: `${figure} is removed` };
+    case EventType.OBSTACLE_ADDED:
+    case EventType.OBSTACLE_REMOVED:
+      return {
+        kind: "world",
+        text: `obstacle ${e.other} is ${e.type === EventType.OBSTACLE_ADDED ? "added" : "removed"}`,
+      };
+    case EventType.WORLD_RESTORED:
+      return { kind: "world", text: "the world was rewound to this moment" };
+    default:
+      return undefined;
+  }
+}
+
 /** What a figure does, from its flags. */
 export function state(has: (flag: string) => boolean): string {
   const base = has("QUARANTINED")

@@ -88,7 +88,7 @@ test("a push fells the figure, and it stands up again", async ({ page, server })
   const message = page.locator("#fallen li").filter({ hasText: /^man has fallen/ });
   await expect(message).toHaveCount(1);
   await shot(page, "fall");
-  await page.keyboard.press("r");
+  await page.keyboard.press("u");
   await expect(fact(page, "state")).toHaveText("standing");
   await expect(message).toHaveCount(0);
 });
@@ -211,11 +211,11 @@ test("everything can be done with the keyboard alone", async ({ page, server }) 
   await expect.poll(() => page.url()).toContain("camera=");
   await page.keyboard.press("g");
   await expect(page.locator("#show-ghost")).not.toBeChecked();
-  await page.keyboard.press("r");
+  await page.keyboard.press("u");
   await expect(fact(page, "state")).toHaveText("standing");
   // Every control is reached by Tab.
   const reached = new Set<string>();
-  for (let i = 0; i < 64; i++) {
+  for (let i = 0; i < 72; i++) {
     await page.keyboard.press("Tab");
     reached.add(await page.evaluate(() => document.activeElement?.id ?? ""));
   }
@@ -241,6 +241,9 @@ test("everything can be done with the keyboard alone", async ({ page, server }) 
     "follow",
     "fit",
     "hint-close",
+    "time",
+    "rewind",
+    "branch",
   ])
     expect(reached, id).toContain(id);
 });
