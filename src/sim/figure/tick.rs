@@ -235,7 +235,8 @@ impl Figure {
         disturbances.check_grip(world.time(), world.dt, terms, world.gravity, bar);
         let acceleration = self.physical.com_acceleration;
         support.update(terms, &self.setup.body, acceleration, world.gravity);
-        support.rest_on(touches.rests(terms, least));
+        let pull = acceleration + Vec3::Z * world.gravity;
+        support.rest_on(touches.rests(terms, least), terms.com, pull);
         self.watch_balance(world);
     }
 

@@ -62,15 +62,16 @@ impl Support {
     /// * `com_acceleration`: c̈ over the last tick, world, m/s² (zero at the start).
     /// * `gravity`: magnitude, m/s².
     ///
-    /// No allocation for bodies with at most [`MAX_CONTACTS`] contact points.
+    /// What carries besides the floor counts after [`Self::rest_on`]. No allocation for bodies with at most [`MAX_CONTACTS`] contact points.
     pub fn update(&mut self, terms: &Terms, body: &Body, com_acceleration: Vec3, gravity: f64) {
         self.contacts.update(terms, body);
         let points = self.contacts.points();
-        self.ratio = ratio::support_ratios(points, terms.com, com_acceleration, gravity);
+        let pull = com_acceleration + Vec3::Z * gravity;
+        self.ratio = ratio::support_ratios(points.iter().map(Into::into), terms.com, pull);
         // Ratios (2) hardly tell a foot that carries everything from one that carries nothing; S follows statics
         // instead.
         self.load = [0.0; SEGMENT_COUNT];
-        let force = (com_acceleration + Vec3::Z * gravity) * terms.mass;
+        let force = pull * terms.mass;
         if self
             .sharing
             .set_balanced(points, &self.ratio, &[false; MAX_CONTACTS])
@@ -92,10 +93,18 @@ impl Support {
         self.polygon.reduce_thin();
     }
 
-    /// Adds what the figure leans on besides the floor. Seats and tables widen the polygon: as far as balance goes,
-    /// what is over them is carried. Call after [`Self::update`]. Allocates nothing for up to [`MAX_TOUCHES`] of them.
-    pub fn rest_on(&mut self, rests: impl Iterator<Item = Rest>) {
+    /// Adds what the figure leans on besides the floor: each gets its ratio (2). Seats and tables widen the polygon: as
+    /// far as balance goes, what is over them is carried. Call after [`Self::update`]. Allocates nothing for up to
+    /// [`MAX_TOUCHES`] of them.
+    ///
+    /// * `com`: world, m. `pull`: a_m = c̈ − g, world axes, m/s².
+    pub fn rest_on(&mut self, rests: impl Iterator<Item = Rest>, com: Vec3, pull: Vec3) {
         self.rests.extend(rests.take(MAX_TOUCHES));
+        if !self.rests.is_empty() {
+            let floor = self.contacts.points().iter().map(Into::into);
+            let all = floor.chain(self.rests.iter().map(Into::into));
+            self.ratio = ratio::support_ratios(all, com, pull);
+        }
         if self.rests.iter().any(Rest::is_level) {
             let level = self.rests.iter().filter(|r| r.is_level());
             let floor = self.contacts.points().iter().map(|p| p.position);
@@ -135,7 +144,7 @@ impl Support {
         self.contacts.points()
     }
 
-    /// Support ratio (2) per segment; 0 where it does not support.
+    /// Support ratio (2) per segment, on the floor and on what it rests on; 0 where it does not support.
     pub fn ratio(&self) -> &[f64; SEGMENT_COUNT] {
         &self.ratio
     }

@@ -1,8 +1,9 @@
 //! Support ratios, Eq. (2): which support carries most, and which one is taken as the root.
 
 use super::contact_set::SupportPoint;
+use super::rest::Rest;
 use crate::sim::body::{SEGMENT_COUNT, SegmentId};
-use crate::sim::math::{Vec3, vec3::vec3};
+use crate::sim::math::Vec3;
 
 /// The main support is kept while its share is within this much of the largest (else it flickers in symmetric stance).
 pub const MAIN_HYSTERESIS: f64 = 0.1;
@@ -10,31 +11,65 @@ pub const MAIN_HYSTERESIS: f64 = 0.1;
 /// Shares that differ by less are equal; the first support is taken then.
 const TIE: f64 = 1e-9;
 
+/// Something that a segment touches: the floor, a slope, a table, a wall, somebody else.
+#[derive(Clone, Copy, Debug)]
+pub struct Touching {
+    /// The support that it counts for.
+    pub support: SegmentId,
+    /// World, m.
+    pub position: Vec3,
+    /// Unit vector out of the surface, world axes.
+    pub normal: Vec3,
+}
+
+impl From<&SupportPoint> for Touching {
+    /// On the floor.
+    fn from(point: &SupportPoint) -> Self {
+        Self {
+            support: point.support,
+            position: point.position,
+            normal: Vec3::Z,
+        }
+    }
+}
+
+impl From<&Rest> for Touching {
+    fn from(rest: &Rest) -> Self {
+        Self {
+            support: rest.segment,
+            position: rest.position,
+            normal: rest.normal,
+        }
+    }
+}
+
 /// Ratios of all supports, Eq. (2), normalised to a sum of 1.
 ///
-/// α_i = max(0, (a_m·l̂_i)(n·l̂_i)), l_i from the contact centroid to the centre of mass. `a_m` includes gravity,
-/// `a_m = c̈ − g`: without it every ratio of a resting figure is zero.
+/// α_i = max(0, (a_m·l̂_i)(n_i·l̂_i)), l_i from the centroid of the support's contacts to the centre of mass, n_i the mean
+/// of their normals. `a_m` includes gravity, `a_m = c̈ − g`: without it every ratio of a resting figure is zero.
 ///
-/// * `com`: world, m. `com_acceleration`: c̈ of the last tick, m/s². `gravity`: magnitude, m/s².
+/// * `com`: world, m. `pull`: a_m, world axes, m/s².
 /// * Returns one number per segment, 0 where it does not support. Equal shares if every α is zero.
 pub fn support_ratios(
-    points: &[SupportPoint],
+    contacts: impl Iterator<Item = Touching>,
     com: Vec3,
-    com_acceleration: Vec3,
-    gravity: f64,
+    pull: Vec3,
 ) -> [f64; SEGMENT_COUNT] {
-    let (mut sum, mut count) = ([Vec3::zero(); SEGMENT_COUNT], [0.0; SEGMENT_COUNT]);
-    for p in points {
-        sum[p.support.index()] += p.position;
-        count[p.support.index()] += 1.0;
+    let mut count = [0.0; SEGMENT_COUNT];
+    let (mut sum, mut normals) = ([Vec3::zero(); SEGMENT_COUNT], [Vec3::zero(); SEGMENT_COUNT]);
+    for c in contacts {
+        let s = c.support.index();
+        sum[s] += c.position;
+        normals[s] += c.normal;
+        count[s] += 1.0;
     }
-    let pull = com_acceleration + vec3(0.0, 0.0, gravity);
     let mut ratio = [0.0; SEGMENT_COUNT];
     let (mut total, mut supports) = (0.0, 0.0);
     for s in 0..SEGMENT_COUNT {
         if count[s] > 0.0 {
-            let l = (com - sum[s] * (1.0 / count[s])).normalized_or(Vec3::Z);
-            ratio[s] = (pull.dot(l) * l.z).max(0.0); // Eq. 2, floor normal z
+            let normal = normals[s].normalized_or(Vec3::Z);
+            let l = (com - sum[s] * (1.0 / count[s])).normalized_or(normal);
+            ratio[s] = (pull.dot(l) * normal.dot(l)).max(0.0); // Eq. 2
             total += ratio[s];
             supports += 1.0;
         }

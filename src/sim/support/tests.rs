@@ -1,10 +1,12 @@
 //! Supports of whole figures: statics, cart-table, Eq. (3) two ways, tipping of boxes and feet.
 
+use super::ratio::{Touching, support_ratios};
 use super::testing::{GRAVITY, Rng, mannequin, random_stance, random_state, standing, terms};
 use super::zmp::{FootLoad, foot_ground_wrench, foot_zmp};
 use super::*;
-use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_SHANK};
+use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_HAND, R_SHANK};
 use crate::sim::body::{Links, State};
+use crate::sim::math::Quat;
 use crate::sim::math::vec3::vec3;
 
 fn supported(state: &State) -> (Terms, Support) {
@@ -33,6 +35,80 @@ fn standing_figure_has_two_supports_with_equal_ratios() {
     assert!((s.ratio()[L_FOOT.index()] - 0.5).abs() < 1e-12);
     assert_eq!(s.main(), Some(L_FOOT));
     assert!(s.polygon().has_area());
+}
+
+/// Equation (2) of the paper, on planes of any slope: written with angles, and turned with everything in it.
+#[test]
+fn ratios_follow_the_normal_of_each_support() {
+    let mut rng = Rng::new(2);
+    let mut vector = |size: f64| {
+        let mut part = || size * rng.unit();
+        vec3(part(), part(), part())
+    };
+    let angle = |a: Vec3, b: Vec3| a.cross(b).norm().atan2(a.dot(b));
+    for _ in 0..200 {
+        let (com, pull) = (vector(1.0), vector(5.0) + Vec3::Z * GRAVITY);
+        let supports = [L_FOOT, R_FOOT, R_HAND].map(|support| Touching {
+            support,
+            position: vector(1.0),
+            normal: vector(1.0).normalized_or(Vec3::Z),
+        });
+        let alpha = supports.map(|t| {
+            let l = com - t.position;
+            (pull.norm() * angle(pull, l).cos() * angle(t.normal, l).cos()).max(0.0)
+        });
+        let total: f64 = alpha.iter().sum();
+        let ratio = support_ratios(supports.into_iter(), com, pull);
+        let turn = Quat::from_axis_angle(vector(1.0).normalized_or(Vec3::X), 1.0 + vector(1.0).x);
+        let turned = supports.map(|t| Touching {
+            position: turn.rotate(t.position),
+            normal: turn.rotate(t.normal),
+            ..t
+        });
+        let again = support_ratios(turned.into_iter(), turn.rotate(com), turn.rotate(pull));
+        for (t, a) in supports.iter().zip(alpha) {
+            let s = t.support.index();
+            let expected = if total > 1e-6 { a / total } else { ratio[s] };
+            assert!(
+                (ratio[s] - expected).abs() < 1e-9,
+                "{} {expected}",
+                ratio[s]
+            );
+            assert!((ratio[s] - again[s]).abs() < 1e-9);
+        }
+        assert!((ratio.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Equation (2) of the paper: the hand on the wall of figure 3.
+#[test]
+fn who_moves_towards_a_wall_leans_more_on_the_hand_on_it() {
+    let (t, _) = supported(&standing(&mannequin()));
+    let hand = Rest {
+        segment: R_HAND,
+        position: t.com + vec3(0.5, -0.2, -0.1),
+        normal: -Vec3::X,
+        force: -Vec3::X * 50.0,
+        lift: 0.0,
+    };
+    let mut before = 0.0;
+    for step in 0..8 {
+        let com = t.com + Vec3::X * (0.05 * f64::from(step));
+        let (_, mut s) = supported(&standing(&mannequin()));
+        s.rest_on(std::iter::once(hand), com, Vec3::Z * GRAVITY);
+        let ratio = s.ratio()[R_HAND.index()];
+        assert!(ratio > before, "{step}: {ratio} {before}");
+        before = ratio;
+    }
+    // A surface that faces away carries nothing.
+    let behind = Rest {
+        normal: Vec3::X,
+        ..hand
+    };
+    let (_, mut s) = supported(&standing(&mannequin()));
+    s.rest_on(std::iter::once(behind), t.com, Vec3::Z * GRAVITY);
+    assert_eq!(s.ratio()[R_HAND.index()], 0.0);
+    assert!((s.ratio()[L_FOOT.index()] - 0.5).abs() < 1e-12);
 }
 
 #[test]
