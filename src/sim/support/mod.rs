@@ -62,7 +62,9 @@ impl Support {
     /// * `com_acceleration`: c̈ over the last tick, world, m/s² (zero at the start).
     /// * `gravity`: magnitude, m/s².
     ///
-    /// What carries besides the floor counts after [`Self::rest_on`]. No allocation for bodies with at most [`MAX_CONTACTS`] contact points.
+    /// What carries besides the floor counts after [`Self::rest_on`].
+    ///
+    /// No allocation for bodies with at most [`MAX_CONTACTS`] contact points.
     pub fn update(&mut self, terms: &Terms, body: &Body, com_acceleration: Vec3, gravity: f64) {
         self.contacts.update(terms, body);
         let points = self.contacts.points();

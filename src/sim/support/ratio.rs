@@ -45,8 +45,8 @@ impl From<&Rest> for Touching {
 
 /// Ratios of all supports, Eq. (2), normalised to a sum of 1.
 ///
-/// α_i = max(0, (a_m·l̂_i)(n_i·l̂_i)), l_i from the centroid of the support's contacts to the centre of mass, n_i the mean
-/// of their normals. `a_m` includes gravity, `a_m = c̈ − g`: without it every ratio of a resting figure is zero.
+/// α_i = max(0, (a_m·l̂_i)(n_i·l̂_i)), l_i from the centroid of the support's contacts to the centre of mass, n_i the
+/// mean of their normals. `a_m` includes gravity, `a_m = c̈ − g`: without it every ratio of a resting figure is zero.
 ///
 /// * `com`: world, m. `pull`: a_m, world axes, m/s².
 /// * Returns one number per segment, 0 where it does not support. Equal shares if every α is zero.
