@@ -15,19 +15,23 @@ use common::{
 use sinew::sim::body::topology::{L_HAND, PELVIS, R_HAND};
 use sinew::sim::body::{Body, Profile, Sex};
 use sinew::sim::collide::{Mobility, Shape};
+use sinew::sim::figure::rehearsed::Stage;
 use sinew::sim::figure::{
     Constrained, Constraint, ControllerKind, FigureOptions, HeldLoad, LatePlans, Perturbation,
-    Planning, StepperKind,
+    Planning, StepperKind, StrengthScale,
 };
 use sinew::sim::math::Vec3;
 use sinew::sim::math::vec3::vec3;
 use sinew::sim::motion::{Bvh, Clip};
 use sinew::sim::plan::stream::{RATE, StreamPlan};
+use sinew::sim::rehearsal::{Problem, Settings, rehearse};
 use sinew::sim::retarget::{RetargetOptions, retarget};
 use sinew::sim::world::checkpoint::{
     Checkpoint, CheckpointError, DefinitionHash, Definitions, FORMAT,
 };
-use sinew::sim::world::{ClipPlayback, Drive, FigureKey, LivePlayback, World, WorldParams};
+use sinew::sim::world::{
+    ClipPlayback, Drive, FigureKey, LivePlayback, RehearsedPlayback, World, WorldParams,
+};
 use std::sync::Arc;
 
 /// A world, what is done to it before each tick, and when to look.
@@ -245,6 +249,49 @@ fn transitions() -> Scenario {
 #[test]
 fn transitions_between_motions() {
     goes_on_bit_for_bit(transitions());
+}
+
+#[test]
+fn a_rehearsed_motion_and_what_comes_after_it() {
+    let body = man();
+    let clip = authored(&body, "squat");
+    let params = WorldParams::default();
+    let stage = Stage {
+        dt: 1.0 / params.rate_hz,
+        substeps: params.substeps,
+        gravity: params.gravity,
+    };
+    let problem = Problem::new(
+        Arc::clone(&body),
+        &StrengthScale::default(),
+        params.friction,
+        stage,
+    );
+    let mut settings = Settings::default();
+    (settings.trials.samples, settings.trials.budget) = (12, 12);
+    let found = rehearse(&problem, &clip, &settings, 2, &[], &mut |_| true).unwrap();
+    let motion = Arc::new(found.motion);
+    let mut scene = Scene::of(figure(&body, ControllerKind::Modern, motion.start()));
+    let play = RehearsedPlayback::new(Arc::clone(&motion), 0.0);
+    scene.figure_mut().set_drive(Drive::Rehearsed(play));
+    // Held back on its path, then pushed out of reach.
+    let gentle = push(vec3(60.0, 0.0, 0.0), 0.2);
+    scene.world.perturb(scene.key, gentle).unwrap();
+    let ticks = motion.ticks() as u64 + 60;
+    let scenario = Scenario::new("rehearsed", scene.world, ticks, 29);
+    goes_on_bit_for_bit(scenario.with(&[13, 14, 15], |world, tick| {
+        if tick == 60 {
+            let key = world.figures().next().unwrap().0;
+            let hard = Perturbation::Force {
+                segment: PELVIS,
+                point: vec3(0.0, 0.0, 0.0),
+                force: vec3(900.0, 0.0, 0.0),
+                from: 1.0,
+                to: 1.5,
+            };
+            world.perturb(key, hard).unwrap();
+        }
+    }));
 }
 
 #[test]

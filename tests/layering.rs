@@ -29,6 +29,7 @@ const PARTS: &[(&str, &[&str])] = &[
 /// `saved` helps the derives of all of them to write a checkpoint.
 const SIM: &[&[&str]] = &[
     &["world"],
+    &["rehearsal"],
     &["figure"],
     &["track", "get_up"],
     &["control"],
@@ -86,6 +87,7 @@ const TICK_MODULES: &[&str] = &[
     "sim::track",
     "sim::get_up",
     "sim::plan::stream",
+    "sim::rehearsal",
     "sim::world",
 ];
 

@@ -283,6 +283,7 @@ fn conditions() -> Conditions {
         options: FigureOptions::default(),
         perturbations: Vec::new(),
         live_window: None,
+        rehearsed: None,
     }
 }
 
@@ -302,6 +303,7 @@ fn row(reference: &Reference) -> Row {
             forecast: Default::default(),
             outcome: run(&conditions(), reference).unwrap(),
             copies: None,
+            followed: None,
         }),
     }
 }

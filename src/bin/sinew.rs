@@ -39,6 +39,8 @@ enum Command {
     Run(Box<cli::run::RunArgs>),
     /// Run every clip of a corpus, judge it by published rules, and compare with an earlier survey
     Survey(Box<cli::survey::SurveyArgs>),
+    /// Find out what has to be added to a motion, or how much help it takes, so that a figure does it
+    Rehearse(Box<cli::rehearse::RehearseArgs>),
     /// Report how recordings fit the body: what was found, estimated and changed
     Lint(cli::lint::LintArgs),
     /// Fit a recording to the body and write the prepared motion
@@ -70,6 +72,7 @@ fn main() -> ExitCode {
         Some(Command::Grant(args)) => cli::grant::run(&args).map(Into::into),
         Some(Command::Run(args)) => cli::run::run(&args),
         Some(Command::Survey(args)) => cli::survey::run(&args).map(Into::into),
+        Some(Command::Rehearse(args)) => cli::rehearse::run(&args).map(Into::into),
         Some(Command::Lint(args)) => cli::lint::run(&args).map(Into::into),
         Some(Command::Convert(args)) => cli::convert::run(&args).map(Into::into),
         Some(Command::Paper(args)) => cli::paper::run(&args).map(Into::into),

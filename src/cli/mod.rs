@@ -18,6 +18,7 @@ pub mod output;
 pub mod page;
 pub mod paper;
 pub mod push;
+pub mod rehearse;
 pub mod run;
 pub mod serve;
 pub mod source;

@@ -8,6 +8,8 @@ mod push;
 
 use super::args::{BodyArgs, LoadSpec};
 use super::output::write;
+use super::rehearse::{FollowArg, HelpArgs};
+use crate::evaluate::follow::Follow;
 use crate::evaluate::survey::compare::compare;
 use crate::evaluate::survey::tables;
 use crate::sim::body::Body;
@@ -78,6 +80,13 @@ pub struct SurveyArgs {
     /// Streams each recording through a preparation window of 0.3 to 1 s instead of preparing it as a whole.
     #[arg(long, value_name = "S")]
     pub live_window: Option<f64>,
+    /// What may be done with a clip that plain tracking loses: nothing (strict), a rehearsal, or a rehearsal and as
+    /// little help as will do. Noise is then on the state that a rehearsed clip begins in.
+    #[arg(long, value_enum, default_value_t = FollowArg::Strict, conflicts_with_all = ["live_window", "assist"])]
+    pub follow: FollowArg,
+    /// Help and random numbers of rehearsals.
+    #[command(flatten)]
+    pub help: HelpArgs,
     /// Leave runs as they were recorded. Otherwise they are walked, slower and with shorter steps.
     #[arg(long)]
     pub keep_runs: bool,
@@ -185,6 +194,7 @@ fn say(text: &str) {
 }
 
 fn check(args: &SurveyArgs) -> Result<()> {
+    args.help.check()?;
     for (name, value, [low, high]) in [
         ("--strength", args.strength, [0.01, 100.0]),
         ("--percentile", args.percentile, [5.0, 95.0]),
@@ -247,7 +257,15 @@ fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_jso
         "noise_deg": args.noise.degrees,
     });
     match all {
-        serde_json::Value::Object(map) => map,
+        // Surveys of plain tracking are as they were before there was anything else.
+        serde_json::Value::Object(map) if args.follow == FollowArg::Strict => map,
+        serde_json::Value::Object(mut map) => {
+            let follow = Follow::from(args.follow).name();
+            map.insert("follow".to_owned(), follow.into());
+            map.insert("max_help".to_owned(), args.help.max_help.into());
+            map.insert("seed".to_owned(), args.help.seed.into());
+            map
+        }
         _ => unreachable!("it was written as an object"),
     }
 }

@@ -1,6 +1,6 @@
 //! Physics and control: pure, synchronous, without I/O, clock or logging.
 //!
-//! `world` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `retarget` ─► `plan` ─► `motion`, `support`
+//! `world` ─► `rehearsal` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `retarget` ─► `plan` ─► `motion`, `support`
 //! ─► `setup` ─► `strength` ─► `dynamics` ─► `report` ─► `touch` ─► `body` ─► `math` ─► `saved`.
 
 pub mod body;
@@ -14,6 +14,7 @@ pub mod math;
 pub mod motion;
 pub mod params;
 pub mod plan;
+pub mod rehearsal;
 pub mod report;
 pub mod retarget;
 pub mod saved;

@@ -7,11 +7,15 @@
 use super::SurveyArgs;
 use super::corpus::{Entry, Source};
 use crate::cli::args::LoadSpec;
-use crate::evaluate::forecast::forecast;
+use crate::cli::rehearse::{AS_RECORDED, FollowArg};
+use crate::evaluate::follow::{Found, RehearsalOptions, follow};
+use crate::evaluate::forecast::{Forecast, forecast};
 use crate::evaluate::noise::noisy;
 use crate::evaluate::survey::stats::short;
-use crate::evaluate::survey::{self, Conditions, Copies, Lacks, Measured, Outcome, Reference, Row};
-use crate::sim::body::{Body, Links};
+use crate::evaluate::survey::{
+    self, Conditions, Copies, Lacks, Measured, Outcome, Reference, RehearsedRun, Row,
+};
+use crate::sim::body::{Body, Links, State};
 use crate::sim::figure::{FigureOptions, Perturbation, StrengthScale};
 use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
 use crate::sim::motion::{Bvh, Clip};
@@ -32,7 +36,7 @@ use std::io::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 /// What came of one job.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -56,6 +60,14 @@ struct Line {
 struct Input {
     entry: Entry,
     bytes: Result<Vec<u8>, String>,
+    /// What was found for it and its copies, by whichever of them is first.
+    plan: OnceLock<Result<Plan, String>>,
+}
+
+/// How a clip is followed.
+struct Plan {
+    fitted: Fitted,
+    found: Found,
 }
 
 /// Runs everything that no partial file has, and puts the rows together in the order of the clips.
@@ -81,6 +93,7 @@ pub(super) fn run_all(
                     std::fs::read(path).map_err(|e| format!("cannot be read: {e}"))
                 }
             },
+            plan: OnceLock::new(),
         })
         .collect();
     let jobs: Vec<(usize, u32)> = (0..inputs.len())
@@ -241,7 +254,7 @@ fn keep(file: &Mutex<(File, std::io::Result<()>)>, key: &str, done: &Done) {
 fn one(args: &SurveyArgs, body: &Arc<Body>, input: &Input, copy: u32) -> Done {
     let work = || match &input.bytes {
         Err(why) => Err(anyhow!("{why}")),
-        Ok(bytes) => job(args, body, &input.entry.source, bytes, copy),
+        Ok(bytes) => job(args, body, input, bytes, copy),
     };
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(Ok(done)) => done,
@@ -266,39 +279,86 @@ struct Fitted {
 fn job(
     args: &SurveyArgs,
     body: &Arc<Body>,
-    source: &Source,
+    input: &Input,
     bytes: &[u8],
     copy: u32,
 ) -> Result<Done> {
-    let fitted = match source {
-        Source::Builtin(name) => {
-            let clip = builtin(body, name).with_context(|| {
-                format!(
-                    "no built-in motion is called {name:?}; there are {}",
-                    BUILTIN_NAMES.join(", ")
-                )
-            })?;
-            Fitted {
-                reference: Reference::authored(Arc::new(clip)),
-                prepared: None,
-            }
+    let source = &input.entry.source;
+    if args.follow != FollowArg::Strict {
+        let plan = input
+            .plan
+            .get_or_init(|| plan(args, body, source, bytes).map_err(|e| format!("{e:#}")));
+        let plan = plan.as_ref().map_err(|why| anyhow!("{why}"))?;
+        if copy == 0 {
+            return Ok(Done::Clip(Box::new(planned(args, body, plan, bytes)?)));
         }
-        Source::File(_) => fit(args, body, bytes, copy)?,
-    };
+        if let Some(motion) = &plan.found.motion {
+            let reference = &plan.fitted.reference;
+            let mut conditions = conditions(args, body, reference, (bytes, copy), 0.0);
+            conditions.rehearsed = Some(RehearsedRun {
+                motion: Arc::clone(motion),
+                from: disturbed(args, motion.start(), seed(bytes, copy, 0)),
+            });
+            let outcome = survey::run(&conditions, reference)?;
+            return Ok(Done::Copy(Box::new(outcome)));
+        }
+    }
+    let fitted = fitted(args, body, source, bytes, copy)?;
     let reference = &fitted.reference;
-    let loads: Vec<Perturbation> = (args.load.iter())
-        .map(|l| l.perturbation(body, f64::INFINITY))
-        .collect();
     let lead = match args.live_window {
         Some(_) => 0.0,
         None => reference.prepared.lead_in(),
     };
+    let conditions = conditions(args, body, reference, (bytes, copy), lead);
+    let outcome = survey::run(&conditions, reference)?;
+    if copy > 0 {
+        return Ok(Done::Copy(Box::new(outcome)));
+    }
+    let measured = measured(args, &conditions, &fitted, outcome);
+    Ok(Done::Clip(Box::new(measured)))
+}
+
+/// A built-in motion, or a recording fitted to the body.
+fn fitted(
+    args: &SurveyArgs,
+    body: &Body,
+    source: &Source,
+    bytes: &[u8],
+    copy: u32,
+) -> Result<Fitted> {
+    let Source::Builtin(name) = source else {
+        return fit(args, body, bytes, copy);
+    };
+    let clip = builtin(body, name).with_context(|| {
+        format!(
+            "no built-in motion is called {name:?}; there are {}",
+            BUILTIN_NAMES.join(", ")
+        )
+    })?;
+    Ok(Fitted {
+        reference: Reference::authored(Arc::new(clip)),
+        prepared: None,
+    })
+}
+
+/// Loads and pushes of a run whose clip begins `lead` seconds after its beginning, and all else that it depends on.
+/// Pushes belong to the clip's bytes and to the copy.
+fn conditions(
+    args: &SurveyArgs,
+    body: &Arc<Body>,
+    reference: &Reference,
+    (bytes, copy): (&[u8], u32),
+    lead: f64,
+) -> Conditions {
+    let loads: Vec<Perturbation> = (args.load.iter())
+        .map(|l| l.perturbation(body, f64::INFINITY))
+        .collect();
     let clip = (lead, lead + reference.recorded.duration());
     let pushes = args.push.iter().enumerate().map(|(k, push)| {
         let seed = seed(bytes, copy, k as u32 + 1);
         push.perturbation(body, args.push_duration, clip, seed)
     });
-    let conditions = Conditions {
+    Conditions {
         body: Arc::clone(body),
         world: WorldParams {
             rate_hz: args.rate,
@@ -316,17 +376,81 @@ fn job(
         },
         perturbations: loads.into_iter().chain(pushes).collect(),
         live_window: args.live_window,
-    };
-    let outcome = survey::run(&conditions, reference)?;
-    if copy > 0 {
-        return Ok(Done::Copy(Box::new(outcome)));
+        rehearsed: None,
     }
-    Ok(Done::Clip(Box::new(measured(
-        args,
-        &conditions,
-        &fitted,
-        outcome,
-    ))))
+}
+
+/// Finds out how a clip is followed, without pushes: nobody knows of them before.
+fn plan(args: &SurveyArgs, body: &Arc<Body>, source: &Source, bytes: &[u8]) -> Result<Plan> {
+    let fitted = fitted(args, body, source, bytes, 0)?;
+    let reference = &fitted.reference;
+    let as_recorded = match source {
+        Source::Builtin(_) => Arc::clone(&reference.recorded),
+        Source::File(_) => {
+            let bvh = Bvh::parse(bytes).context("not a BVH file")?;
+            let options = RetargetOptions {
+                preparation: AS_RECORDED,
+                ..RetargetOptions::default()
+            };
+            Arc::new(
+                retarget(&bvh, body, &options)
+                    .context("does not fit the body")?
+                    .clip,
+            )
+        }
+    };
+    let lead = reference.prepared.lead_in();
+    let mut conditions = conditions(args, body, reference, (bytes, 0), lead);
+    let is_load = |p: &Perturbation| p.load().is_some();
+    conditions.perturbations.retain(is_load);
+    let forecast = forecast_of(args, &conditions, &reference.prepared);
+    let options = RehearsalOptions {
+        follow: args.follow.into(),
+        most_help: args.help.max_help,
+        seed: args.help.seed,
+        ..RehearsalOptions::default()
+    };
+    let clip = (&*as_recorded, &forecast);
+    let found = follow(&conditions, reference, clip, &options, &mut |_| true)?;
+    Ok(Plan { fitted, found })
+}
+
+/// What is known of a clip whose way was found; with pushes it is run once more.
+fn planned(args: &SurveyArgs, body: &Arc<Body>, plan: &Plan, bytes: &[u8]) -> Result<Measured> {
+    let reference = &plan.fitted.reference;
+    let lead = match plan.found.motion {
+        Some(_) => 0.0,
+        None => reference.prepared.lead_in(),
+    };
+    let mut conditions = conditions(args, body, reference, (bytes, 0), lead);
+    conditions.rehearsed = plan.found.motion.as_ref().map(|m| RehearsedRun {
+        motion: Arc::clone(m),
+        from: m.start(),
+    });
+    let outcome = match args.push.is_empty() {
+        true => plan.found.outcome.clone(),
+        false => survey::run(&conditions, reference)?,
+    };
+    Ok(Measured {
+        followed: Some(plan.found.followed.clone()),
+        ..measured(args, &conditions, &plan.fitted, outcome)
+    })
+}
+
+/// The state with the noise of a copy on it: the place of the pelvis, its turn and all joints.
+fn disturbed(args: &SurveyArgs, mut state: State, seed: u64) -> State {
+    let mut rng = Pcg64Mcg::seed_from_u64(seed);
+    let angle = args.noise.degrees.to_radians();
+    let off = std::array::from_fn(|k| {
+        let most = if (3..6).contains(&k) {
+            args.noise.metres
+        } else {
+            angle
+        };
+        most * rng.random_range(-1.0..=1.0)
+    });
+    state.posture.integrate(&off, 1.0);
+    state
 }
 
 /// Fits a recording, or a copy of it with noise, to the body: as it is, and prepared.
@@ -385,11 +509,6 @@ fn measured(
     let lacks = |postures: &[_], label: &[[bool; 2]], clip: &Clip| {
         Lacks::from(&consistency(body, postures, label, clip.rate_hz()))
     };
-    let mut links = Links::new(body);
-    for load in args.load.iter().filter(|l| l.from_s <= 0.0) {
-        add(&mut links, body, load);
-    }
-    let strength = Strength::at_percentile(body, conditions.strength.percentile);
     Measured {
         kind: survey::kind::kind(body, &raw, &label, recorded.rate_hz()),
         clip_s: short(recorded.duration()),
@@ -404,10 +523,22 @@ fn measured(
             .as_ref()
             .map(|_| lacks(&raw, &label, recorded)),
         prepared_lacks: lacks(&postures(prepared), &own, prepared),
-        forecast: forecast(body, &links, &strength, &conditions.strength, prepared),
+        forecast: forecast_of(args, conditions, prepared),
         outcome,
         copies: None,
+        followed: None,
     }
+}
+
+/// The forecast of plain tracking, with the loads that are carried from the beginning on.
+fn forecast_of(args: &SurveyArgs, conditions: &Conditions, clip: &Clip) -> Forecast {
+    let body = &conditions.body;
+    let mut links = Links::new(body);
+    for load in args.load.iter().filter(|l| l.from_s <= 0.0) {
+        add(&mut links, body, load);
+    }
+    let strength = Strength::at_percentile(body, conditions.strength.percentile);
+    forecast(body, &links, &strength, &conditions.strength, clip)
 }
 
 /// A load that is carried from the beginning on.

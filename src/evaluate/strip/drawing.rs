@@ -78,3 +78,36 @@ pub struct Drawing {
     /// Shapes, back to front.
     pub items: Vec<Item>,
 }
+
+impl Item {
+    /// Lower by `by` pixels.
+    fn lower(&mut self, by: f64) {
+        match self {
+            Self::Polygon { points, .. } => points.iter_mut().for_each(|p| p[1] += by),
+            Self::Line { from, to, .. } => {
+                from[1] += by;
+                to[1] += by;
+            }
+            Self::Circle { centre, .. } => centre[1] += by,
+            Self::Text { at, .. } => at[1] += by,
+            Self::Solid {
+                outline, vertices, ..
+            } => {
+                outline.iter_mut().for_each(|p| p[1] += by);
+                vertices.iter_mut().for_each(|p| p[1] += by);
+            }
+        }
+    }
+}
+
+impl Drawing {
+    /// This one with `other` below it.
+    #[must_use]
+    pub fn above(mut self, mut other: Self) -> Self {
+        other.items.iter_mut().for_each(|i| i.lower(self.height));
+        self.items.append(&mut other.items);
+        self.width = self.width.max(other.width);
+        self.height += other.height;
+        self
+    }
+}

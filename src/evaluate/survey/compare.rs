@@ -256,6 +256,7 @@ mod tests {
                 ..Outcome::default()
             },
             copies: None,
+            followed: None,
         };
         m.outcome.recorded.mpjpe_global_mm = 60.0;
         change(&mut m);

@@ -17,8 +17,9 @@ pub mod verdict;
 pub use compare::{Comparison, compare};
 pub use kind::Kind;
 pub use outcome::{Copies, Errors, Outcome, TouchDowns};
-pub use run::{Conditions, Reference, run};
+pub use run::{Conditions, Reference, RehearsedRun, run, watched};
 
+use super::follow::Followed;
 use super::forecast::Forecast;
 use crate::sim::plan::feasibility::Consistency;
 
@@ -61,6 +62,12 @@ pub struct Measured {
     pub outcome: Outcome,
     /// Its noisy copies, if there are any.
     pub copies: Option<Copies>,
+    /// How it was followed, if it was asked for more than plain tracking.
+    #[cfg_attr(
+        feature = "net",
+        serde(default, skip_serializing_if = "Option::is_none")
+    )]
+    pub followed: Option<Followed>,
 }
 
 /// What the ground lacks for a motion on its feet (`sinew lint`), in weights and weight × m.

@@ -7,8 +7,8 @@ use super::stats::{median, short};
 use super::verdict::{anchor_lost, phc_lost};
 use crate::evaluate::experiments::walk::Stance;
 use crate::evaluate::metrics::{Metrics, Tick};
-use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::{Body, State};
 use crate::sim::dynamics::{Kinematics, momentum};
 use crate::sim::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StrengthScale};
 use crate::sim::motion::Clip;
@@ -16,7 +16,8 @@ use crate::sim::plan::StreamPlan;
 use crate::sim::plan::contact_labels::ContactPhase;
 use crate::sim::plan::stream::RATE;
 use crate::sim::world::{
-    ClipPlayback, Drive, Figure, FigureSetup, LivePlayback, World, WorldError, WorldParams,
+    ClipPlayback, Drive, Figure, FigureSetup, LivePlayback, RehearsedMotion, RehearsedPlayback,
+    World, WorldError, WorldParams,
 };
 use std::sync::Arc;
 
@@ -89,6 +90,17 @@ pub struct Conditions {
     pub perturbations: Vec<Perturbation>,
     /// Streams the recording through a preparation window of this length, s, instead of playing the prepared motion.
     pub live_window: Option<f64>,
+    /// Plays this instead, from the first frame of the recording on: world time 0 is there.
+    pub rehearsed: Option<RehearsedRun>,
+}
+
+/// A rehearsed motion, and the state that a figure begins it in.
+#[derive(Clone, Debug)]
+pub struct RehearsedRun {
+    /// The motion.
+    pub motion: Arc<RehearsedMotion>,
+    /// Its own beginning, or one near it.
+    pub from: State,
 }
 
 /// What accumulates over a run.
@@ -112,14 +124,31 @@ struct Course {
 /// # Errors
 /// Conditions that no world or figure accepts.
 pub fn run(conditions: &Conditions, reference: &Reference) -> Result<Outcome, WorldError> {
+    watched(conditions, reference, |_, _| ())
+}
+
+/// As [`run`]; `watch` sees the figure after each tick, with the time on the clip's clock, s.
+///
+/// # Errors
+/// As [`run`].
+pub fn watched(
+    conditions: &Conditions,
+    reference: &Reference,
+    mut watch: impl FnMut(&Figure, f64),
+) -> Result<Outcome, WorldError> {
     let c = conditions;
     let mut world = World::new(c.world)?;
-    let (drive, lead, length) = match c.live_window {
-        Some(window) => {
+    let (drive, lead, length) = match (&c.rehearsed, c.live_window) {
+        (Some(run), _) => {
+            let play = RehearsedPlayback::new(Arc::clone(&run.motion), 0.0);
+            let length = run.motion.duration() + AFTER;
+            (Drive::Rehearsed(play), 0.0, length)
+        }
+        (None, Some(window)) => {
             let drive = stream(c, reference, window);
             (drive, 0.0, reference.recorded.duration() + AFTER_STREAM)
         }
-        None => {
+        (None, None) => {
             let clip = &reference.prepared;
             let lead = clip.lead_in();
             let play = ClipPlayback::new(Arc::clone(clip), lead);
@@ -127,7 +156,10 @@ pub fn run(conditions: &Conditions, reference: &Reference) -> Result<Outcome, Wo
             (Drive::Clip(play), lead, length)
         }
     };
-    let state = drive.targets(0.0, world.dt()).now.state();
+    let state = match &c.rehearsed {
+        Some(run) => run.from,
+        None => drive.targets(0.0, world.dt()).now.state(),
+    };
     let key = world.add_figure(FigureSetup {
         strength: c.strength.clone(),
         options: c.options,
@@ -158,6 +190,7 @@ pub fn run(conditions: &Conditions, reference: &Reference) -> Result<Outcome, Wo
         let figure = world.figure(key).expect("nobody removes the figure");
         metrics.observe(Tick::of(figure, c.world.gravity), 0.0);
         course.observe(figure, reference, time, world.dt());
+        watch(figure, time);
     }
     let figure = world.figure(key).expect("nobody removes the figure");
     let report = metrics.finish(world.state_hash());

@@ -122,6 +122,10 @@ pub fn by_clip(rows: &[Row]) -> Table {
     if copies {
         head.insert(4, "copies completed");
     }
+    let followed = (rows.iter().filter_map(|r| r.result.as_ref())).any(|m| m.followed.is_some());
+    if followed {
+        head.insert(3, "way");
+    }
     let mut out = Table {
         head,
         rows: Vec::new(),
@@ -186,6 +190,54 @@ pub fn by_clip(rows: &[Row]) -> Table {
             });
             cells.insert(4, text);
         }
+        if followed {
+            let way = m.followed.as_ref().map(|f| f.way.name());
+            cells.insert(3, way.unwrap_or(NONE).to_owned());
+        }
+        out.rows.push(cells);
+    }
+    out
+}
+
+/// One row per clip that was asked to be followed in whatever way keeps it: the way, what it took, and why.
+pub fn ways(rows: &[Row]) -> Table {
+    let mut out = Table {
+        head: vec![
+            "clip",
+            "way",
+            "rehearsed: root-rel./global, mm",
+            "help, N·s",
+            "help, % of weight × time",
+            "most, N/N·m",
+            "windows helped, %",
+            "hardest joint, % of strength",
+            "rounds",
+            "ticks for each of the clip",
+            "because",
+        ],
+        rows: Vec::new(),
+    };
+    let known = rows
+        .iter()
+        .filter_map(|r| Some((r, r.result.as_ref()?.followed.as_ref()?)));
+    for (row, followed) in known {
+        let mut cells = vec![row.clip.clone(), followed.way.name().to_owned()];
+        match &followed.rehearsal {
+            Some(r) => {
+                cells.extend([
+                    pair(Some(r.root_relative_mm), Some(r.global_mm), 0),
+                    digits(Some(r.help_ns), 1),
+                    digits(Some(100.0 * r.help_share), 1),
+                    pair(Some(r.help_most_n), Some(r.help_most_nm), 0),
+                    digits(Some(100.0 * r.helped_windows), 0),
+                    format!("{} {:.0}", r.hardest_dof, 100.0 * r.hardest_share),
+                    r.rounds.to_string(),
+                    r.samples_per_tick().to_string(),
+                ]);
+            }
+            None => cells.extend(std::iter::repeat_n(NONE.to_owned(), 8)),
+        }
+        cells.push(followed.reason.clone());
         out.rows.push(cells);
     }
     out
@@ -339,7 +391,12 @@ pub fn confusion(rows: &[Row]) -> Table {
 
 /// All tables one after the other, in the form of Markdown, each under its sentence.
 pub fn markdown(rows: &[Row]) -> String {
-    in_markdown(titled(rows))
+    let all = in_markdown(titled(rows));
+    let ways = ways(rows);
+    if ways.rows.is_empty() {
+        return all;
+    }
+    format!("{all}\n{WAYS}\n\n{}", ways.markdown())
 }
 
 /// The tables that fit a page for readers, in Markdown: by kind of motion, and what came of the forecasts.
@@ -362,8 +419,15 @@ pub fn text(rows: &[Row]) -> String {
     for (title, table) in titled(rows) {
         out += &format!("{title}\n\n{}\n", table.without(&WIDE).text());
     }
+    let ways = ways(rows);
+    if !ways.rows.is_empty() {
+        out += &format!("{WAYS}\n\n{}\n", ways.text());
+    }
     out
 }
+
+/// Title of [`ways`].
+const WAYS: &str = "How clips were followed, and why so:";
 
 /// Columns that a terminal has no room for.
 const WIDE: [&str; 10] = [

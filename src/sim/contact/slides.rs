@@ -29,6 +29,7 @@ pub struct Slides {
     /// `s` of each point, m/s.
     offset: Box<[f64; MAX_CONTACTS]>,
     rounds: u32,
+    most: u32,
 }
 
 impl Default for Slides {
@@ -36,11 +37,17 @@ impl Default for Slides {
         Self {
             offset: Box::new([0.0; MAX_CONTACTS]),
             rounds: 0,
+            most: ROUNDS,
         }
     }
 }
 
 impl Slides {
+    /// Solves at most `most` times more, 4 by default: the offsets are what they are after the last solve.
+    pub fn limit_rounds(&mut self, most: u32) {
+        self.most = most.min(ROUNDS);
+    }
+
     /// Offsets the rows as if every point went on as it moves at velocity `v`.
     pub fn begin(&mut self, contacts: &mut ContactRows, v: &[f64; NV], ws: &mut NewtonWorkspace) {
         self.rounds = 0;
@@ -55,7 +62,7 @@ impl Slides {
     /// after the last round.
     pub fn again(&mut self, contacts: &mut ContactRows, ws: &NewtonWorkspace) -> bool {
         self.rounds += 1;
-        if self.rounds > ROUNDS {
+        if self.rounds > self.most {
             return false;
         }
         let mut change = 0.0f64;

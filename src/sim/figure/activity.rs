@@ -13,6 +13,7 @@
 //! A motion that is replaced as a whole ([`MotionState::follow`]) ends a switch, and getting up, at once.
 
 use super::drive::{Drive, QueuedClip};
+use super::rehearsed::RehearsedPlayback;
 use super::tick::ExitPlan;
 use crate::sim::body::Posture;
 use serde::{Deserialize, Serialize};
@@ -90,6 +91,14 @@ impl MotionState {
         matches!(self.activity, Activity::GetUp(_))
     }
 
+    /// The rehearsed motion that it does: not one that it is asked for on the floor.
+    pub fn rehearsed(&self) -> Option<&RehearsedPlayback> {
+        match (&self.source, &self.activity) {
+            (Drive::Rehearsed(play), Activity::Track) => Some(play),
+            _ => None,
+        }
+    }
+
     fn switch(&self) -> Option<&Switch> {
         match &self.activity {
             Activity::Hold | Activity::Track => None,
@@ -132,7 +141,9 @@ impl MotionState {
         match &self.source {
             _ if !switch.is_empty() => Activity::Switch(switch),
             Drive::Hold(_) => Activity::Hold,
-            Drive::Clip(_) | Drive::External(_) | Drive::Live(_) => Activity::Track,
+            Drive::Clip(_) | Drive::External(_) | Drive::Live(_) | Drive::Rehearsed(_) => {
+                Activity::Track
+            }
         }
     }
 

@@ -5,7 +5,11 @@
 //! Its impulse over a substep is `κ (v* − v⁺)`, where v* brings the pelvis back to the desired pose,
 //! and it is cut in norm. Force and moment, and their bounds, grow with the figure's `assist` (0…1); at 1 they hold the
 //! pelvis on its path within millimetres whatever the legs do.
+//!
+//! A rehearsed motion ([`super::rehearsed`]) is helped in another way, with the same books: by the impulses that its
+//! rehearsal found, if it found any, and by a weak spring towards the path that the pelvis took there.
 
+use super::rehearsed::{Hold, RootPath};
 use crate::sim::body::{Body, State};
 use crate::sim::figure::params::assist::{
     INERTIA, LARGEST_FORCE, LARGEST_MOMENT, PLANNED_COST, RETURN, RETURN_RATE, RETURN_SPEED,
@@ -35,6 +39,31 @@ pub struct Spring {
     pub rest: [Vec3; 2],
     /// Largest impulse, N·m·s and N·s.
     pub most: [f64; 2],
+    /// Impulse that acts besides the spring, N·m·s and N·s.
+    pub given: Option<[Vec3; 2]>,
+}
+
+/// What helps the pelvis in a tick.
+#[derive(Clone, Copy, Debug)]
+pub enum PelvisHelp<'a> {
+    /// A spring towards its desired pose.
+    Desired(&'a Assist, &'a TargetPair),
+    /// The help of a rehearsal, and a spring towards the path that the pelvis took there.
+    Rehearsed(Hold, RootPath<'a>),
+}
+
+impl PelvisHelp<'_> {
+    /// The spring of substep `i` of the `substeps` of a tick of `dt` s.
+    pub fn spring(&self, state: &State, i: u32, substeps: u32, dt: f64) -> Spring {
+        let h = dt / f64::from(substeps);
+        match self {
+            Self::Desired(assist, target) => {
+                let s = f64::from(i) / f64::from(substeps);
+                assist.spring(target, state, s, dt, h)
+            }
+            Self::Rehearsed(hold, path) => hold.spring(path, i as usize, state, h),
+        }
+    }
 }
 
 /// `v`, with its norm cut to `most`.
@@ -81,6 +110,7 @@ impl Assist {
                 path * (1.0 / dt) + capped(off * (RETURN / h), RETURN_SPEED),
             ],
             most: [self.most_moment * h, self.most_force * h],
+            given: None,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Where a figure's desired motion comes from.
 
 use super::plan_task::{PlanRequest, PlanTask};
+use super::rehearsed::RehearsedPlayback;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
@@ -61,6 +62,8 @@ pub enum Drive {
     External(Box<TargetPair>),
     /// A stream with a window: its feet are locked, its balance is kept, and its steps follow events.
     Live(Box<LivePlayback>),
+    /// A motion that was rehearsed, with motors alone.
+    Rehearsed(RehearsedPlayback),
 }
 
 impl ClipPlayback {
@@ -215,6 +218,10 @@ impl Drive {
             Self::Live(live) => TargetPair {
                 now: live.motion.sample(live.stream_time(now)),
                 next: live.motion.sample(live.stream_time(next)),
+            },
+            Self::Rehearsed(play) => TargetPair {
+                now: play.sample(now),
+                next: play.sample(next),
             },
         }
     }

@@ -14,7 +14,7 @@ mod load_compensation;
 pub mod loads;
 pub mod params;
 pub mod plan_task;
-
+pub mod rehearsed;
 pub mod tasks;
 pub mod tick;
 pub mod torque_step;
@@ -29,6 +29,7 @@ pub use constraints::{Constrained, Constraint, MAX_CONSTRAINTS};
 pub use drive::{ClipPlayback, Drive, LivePlayback};
 pub use events::FigureEvent;
 pub use plan_task::{LatePlans, PlanRequest, Planning};
+pub use rehearsed::{RehearsedMotion, RehearsedPlayback};
 pub(crate) use tick::SavedFigure;
 pub use tick::{Figure, TickContext};
 

@@ -17,6 +17,7 @@ mod cluster;
 mod fall_detection;
 mod motion_switch;
 mod playback;
+mod rehearsal;
 mod reporting;
 mod saved;
 mod state;
@@ -31,14 +32,14 @@ use state::{
 };
 
 use super::activity::MotionState;
-use super::assist::Assist;
+use super::assist::{Assist, PelvisHelp};
 use super::constraints::MAX_CONSTRAINTS;
 use super::events::Watcher;
 use super::kinematic_step::{Decision, KinematicStepper};
 use super::loads::MAX_APPLIED;
 use super::plan_task::{LatePlans, Planning};
 use super::tasks::TaskPoints;
-use super::torque_step::{ExternalForces, StepInput, Stepper, TorqueStepper};
+use super::torque_step::{Accuracy, ExternalForces, StepInput, Stepper, TorqueStepper};
 use crate::sim::body::State;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::contact::Tissue;
@@ -196,6 +197,7 @@ impl Figure {
 
     /// Stage 2: switches between motions that are due; a fallen figure gets up if its motion does.
     fn update_activity(&mut self, world: &TickContext) {
+        self.leave_rehearsal_if_over(world);
         self.leave_broken_stream(world.time());
         self.follow_exit_if_due(world);
         self.begin_next_if_ready(world);
@@ -207,13 +209,16 @@ impl Figure {
     fn update_desired_motion(&mut self, world: &TickContext) {
         self.desired.target = self.sample_motion(world.time(), world.dt);
         let steps = self.steps() && self.desired.tracker.is_walking();
-        self.desired.load_compensation.compensate(
-            &self.setup.body,
-            &self.physical.links,
-            &mut self.desired.target,
-            steps,
-            world.dt,
-        );
+        // A rehearsal knew the loads.
+        if self.motion.rehearsed().is_none() {
+            self.desired.load_compensation.compensate(
+                &self.setup.body,
+                &self.physical.links,
+                &mut self.desired.target,
+                steps,
+                world.dt,
+            );
+        }
         // The paper's controller as published takes velocities where they are.
         if self.setup.controller != ControllerKind::Paper {
             let share = 0.5 / f64::from(world.substeps);
@@ -397,6 +402,16 @@ impl Figure {
     /// What the steppers read, the steppers, and the state they move.
     fn integration<'a>(&'a mut self, world: &'a TickContext) -> Integration<'a> {
         let results = &self.scratch.results;
+        let (assist, accuracy) = match self.motion.rehearsed() {
+            Some(play) => (play.help(world.time()), Accuracy::REHEARSED),
+            None => {
+                let target = &self.desired.target;
+                let spring = results.assist.as_ref();
+                let help = spring.map(|a| PelvisHelp::Desired(a, target));
+                (help, Accuracy::default())
+            }
+        };
+        self.steppers.torque.set_accuracy(accuracy);
         let disturbances = &self.surroundings.disturbances;
         let input = StepInput {
             world,
@@ -411,7 +426,7 @@ impl Figure {
             forces: ExternalForces {
                 applied: disturbances.applied(),
                 bar: disturbances.bar(),
-                assist: results.assist.as_ref().map(|a| (a, &self.desired.target)),
+                assist,
             },
         };
         Integration {

@@ -6,7 +6,7 @@
 //! torques, contact forces and accelerations satisfy the equations of motion to rounding whatever residual the
 //! iteration stopped at.
 
-use super::assist::{Assist, Spring};
+use super::assist::{PelvisHelp, Spring};
 use super::loads::{Bar, MAX_EXTERNAL};
 use super::params::{bar, contact, motors};
 use super::tick::TickContext;
@@ -22,7 +22,6 @@ use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
 use crate::sim::math::Vec3;
-use crate::sim::motion::TargetPair;
 use crate::sim::report::{Audit, ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
 use crate::sim::strength::{MuscleScale, Strength};
 use multiversion::multiversion;
@@ -68,8 +67,8 @@ pub struct ExternalForces<'a> {
     pub applied: &'a [AppliedForce],
     /// A bar between two points of the body, if two hands hold one load.
     pub bar: Option<&'a Bar>,
-    /// Help towards the desired pose of the pelvis, if it is on.
-    pub assist: Option<(&'a Assist, &'a TargetPair)>,
+    /// Help on the pelvis, if there is any.
+    pub assist: Option<PelvisHelp<'a>>,
 }
 
 /// What moves the body.
@@ -179,6 +178,38 @@ impl TickForces {
     }
 }
 
+/// How exactly a substep is solved. Whatever it is, the step is closed: what acts is within strength and friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Accuracy {
+    /// Residual at which a substep counts as solved, N·m·s.
+    pub tolerance: f64,
+    /// Most solves for points that slide, after the first.
+    pub slide_rounds: u32,
+    /// Begins with the joints at the rates that the motors want, not at those they have: stiff motors get there, and
+    /// Newton's method need not find out which of them do.
+    pub motors_first: bool,
+}
+
+impl Accuracy {
+    /// That of rehearsals, and of figures that play what was rehearsed: looser, a fifth faster.
+    pub const REHEARSED: Self = Self {
+        tolerance: 1e-4,
+        slide_rounds: 2,
+        motors_first: true,
+    };
+}
+
+impl Default for Accuracy {
+    /// That of every figure.
+    fn default() -> Self {
+        Self {
+            tolerance: contact::TOLERANCE,
+            slide_rounds: u32::MAX,
+            motors_first: false,
+        }
+    }
+}
+
 /// Moves a body by torques; made once per figure.
 ///
 /// Repair S5.
@@ -215,6 +246,7 @@ struct SubstepSolver {
     hessian: MassMatrix<f64>,
     /// M with the springs of the assist on its first six diagonal entries.
     assisted: MassMatrix<f64>,
+    accuracy: Accuracy,
 }
 
 /// What solves a substep.
@@ -292,6 +324,12 @@ impl TorqueStepper {
             },
             forces: TickForces::new(MAX_CONTACTS, super::loads::MAX_APPLIED),
         }
+    }
+
+    /// Solves with another accuracy from now on.
+    pub fn set_accuracy(&mut self, accuracy: Accuracy) {
+        self.solver.accuracy = accuracy;
+        self.problem.slides.limit_rounds(accuracy.slide_rounds);
     }
 
     /// What it remembers from tick to tick: impulse along the bar between two hands, N·s, and its mean force, N.
@@ -387,10 +425,10 @@ impl TorqueStepper {
             self.problem.motors.upper[j] = h * upper[j];
         }
         self.collect_contacts(body, h);
-        let spring = input.forces.assist.map(|(assist, target)| {
-            let s = f64::from(i) / f64::from(substeps);
-            assist.spring(target, state, s, dt, h)
-        });
+        let spring = input
+            .forces
+            .assist
+            .map(|help| help.spring(state, i, substeps, dt));
         self.problem.row = input.forces.bar.map(|bar| BarRow::new(bar, &self.terms, h));
         self.external.impulse = None;
         self.external.forces.clear();
@@ -516,11 +554,16 @@ impl TorqueStepper {
             momentum[i] -= h * t.h[i]; // M v_free
         }
         let mut v = state.velocity;
+        if self.solver.accuracy.motors_first {
+            v[6..].copy_from_slice(&self.problem.motors.rest);
+        }
         self.solution.assist = [0.0; 6];
         self.solution.outcome = Outcome::default();
-        self.problem
-            .slides
-            .begin(&mut self.problem.contacts, &v, &mut self.solver.newton);
+        self.problem.slides.begin(
+            &mut self.problem.contacts,
+            &state.velocity,
+            &mut self.solver.newton,
+        );
         loop {
             let outcome = match self.problem.row {
                 None => self.solve_with(&momentum, spring, &mut v),
@@ -658,13 +701,18 @@ impl TorqueStepper {
             newton,
             hessian,
             assisted: springs,
+            accuracy,
         } = &mut self.solver;
+        let stop = StopRule {
+            iterations: contact::ITERATIONS,
+            tolerance: accuracy.tolerance,
+        };
         let matrix = if assisted {
             springs
         } else {
             &self.terms.mass_matrix
         };
-        substep_kernel(matrix, &self.problem, momentum, v, hessian, newton)
+        substep_kernel(matrix, &self.problem, momentum, stop, v, hessian, newton)
     }
 
     /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the
@@ -680,6 +728,12 @@ impl TorqueStepper {
         loop {
             self.solver.assisted.rows = self.terms.mass_matrix.rows;
             let mut b = *momentum;
+            let given = spring.given.unwrap_or([Vec3::zero(); 2]);
+            if spring.given.is_some() {
+                for (x, g) in b.iter_mut().zip(given.iter().flat_map(|g| g.to_array())) {
+                    *x += g;
+                }
+            }
             for (k, constant) in fixed.iter().enumerate() {
                 let add = constant.unwrap_or(spring.rest[k] * spring.gain[k]);
                 for (i, x) in add.to_array().into_iter().enumerate() {
@@ -702,8 +756,11 @@ impl TorqueStepper {
                     fixed[k] = Some(impulse);
                     again = true;
                 }
-                let acts = fixed[k].unwrap_or(impulse).to_array();
-                self.solution.assist[3 * k..3 * k + 3].copy_from_slice(&acts);
+                let mut acts = fixed[k].unwrap_or(impulse);
+                if spring.given.is_some() {
+                    acts += given[k];
+                }
+                self.solution.assist[3 * k..3 * k + 3].copy_from_slice(&acts.to_array());
             }
             if !again {
                 return total;
@@ -820,6 +877,7 @@ fn substep_kernel(
     m: &MassMatrix<f64>,
     problem: &SubstepProblem,
     momentum: &[f64; NV],
+    stop: StopRule,
     v: &mut [f64; NV],
     hessian: &mut MassMatrix<f64>,
     ws: &mut NewtonWorkspace,
@@ -830,10 +888,6 @@ fn substep_kernel(
         motors: &problem.motors,
         limits: &problem.limits,
         contacts: &problem.contacts,
-    };
-    let stop = StopRule {
-        iterations: contact::ITERATIONS,
-        tolerance: contact::TOLERANCE,
     };
     minimise(&problem, stop, hessian, v, ws)
 }

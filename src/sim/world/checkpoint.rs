@@ -16,7 +16,7 @@ use super::collisions::{CollisionReport, Neighbourhood};
 use super::{World, WorldError, WorldParams, validate};
 use crate::sim::body::Body;
 use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey};
-use crate::sim::figure::{Figure, FigureKey, Planning, SavedFigure};
+use crate::sim::figure::{Figure, FigureKey, Planning, RehearsedMotion, SavedFigure};
 use crate::sim::motion::Clip;
 use crate::sim::plan::motion_transition::TransitionClip;
 use crate::sim::saved::{self, Definition};
@@ -119,6 +119,7 @@ enum Kind {
     Body,
     Clip,
     Way,
+    Rehearsed,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -202,6 +203,8 @@ impl SavedDefinition {
             (Kind::Clip, postcard::to_stdvec(clip))
         } else if let Some(way) = any.downcast_ref::<TransitionClip>() {
             (Kind::Way, postcard::to_stdvec(way))
+        } else if let Some(motion) = any.downcast_ref::<RehearsedMotion>() {
+            (Kind::Rehearsed, postcard::to_stdvec(motion))
         } else {
             return Err(content("a definition of an unknown kind"));
         };
@@ -221,6 +224,13 @@ impl SavedDefinition {
             Kind::Body => Arc::new(body(bytes)?),
             Kind::Clip => Arc::new(exactly::<Clip>(bytes)?),
             Kind::Way => Arc::new(exactly::<TransitionClip>(bytes)?),
+            Kind::Rehearsed => {
+                let motion: RehearsedMotion = exactly(bytes)?;
+                if !motion.is_valid() {
+                    return Err(content("a rehearsed motion that cannot be"));
+                }
+                Arc::new(motion)
+            }
         })
     }
 }

@@ -8,6 +8,7 @@ pub use collisions::CollisionReport;
 
 pub use crate::sim::figure::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, LivePlayback,
+    RehearsedMotion, RehearsedPlayback,
 };
 
 use crate::sim::body::State;

@@ -49,6 +49,7 @@ impl Figure {
     pub(super) fn steps(&self) -> bool {
         !self.motion.has_fallen()
             && !self.surroundings.balance.lost()
+            && self.motion.rehearsed().is_none()
             && self.setup.controller == ControllerKind::Modern
             && self.setup.options.assist < 1.0
     }
@@ -63,7 +64,7 @@ impl Figure {
                 .tasks
                 .spin(&self.physical.links, &play.sample(flight.middle)),
             Drive::Live(live) => live.motion.spin_at(live.stream_time(flight.middle))?,
-            Drive::Hold(_) | Drive::External(_) => return None,
+            Drive::Hold(_) | Drive::External(_) | Drive::Rehearsed(_) => return None,
         };
         Some(MomentumTarget {
             value: self.desired.tracker.turned(spin),
@@ -118,6 +119,9 @@ impl Figure {
         tasks: &TaskPoints,
         steps: StepDemand,
     ) -> MotorCommand {
+        if let Some(command) = self.rehearsed_command(world) {
+            return command;
+        }
         let (mut hands, mut free) = (tasks.hands, 0);
         for hand in self.desired.constraints.free_hands() {
             hands[free] = hand;

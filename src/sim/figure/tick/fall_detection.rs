@@ -22,8 +22,8 @@ impl Figure {
         let s = &self.setup;
         let falls = s.stepper == StepperKind::Kinematic && self.stepping.handed_over.is_none();
         let motors = s.controller == ControllerKind::Motors;
-        if self.motion.gets_up() || falls || motors || !s.params.hand_over || s.options.assist > 0.0
-        {
+        let knows = self.motion.gets_up() || self.motion.rehearsed().is_some();
+        if knows || falls || motors || !s.params.hand_over || s.options.assist > 0.0 {
             self.surroundings.balance.reset();
             return;
         }
@@ -60,7 +60,8 @@ impl Figure {
 
     /// The chosen controller, or motors alone once balance is lost or the figure lies on the ground.
     pub(super) fn active_controller(&self) -> ControllerKind {
-        if self.motion.is_limp() || self.surroundings.balance.lost() {
+        let motors = self.motion.is_limp() || self.motion.rehearsed().is_some();
+        if motors || self.surroundings.balance.lost() {
             ControllerKind::Motors
         } else {
             self.setup.controller
@@ -136,7 +137,8 @@ impl Figure {
                 .touches
                 .list()
                 .any(|t| !FEET.contains(&t.segment));
-        if !self.motion.has_fallen() && height < FALLEN_HEIGHT && on_other {
+        let rehearsed = self.motion.rehearsed().is_some();
+        if !self.motion.has_fallen() && !rehearsed && height < FALLEN_HEIGHT && on_other {
             self.motion.fall();
         } else if self.motion.is_limp() && height > RISEN_HEIGHT {
             self.motion.rise();

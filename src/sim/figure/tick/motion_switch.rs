@@ -188,7 +188,7 @@ impl Figure {
                 end.start + end.clip.duration() + self.desired.tracker.lag()
             }
             Drive::Hold(_) if self.crouches() => time + STOP_TIME,
-            Drive::Hold(_) | Drive::External(_) => time,
+            Drive::Hold(_) | Drive::External(_) | Drive::Rehearsed(_) => time,
             Drive::Clip(_) | Drive::Live(_) => time + STOP_TIME,
         };
         let pending = self.motion.exit().map(|l| l.problem.due);
@@ -213,7 +213,7 @@ impl Figure {
             && match self.motion.source() {
                 Drive::Clip(_) | Drive::Live(_) => true,
                 Drive::Hold(_) => self.crouches(),
-                Drive::External(_) => false,
+                Drive::External(_) | Drive::Rehearsed(_) => false,
             };
         if ends {
             self.plan_stops(&mut leaving, time);
@@ -405,7 +405,7 @@ impl Figure {
         let (streamed, before) = match self.motion.source() {
             Drive::Clip(play) => (false, play.clip_time(begin)),
             Drive::Live(live) => (true, live.stream_time(begin)),
-            Drive::Hold(_) | Drive::External(_) => (false, 0.0),
+            Drive::Hold(_) | Drive::External(_) | Drive::Rehearsed(_) => (false, 0.0),
         };
         let given = Given {
             begin,
@@ -440,7 +440,7 @@ impl Figure {
                 let count = ((RUN_UP + STOP_AHEAD) * splice::RATE) as usize;
                 (from - RUN_UP, vec![(*posture, [true; 2]); count])
             }
-            Drive::External(_) => (0.0, Vec::new()),
+            Drive::External(_) | Drive::Rehearsed(_) => (0.0, Vec::new()),
         }
     }
 }

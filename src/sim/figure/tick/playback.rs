@@ -42,6 +42,9 @@ impl Figure {
     /// needs a way into the clip, that is expected: ways are worked out aside, and taken in a tick that is fixed now.
     /// Allocates.
     pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: f64) -> f64 {
+        if self.motion.rehearsed().is_some() {
+            self.leave_rehearsal();
+        }
         let begin = self.beginning(&play, time);
         let first = begin.first;
         let led = begin.upright && !fixed;
@@ -128,7 +131,9 @@ impl Figure {
         match self.motion.source() {
             Drive::Hold(posture) => *posture,
             Drive::Clip(play) => play.clip.sample(f64::INFINITY).posture,
-            Drive::External(_) | Drive::Live(_) => self.desired.target.next.posture,
+            Drive::External(_) | Drive::Live(_) | Drive::Rehearsed(_) => {
+                self.desired.target.next.posture
+            }
         }
     }
 
@@ -184,7 +189,7 @@ impl Figure {
                 play.looped || play.clip_time(time - self.desired.tracker.lag()) < over
             }
             Drive::Live(_) => self.desired.tracker.is_walking(),
-            Drive::Hold(_) | Drive::External(_) => false,
+            Drive::Hold(_) | Drive::External(_) | Drive::Rehearsed(_) => false,
         };
         plays || self.motion.exit().is_some() || self.desired.tracker.recovery_step().is_some()
     }

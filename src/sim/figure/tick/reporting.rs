@@ -2,9 +2,17 @@
 
 use super::state::StageResults;
 use super::{Figure, TickContext};
-use crate::sim::body::topology::NV;
+use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::figure::torque_step::TorqueRange;
 use crate::sim::math::Vec3;
 use crate::sim::report::Flags;
+
+/// DOFs whose torque is at its limit, a bit each. Limits follow angles and rates within the tick.
+fn at_limit(torque: &[f64; DOF_COUNT], available: &TorqueRange) -> u64 {
+    (0..DOF_COUNT)
+        .filter(|d| torque[*d] >= available.upper[*d] || torque[*d] <= available.lower[*d])
+        .fold(0, |mask, d| mask | 1 << d)
+}
 
 impl Figure {
     /// What the tick showed, for everyone outside.
@@ -32,6 +40,9 @@ impl Figure {
         r.joints.torque_lower = available.lower;
         r.joints.torque_upper = available.upper;
         r.joints.over_limit = f.over_limit;
+        if self.motion.rehearsed().is_some() {
+            r.joints.saturated = at_limit(&f.torque, available);
+        }
         for i in 0..NV {
             r.acceleration[i] = (self.physical.state.velocity[i] - before.velocity[i]) / world.dt;
         }

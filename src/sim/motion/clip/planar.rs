@@ -23,7 +23,8 @@ fn reduced(angle: f64) -> f64 {
 }
 
 impl PlanarTransform {
-    fn rotation(self) -> Quat {
+    /// Its turn.
+    pub fn rotation(self) -> Quat {
         Quat::exp(Vec3::Z * reduced(self.yaw))
     }
 

@@ -1,0 +1,336 @@
+//! How a clip is followed: by plain tracking if that will do, else by a rehearsal, else with the least help.
+
+use super::forecast::{Forecast, Verdict};
+use super::survey::stats::short;
+use super::survey::{Conditions, Outcome, Reference, RehearsedRun, run};
+use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
+use crate::sim::figure::Perturbation;
+use crate::sim::figure::rehearsed::Stage;
+use crate::sim::motion::Clip;
+use crate::sim::rehearsal::{Problem, ProblemError, Progress, Rehearsal, Settings, rehearse};
+use crate::sim::world::{RehearsedMotion, WorldError};
+use std::sync::Arc;
+
+/// What may be done so that a clip is followed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Follow {
+    /// Nothing: physics alone, it falls honestly.
+    #[default]
+    Strict,
+    /// A rehearsal, without help.
+    Rehearsed,
+    /// A rehearsal, and as little help as will do.
+    Assisted,
+}
+
+impl Follow {
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Strict => "strict",
+            Self::Rehearsed => "rehearsed",
+            Self::Assisted => "assisted",
+        }
+    }
+}
+
+/// Largest force of the help over the weight unless another is given.
+pub const MOST_HELP: f64 = 0.3;
+
+/// In what way a clip is followed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "net", serde(rename_all = "snake_case"))]
+pub enum Way {
+    /// By plain tracking, as it is.
+    #[default]
+    Tracked,
+    /// Rehearsed: strength alone does it.
+    Rehearsed,
+    /// Rehearsed, with help.
+    Helped,
+    /// Not at all: plain tracking falls, and no rehearsal was found.
+    Lost,
+}
+
+impl Way {
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tracked => "tracked",
+            Self::Rehearsed => "rehearsed",
+            Self::Helped => "helped",
+            Self::Lost => "lost",
+        }
+    }
+}
+
+/// How a clip was followed, and why so.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+pub struct Followed {
+    /// In what way.
+    pub way: Way,
+    /// Why not in an easier one.
+    pub reason: String,
+    /// The rehearsal, if there was one.
+    pub rehearsal: Option<RehearsalReport>,
+}
+
+/// What came of a rehearsal, in figures.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+pub struct RehearsalReport {
+    /// The mean distance from the recording never exceeded 0.5 m.
+    pub completed: bool,
+    /// When it did, s.
+    pub lost_at_s: Option<f64>,
+    /// Length of the motion, s.
+    pub duration_s: f64,
+    /// Mean distance of the segment origins from the recording, mm, until it was lost.
+    pub global_mm: f64,
+    /// The same with both pelvis origins in one place, mm.
+    pub root_relative_mm: f64,
+    /// Impulse of the help, N·s.
+    pub help_ns: f64,
+    /// The same over weight × time.
+    pub help_share: f64,
+    /// Largest force of the help, N.
+    pub help_most_n: f64,
+    /// Largest moment of the help, N·m.
+    pub help_most_nm: f64,
+    /// Share of the windows that were helped.
+    pub helped_windows: f64,
+    /// The DOF that used most of its strength (95th percentile of the ticks), and that share.
+    pub hardest_dof: String,
+    /// See `hardest_dof`.
+    pub hardest_share: f64,
+    /// Ticks of the motion.
+    pub motion_ticks: u64,
+    /// Ticks that were simulated.
+    pub ticks: u64,
+    /// Rounds of the search.
+    pub rounds: usize,
+    /// Share of the windows that the search reached.
+    pub reached: f64,
+    /// The caller stopped it.
+    pub stopped: bool,
+}
+
+impl RehearsalReport {
+    /// Simulated ticks for each tick of the motion.
+    pub fn samples_per_tick(&self) -> u64 {
+        self.ticks / self.motion_ticks.max(1)
+    }
+}
+
+impl From<&Rehearsal> for RehearsalReport {
+    fn from(r: &Rehearsal) -> Self {
+        let hardest = (0..DOF_COUNT).reduce(|a, b| if r.effort[b] > r.effort[a] { b } else { a });
+        let hardest = hardest.unwrap_or(0);
+        let share = |[part, all]: [usize; 2]| short(part as f64 / all.max(1) as f64);
+        Self {
+            completed: r.completed(),
+            lost_at_s: r.errors.lost_at.map(short),
+            duration_s: short(r.motion.duration()),
+            global_mm: short(1e3 * r.errors.global),
+            root_relative_mm: short(1e3 * r.errors.from_root),
+            help_ns: short(r.help.impulse),
+            help_share: short(r.help.share),
+            help_most_n: short(r.help.most[0]),
+            help_most_nm: short(r.help.most[1]),
+            helped_windows: share(r.help.windows),
+            hardest_dof: DOF_NAMES[hardest].to_owned(),
+            hardest_share: short(r.effort[hardest]),
+            motion_ticks: r.motion.ticks() as u64,
+            ticks: r.work.ticks,
+            rounds: r.work.rounds,
+            reached: share(r.work.reached),
+            stopped: r.work.stopped,
+        }
+    }
+}
+
+/// Why a clip cannot be followed as asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FollowError {
+    /// No world takes the conditions.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// There is nothing to rehearse.
+    #[error(transparent)]
+    Problem(#[from] ProblemError),
+    /// A rehearsal knows loads in one hand only.
+    #[error("a load held in two hands cannot be rehearsed yet")]
+    TwoHands,
+    /// Loads that come or go.
+    #[error("a load that is taken up or let go within the motion cannot be rehearsed yet")]
+    ChangingLoad,
+}
+
+/// What a rehearsal needs besides the conditions of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RehearsalOptions {
+    /// How far it may go.
+    pub follow: Follow,
+    /// Largest force of the help over the weight.
+    pub most_help: f64,
+    /// Threads; the result does not depend on them.
+    pub threads: usize,
+    /// Which random numbers.
+    pub seed: u64,
+    /// Numbers of the search.
+    pub settings: Settings,
+}
+
+impl Default for RehearsalOptions {
+    fn default() -> Self {
+        Self {
+            follow: Follow::Assisted,
+            most_help: MOST_HELP,
+            threads: 1,
+            seed: 1,
+            settings: Settings::default(),
+        }
+    }
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// How, and why.
+    pub followed: Followed,
+    /// The run in that way.
+    pub outcome: Outcome,
+    /// The run by plain tracking.
+    pub tracked: Outcome,
+    /// What is played, if it is a rehearsal.
+    pub motion: Option<Arc<RehearsedMotion>>,
+}
+
+/// The problem that a run under these conditions is to a rehearsal. Pushes are not part of it.
+///
+/// # Errors
+/// Loads that a rehearsal cannot have.
+pub fn problem(
+    conditions: &Conditions,
+    options: &RehearsalOptions,
+) -> Result<Problem, FollowError> {
+    let world = &conditions.world;
+    let stage = Stage {
+        dt: 1.0 / world.rate_hz,
+        substeps: world.substeps,
+        gravity: world.gravity,
+    };
+    let body = Arc::clone(&conditions.body);
+    let mut problem = Problem::new(body, &conditions.strength, world.friction, stage);
+    for load in conditions
+        .perturbations
+        .iter()
+        .filter_map(Perturbation::load)
+    {
+        if load.second.is_some() {
+            return Err(FollowError::TwoHands);
+        }
+        if load.from > 0.0 || load.to.is_finite() {
+            return Err(FollowError::ChangingLoad);
+        }
+        for (segment, point, mass) in load.shares() {
+            problem.links.add_load(segment, point, mass);
+        }
+    }
+    problem.most_help = match options.follow {
+        Follow::Assisted => options.most_help,
+        Follow::Strict | Follow::Rehearsed => 0.0,
+    };
+    problem.seed = options.seed;
+    Ok(problem)
+}
+
+/// Follows a clip in the easiest way that keeps it: never more than 0.5 m from the recording (PHC's rule).
+///
+/// * `as_recorded`: the recording with its feet locked and nothing else done to it.
+/// * `go_on`: told how far a rehearsal is; `false` stops it.
+///
+/// # Errors
+/// Conditions that no world takes, or that cannot be rehearsed.
+pub fn follow(
+    conditions: &Conditions,
+    reference: &Reference,
+    (as_recorded, forecast): (&Clip, &Forecast),
+    options: &RehearsalOptions,
+    go_on: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Found, FollowError> {
+    let tracked = run(conditions, reference)?;
+    let said = match forecast.verdict {
+        Verdict::Follows => "forecast: follows".to_owned(),
+        verdict => format!("forecast: {}, {}", verdict.name(), forecast.reason),
+    };
+    if tracked.completed || options.follow == Follow::Strict {
+        let way = if tracked.completed {
+            Way::Tracked
+        } else {
+            Way::Lost
+        };
+        return Ok(Found {
+            followed: Followed {
+                way,
+                reason: said,
+                rehearsal: None,
+            },
+            outcome: tracked.clone(),
+            tracked,
+            motion: None,
+        });
+    }
+    let problem = problem(conditions, options)?;
+    let (settings, threads) = (&options.settings, options.threads);
+    let rehearsal = rehearse(&problem, as_recorded, settings, threads, &[], go_on)?;
+    let report = RehearsalReport::from(&rehearsal);
+    let motion = Arc::new(rehearsal.motion);
+    let played = Conditions {
+        rehearsed: Some(RehearsedRun {
+            from: motion.start(),
+            motion: Arc::clone(&motion),
+        }),
+        ..conditions.clone()
+    };
+    let outcome = run(&played, reference)?;
+    let when = |t: Option<f64>| t.map_or("to the end".to_owned(), |t| format!("at {t:.2} s"));
+    let mut reason = format!(
+        "plain tracking loses it {} ({said})",
+        when(tracked.lost_at_s)
+    );
+    let way = match outcome.completed {
+        true if report.help_ns > 0.0 => {
+            reason += &format!(
+                "; strength alone was not found to do it: {:.1} N·s of help, {:.1} % of weight × time, at most {:.0} N",
+                report.help_ns,
+                100.0 * report.help_share,
+                report.help_most_n
+            );
+            Way::Helped
+        }
+        true => Way::Rehearsed,
+        false => {
+            reason += &format!("; the rehearsal loses it {}", when(outcome.lost_at_s));
+            Way::Lost
+        }
+    };
+    reason += &format!(
+        "; hardest: {} with {:.0} % of its strength for 5 % of the time",
+        report.hardest_dof,
+        100.0 * report.hardest_share
+    );
+    let kept = way != Way::Lost;
+    Ok(Found {
+        followed: Followed {
+            way,
+            reason,
+            rehearsal: Some(report),
+        },
+        outcome: if kept { outcome } else { tracked.clone() },
+        tracked,
+        motion: kept.then_some(motion),
+    })
+}

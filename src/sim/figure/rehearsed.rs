@@ -1,0 +1,351 @@
+//! A motion that was rehearsed (`sim::rehearsal`), and how a figure plays it.
+//!
+//! A rehearsed motion is a recording, and by windows of a tenth of a second what has to be added to its joints so that
+//! stiff motors of human strength do it in our own simulator. Played from the state it was rehearsed from it runs as
+//! it did there. A weak spring, the *hold*, leads the pelvis back to the path that it took in the rehearsal; on that
+//! path it gives nothing. Where strength alone did not do, the rehearsal has found impulses on the pelvis: the *help*,
+//! which acts as it was found. Both are bounded, and reported like any assist.
+//!
+//! Within such a motion no step is planned and no balance is watched: it says itself when what touches. It is over at
+//! its end, and when the figure is farther from the path than the hold can mend; then the figure stands, recovers or
+//! falls as after any other motion.
+
+use super::assist::{PelvisHelp, Spring};
+use super::tick::TickContext;
+use super::torque_step::MotorCommand;
+use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::body::{Body, NV, State};
+use crate::sim::control::{Law, tracking};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::clip::PlanarTransform;
+use crate::sim::motion::{Target, TargetPair};
+use crate::sim::setup::ControlParams;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Longest rehearsed motion, ticks: ten minutes at 60 a second.
+pub const MAX_TICKS: usize = 36_000;
+
+/// The world that a motion is rehearsed in. It is played in no other.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stage {
+    /// Length of a tick, s.
+    pub dt: f64,
+    /// Substeps of a tick.
+    pub substeps: u32,
+    /// Magnitude of gravity, m/s².
+    pub gravity: f64,
+}
+
+impl Stage {
+    /// The stage that a tick is on.
+    pub fn of(world: &TickContext) -> Self {
+        Self {
+            dt: world.dt,
+            substeps: world.substeps,
+            gravity: world.gravity,
+        }
+    }
+}
+
+/// How motors follow a rehearsed motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotorLaw {
+    /// Time constant of the demand, s.
+    pub horizon: f64,
+    /// Rate error at which a motor gives all it has, rad/s.
+    pub saturation_speed: f64,
+}
+
+impl MotorLaw {
+    /// As the law of tracking, for ticks of `dt` s.
+    pub fn law(&self, dt: f64) -> Law {
+        let params = ControlParams {
+            horizon: Some(self.horizon),
+            ..ControlParams::default()
+        };
+        Law::new(&params, dt)
+    }
+
+    /// What the motors of a body in `state` are asked to do, so that its joints follow `target`. No allocation.
+    pub fn command(
+        &self,
+        law: &Law,
+        body: &Body,
+        state: &State,
+        target: &TargetPair,
+    ) -> MotorCommand {
+        let demand = tracking::initial_acceleration(body, state, target, law);
+        let mut acceleration = [0.0; DOF_COUNT];
+        acceleration.copy_from_slice(&demand[..DOF_COUNT]);
+        MotorCommand {
+            acceleration,
+            torque: [0.0; DOF_COUNT],
+            saturation_speed: self.saturation_speed,
+        }
+    }
+}
+
+/// The spring that leads the pelvis back to the path of the rehearsal: `k x + c ẋ`, critically damped, cut in norm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Hold {
+    /// Angular frequency of the body on the spring, rad/s.
+    pub frequency: f64,
+    /// Mass that it counts on, kg, and moment of inertia about the pelvis, kg·m².
+    pub inertia: [f64; 2],
+    /// Largest force, N, and moment, N·m.
+    pub most: [f64; 2],
+    /// Farther from the path than this, m, the motion is over.
+    pub reach: f64,
+}
+
+/// The pelvis in one substep of the rehearsal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RootStep {
+    /// Where it was at the start.
+    pub position: Vec3,
+    /// World from pelvis, at the start.
+    pub rotation: Quat,
+    /// Angular and linear velocity at the end, world axes, rad/s and m/s.
+    pub velocity: [Vec3; 2],
+    /// Impulse of the help, N·m·s and N·s.
+    pub help: [Vec3; 2],
+}
+
+/// The substeps of a tick, and where the path lies in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct RootPath<'a> {
+    /// One for each substep.
+    pub steps: &'a [RootStep],
+    /// Place of the motion.
+    pub origin: PlanarTransform,
+}
+
+impl RootPath<'_> {
+    /// Substep `i` in the world.
+    fn step(&self, i: usize) -> RootStep {
+        let step = self.steps[i];
+        if self.origin == PlanarTransform::default() {
+            return step;
+        }
+        let turn = self.origin.rotation();
+        RootStep {
+            position: self.origin.point(step.position),
+            rotation: turn * step.rotation,
+            velocity: step.velocity.map(|v| turn.rotate(v)),
+            help: step.help.map(|p| turn.rotate(p)),
+        }
+    }
+}
+
+impl Hold {
+    fn is_valid(&self) -> bool {
+        let positive = [self.frequency, self.reach, self.inertia[0], self.inertia[1]];
+        positive.iter().all(|x| (1e-3..=1e3).contains(x))
+            && self.most.iter().all(|x| (0.0..=1e5).contains(x))
+    }
+
+    /// The spring of substep `i`, of `h` s. Implicit: its force is that at the end of the substep.
+    pub(super) fn spring(&self, path: &RootPath<'_>, i: usize, state: &State, h: f64) -> Spring {
+        let step = path.step(i);
+        let off = [
+            (step.rotation * state.posture.root_rotation.conjugate()).log(),
+            step.position - state.posture.root_position,
+        ];
+        // The impulse h [k (off + h (v* − v)) + c (v* − v)] is κ (v* + off k h / κ − v).
+        let [mass, inertia] = self.inertia;
+        let w = self.frequency;
+        let part = |k: usize, inertia: f64| {
+            let gain = inertia * h * (2.0 * w + h * w * w);
+            (
+                gain,
+                step.velocity[k] + off[k] * (inertia * w * w * h / gain),
+            )
+        };
+        let (turning, moving) = (part(0, inertia), part(1, mass));
+        Spring {
+            gain: [turning.0, moving.0],
+            rest: [turning.1, moving.1],
+            most: [self.most[1] * h, self.most[0] * h],
+            given: step
+                .help
+                .iter()
+                .any(|p| *p != Vec3::zero())
+                .then_some(step.help),
+        }
+    }
+}
+
+/// A recording with what makes it possible. Immutable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RehearsedMotion {
+    /// The world that it is for.
+    pub stage: Stage,
+    /// How motors follow it.
+    pub motors: MotorLaw,
+    /// What leads back to its path; with largest force and moment 0 nothing does.
+    pub hold: Hold,
+    /// Ticks of a window.
+    pub window: usize,
+    /// The recording at the start of each tick, and at the end of the last one.
+    pub desired: Vec<Target>,
+    /// What is added to the desired joints, rad, by window.
+    pub offsets: Vec<JointOffset>,
+    /// The pelvis, by substep.
+    pub path: Vec<RootStep>,
+}
+
+/// Angles that are added to the joints along their axes, rad.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JointOffset(#[serde(with = "crate::sim::saved::array")] pub [f64; DOF_COUNT]);
+
+impl Default for JointOffset {
+    fn default() -> Self {
+        Self([0.0; DOF_COUNT])
+    }
+}
+
+impl JointOffset {
+    /// Adds it to both ends of a tick; the rates stay. No allocation.
+    pub fn add_to(&self, target: &mut TargetPair) {
+        let mut by = [0.0; NV];
+        by[6..].copy_from_slice(&self.0);
+        for t in [&mut target.now, &mut target.next] {
+            t.posture.integrate(&by, 1.0);
+        }
+    }
+}
+
+impl RehearsedMotion {
+    /// Ticks that it takes.
+    pub fn ticks(&self) -> usize {
+        self.desired.len().saturating_sub(1)
+    }
+
+    /// Length, s.
+    pub fn duration(&self) -> f64 {
+        self.ticks() as f64 * self.stage.dt
+    }
+
+    /// The state that it was rehearsed from.
+    pub fn start(&self) -> State {
+        self.desired[0].state()
+    }
+
+    /// True if its parts fit each other and can be played: what a rehearsal makes always does.
+    pub fn is_valid(&self) -> bool {
+        let Self {
+            stage,
+            motors,
+            hold,
+            window,
+            desired,
+            offsets,
+            path,
+        } = self;
+        let within = |x: f64, [least, most]: [f64; 2]| x >= least && x <= most;
+        let n = self.ticks();
+        let steps = n.checked_mul(stage.substeps as usize);
+        (1..=MAX_TICKS).contains(&n)
+            && within(stage.dt, [1e-3, 0.1])
+            && (1..=16).contains(&stage.substeps)
+            && within(stage.gravity, [0.0, 30.0])
+            && within(motors.horizon, [1e-3, 2.0])
+            && within(motors.saturation_speed, [1e-4, 100.0])
+            && hold.is_valid()
+            && (1..=n).contains(window)
+            && offsets.len() == n.div_ceil(*window)
+            && steps == Some(path.len())
+            && desired.iter().all(|t| t.state().is_finite())
+            && offsets
+                .iter()
+                .flat_map(|o| o.0)
+                .all(|x| within(x, [-10.0, 10.0]))
+            && path.iter().all(|s| {
+                let vectors = s.velocity.iter().chain(&s.help);
+                s.position.is_finite()
+                    && s.rotation.is_finite()
+                    && vectors.into_iter().all(|v| v.is_finite())
+            })
+    }
+}
+
+/// A rehearsed motion being played.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RehearsedPlayback {
+    /// The motion.
+    #[serde(with = "crate::sim::saved::definition")]
+    pub motion: Arc<RehearsedMotion>,
+    /// World time at which its first tick begins, s.
+    pub start: f64,
+    /// Where it lies in the world.
+    pub origin: PlanarTransform,
+}
+
+impl RehearsedPlayback {
+    /// `motion` at its own place, from world time `start` on, s.
+    pub fn new(motion: Arc<RehearsedMotion>, start: f64) -> Self {
+        Self {
+            motion,
+            start,
+            origin: PlanarTransform::default(),
+        }
+    }
+
+    /// Ticks since its start that world time `t` is nearest to.
+    fn ticks_at(&self, t: f64) -> f64 {
+        ((t - self.start) / self.motion.stage.dt).round()
+    }
+
+    /// The tick that begins at world time `t`: the first before its start, the last after its end.
+    fn tick(&self, t: f64) -> usize {
+        (self.ticks_at(t).max(0.0) as usize).min(self.motion.ticks() - 1)
+    }
+
+    /// True if no tick of it begins at world time `t`.
+    pub fn is_over(&self, t: f64) -> bool {
+        self.ticks_at(t) >= self.motion.ticks() as f64
+    }
+
+    /// The recording at world time `t`, s. No allocation.
+    pub fn sample(&self, t: f64) -> Target {
+        let at = self.ticks_at(t).max(0.0) as usize;
+        let mut target = self.motion.desired[at.min(self.motion.ticks())].clone();
+        if self.origin != PlanarTransform::default() {
+            self.origin.apply_to(&mut target);
+        }
+        target
+    }
+
+    /// What is added to the joints in the tick that begins at world time `t`, s.
+    pub fn offset(&self, t: f64) -> &JointOffset {
+        &self.motion.offsets[self.tick(t) / self.motion.window]
+    }
+
+    /// The path of the pelvis in the tick that begins at world time `t`, s.
+    pub fn path(&self, t: f64) -> RootPath<'_> {
+        let per_tick = self.motion.stage.substeps as usize;
+        let first = self.tick(t) * per_tick;
+        RootPath {
+            steps: &self.motion.path[first..first + per_tick],
+            origin: self.origin,
+        }
+    }
+
+    /// What helps the pelvis in the tick that begins at world time `t`, s, if anything can.
+    pub(super) fn help(&self, t: f64) -> Option<PelvisHelp<'_>> {
+        let (hold, path) = (self.motion.hold, self.path(t));
+        let given = path.steps.iter().flat_map(|s| s.help);
+        let acts =
+            hold.most.iter().any(|m| *m > 0.0) || given.into_iter().any(|p| p != Vec3::zero());
+        acts.then_some(PelvisHelp::Rehearsed(hold, path))
+    }
+
+    /// True if a figure in `state` at the start of the tick at `t` can go on with it in this world.
+    pub(super) fn goes_on(&self, t: f64, state: &State, world: &TickContext) -> bool {
+        let path = self.path(t).step(0).position;
+        !self.is_over(t)
+            && self.motion.stage == Stage::of(world)
+            && (path - state.posture.root_position).norm() <= self.motion.hold.reach
+    }
+}

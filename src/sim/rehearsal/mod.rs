@@ -1,0 +1,24 @@
+//! Rehearsal: what has to be added to a recording so that a body of human strength does it in our own simulator.
+//!
+//! Given a body, its strength and loads, a world and a recording, find offsets of the desired joints, constant over
+//! windows of a tenth of a second, for which stiff motors within strength keep the body near the recording: posture,
+//! turn, feet and hands over the floor, centre of mass and its velocity, angular momentum. There is no model but the
+//! simulator: samples are simulated, the best live on ([`search`]). What strength does not do, a bounded wrench on the
+//! pelvis may, as little as will do. The result ([`RehearsedMotion`]) is played by a figure, and runs there as it did
+//! here.
+//!
+//! Everything is deterministic: random numbers belong to (seed, round, window, sample), and any number of threads finds
+//! the same. `docs/rehearsal.md` has the problem, the limits and the figures.
+
+pub mod look;
+pub mod problem;
+pub mod random;
+pub mod result;
+pub mod search;
+pub mod settings;
+pub mod simulator;
+
+pub use problem::{Problem, ProblemError, Reference};
+pub use result::{Rehearsal, rehearse};
+pub use search::Progress;
+pub use settings::Settings;

@@ -1,0 +1,288 @@
+//! From the problem to the motion: search, then less help as long as the motion is kept, then the run that is recorded.
+
+use super::problem::{Problem, ProblemError, Reference};
+use super::search::{Path, Progress, Search, window_ticks};
+use super::settings::Settings;
+use super::simulator::{Action, Simulator};
+use crate::sim::body::State;
+use crate::sim::body::topology::{DOF_COUNT, SEGMENT_COUNT};
+use crate::sim::figure::rehearsed::{Hold, RehearsedMotion, RootStep};
+use crate::sim::motion::{Clip, GRAVITY};
+
+/// Mean distance from the recording beyond which a motion is lost, m (Luo et al. 2023, *PHC*).
+pub const LOST: f64 = 0.5;
+
+/// What came of a rehearsal.
+#[derive(Clone, Debug)]
+pub struct Rehearsal {
+    /// The motion, to be played. If it is lost, it is what was found until then.
+    pub motion: RehearsedMotion,
+    /// The states that it ran through: at the start of each tick, and at the end of the last.
+    pub states: Vec<State>,
+    /// How near it came.
+    pub errors: Errors,
+    /// What it took.
+    pub help: HelpGiven,
+    /// Largest used share of strength of each DOF, 95th percentile of the ticks.
+    pub effort: [f64; DOF_COUNT],
+    /// What the search did.
+    pub work: Work,
+}
+
+/// Distances from the recording, whose lowest points are on the floor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Errors {
+    /// When the mean distance of the segment origins first exceeded [`LOST`], s.
+    pub lost_at: Option<f64>,
+    /// Mean distance of the segment origins, m, over the motion or until it was lost.
+    pub global: f64,
+    /// The same with both pelvis origins in one place, m.
+    pub from_root: f64,
+    /// Largest mean distance of a tick, m.
+    pub farthest: f64,
+}
+
+/// Help that a rehearsal took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HelpGiven {
+    /// Impulse, N·s.
+    pub impulse: f64,
+    /// Impulse over weight × time.
+    pub share: f64,
+    /// Largest force, N, and moment, N·m.
+    pub most: [f64; 2],
+    /// Windows that were helped, and windows.
+    pub windows: [usize; 2],
+}
+
+/// What a search did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Work {
+    /// Ticks simulated.
+    pub ticks: u64,
+    /// Rounds.
+    pub rounds: usize,
+    /// Windows that were reached, and windows.
+    pub reached: [usize; 2],
+    /// The caller stopped it.
+    pub stopped: bool,
+}
+
+/// A run from beginning to end.
+#[derive(Clone, Debug)]
+struct Run {
+    states: Vec<State>,
+    path: Vec<RootStep>,
+    effort: Vec<[f64; DOF_COUNT]>,
+    errors: Errors,
+}
+
+/// Rehearses `clip`, on so many threads; the result does not depend on them. `before`: actions of an earlier rehearsal
+/// of the same clip, to begin with. `go_on` is told how far it is, about ten times a second, and stops it by `false`:
+/// then the best path so far is the result.
+///
+/// # Errors
+/// A clip that is too short or too long.
+pub fn rehearse(
+    problem: &Problem,
+    clip: &Clip,
+    settings: &Settings,
+    threads: usize,
+    before: &[Action],
+    go_on: &mut dyn FnMut(&Progress) -> bool,
+) -> Result<Rehearsal, ProblemError> {
+    let reference = Reference::new(problem, clip)?;
+    let mut search = Search::new(problem, &reference, settings, threads, before);
+    let count = reference.ticks().div_ceil(window_ticks(problem, settings));
+    let Path {
+        mut actions,
+        reached,
+        rounds,
+        stopped,
+        ..
+    } = search.run(go_on);
+    actions.resize(count, Action::NONE);
+    let mut sim = Simulator::new(problem, settings.motors);
+    let mut stage = Playing {
+        problem,
+        reference: &reference,
+        window: window_ticks(problem, settings),
+        kept: settings.kept,
+        sim: &mut sim,
+    };
+    if reached == count && !stopped {
+        stage.take_help_away(&mut actions, settings.help.passes);
+    }
+    let run = stage.run(&actions);
+    let ticks = search.ticks() + sim.ticks;
+    let work = Work {
+        ticks,
+        rounds,
+        reached: [reached, count],
+        stopped,
+    };
+    Ok(Rehearsal::new(
+        problem,
+        &reference,
+        settings,
+        (&actions, run),
+        work,
+    ))
+}
+
+/// Runs actions on one simulator.
+struct Playing<'a> {
+    problem: &'a Problem,
+    reference: &'a Reference,
+    window: usize,
+    kept: f64,
+    sim: &'a mut Simulator,
+}
+
+impl Playing<'_> {
+    /// Everything from beginning to end.
+    fn run(&mut self, actions: &[Action]) -> Run {
+        let n = self.reference.ticks();
+        let mut state = self.reference.start();
+        let mut out = Run {
+            states: vec![state],
+            path: Vec::with_capacity(n * self.problem.stage.substeps as usize),
+            effort: Vec::with_capacity(n),
+            errors: Errors::default(),
+        };
+        let mut counted = 0usize;
+        let e = &mut out.errors;
+        for k in 0..n {
+            let action = &actions[k / self.window];
+            let path = &mut out.path;
+            self.sim
+                .tick(&mut state, &self.reference.pairs[k], action, |s| {
+                    path.push(s)
+                });
+            out.states.push(state);
+            out.effort.push(self.sim.utilisation());
+            let (is, should) = (self.sim.look(&state), &self.reference.looks[k + 1]);
+            let mean = is.distance(should);
+            e.farthest = e.farthest.max(mean);
+            if mean > LOST || mean.is_nan() {
+                e.lost_at
+                    .get_or_insert((k + 1) as f64 * self.problem.stage.dt);
+            }
+            if e.lost_at.is_none() {
+                let shift = should.at[0] - is.at[0];
+                let off = is.at.iter().zip(&should.at);
+                let from_root = off.map(|(a, b)| (*b - *a - shift).norm()).sum::<f64>();
+                e.global += mean;
+                e.from_root += from_root / SEGMENT_COUNT as f64;
+                counted += 1;
+            }
+        }
+        e.global /= counted.max(1) as f64;
+        e.from_root /= counted.max(1) as f64;
+        out
+    }
+
+    /// The states at the start of each window from `first` on, if the motion is kept from there to its end.
+    fn kept(&mut self, actions: &[Action], first: usize, from: &State) -> Option<Vec<State>> {
+        let mut state = *from;
+        let mut out = Vec::new();
+        for k in first * self.window..self.reference.ticks() {
+            if k % self.window == 0 {
+                out.push(state);
+            }
+            let action = &actions[k / self.window];
+            self.sim
+                .tick(&mut state, &self.reference.pairs[k], action, |_| ());
+            let mean = self.sim.look(&state).distance(&self.reference.looks[k + 1]);
+            if mean > self.kept || mean.is_nan() {
+                return None;
+            }
+        }
+        Some(out)
+    }
+
+    /// Takes help away from one window after the other, from the last to the first, all of it and then parts, as long
+    /// as the motion is kept.
+    fn take_help_away(&mut self, actions: &mut [Action], passes: usize) {
+        let start = self.reference.start();
+        let Some(mut states) = self.kept(actions, 0, &start) else {
+            return;
+        };
+        for pass in 0..passes {
+            let left = if pass == 0 { 0.0 } else { 0.6 };
+            for w in (0..actions.len()).rev() {
+                let before = actions[w].help;
+                if before <= 0.0 {
+                    continue;
+                }
+                actions[w].help = left * before;
+                let from = states[w];
+                match self.kept(actions, w, &from) {
+                    Some(later) => states.splice(w.., later).for_each(drop),
+                    None => actions[w].help = before,
+                }
+            }
+        }
+    }
+}
+
+impl Rehearsal {
+    fn new(
+        problem: &Problem,
+        reference: &Reference,
+        settings: &Settings,
+        (actions, run): (&[Action], Run),
+        work: Work,
+    ) -> Self {
+        let p = problem.body.profile;
+        let weight = p.mass * GRAVITY;
+        let h = problem.stage.dt / f64::from(problem.stage.substeps);
+        let mut help = HelpGiven {
+            windows: [
+                actions.iter().filter(|a| a.help > 0.0).count(),
+                actions.len(),
+            ],
+            ..HelpGiven::default()
+        };
+        for step in &run.path {
+            let [moment, force] = step.help.map(|p| p.norm());
+            help.impulse += force;
+            help.most = [help.most[0].max(force / h), help.most[1].max(moment / h)];
+        }
+        let seconds = reference.ticks() as f64 * problem.stage.dt;
+        help.share = help.impulse / (weight * seconds);
+        let effort = std::array::from_fn(|d| {
+            let mut all: Vec<f64> = run.effort.iter().map(|e| e[d]).collect();
+            all.sort_by(f64::total_cmp);
+            all[(all.len() * 95 / 100).min(all.len() - 1)]
+        });
+        let share = settings.hold;
+        let motion = RehearsedMotion {
+            stage: problem.stage,
+            motors: settings.motors,
+            hold: Hold {
+                frequency: share.frequency,
+                inertia: [p.mass, share.inertia * p.mass * p.height * p.height],
+                most: [share.force * weight, share.moment * weight * p.height],
+                reach: share.reach,
+            },
+            window: window_ticks(problem, settings),
+            desired: reference.targets.clone(),
+            offsets: actions.iter().map(|a| a.offset).collect(),
+            path: run.path,
+        };
+        Self {
+            motion,
+            states: run.states,
+            errors: run.errors,
+            help,
+            effort,
+            work,
+        }
+    }
+
+    /// True if it is never lost.
+    pub fn completed(&self) -> bool {
+        self.errors.lost_at.is_none() && !self.work.stopped
+    }
+}

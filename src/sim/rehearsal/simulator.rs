@@ -1,0 +1,179 @@
+//! One figure reduced to what a rehearsal needs: a state in, a state out. The parts are those of a figure's tick, in
+//! the same order, so that a motion runs in a world as it does here.
+
+use super::look::{Cost, Look, Looker};
+use super::problem::{Problem, Reference};
+use crate::sim::body::angles::anatomical_angles;
+use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::body::{Body, Links, State};
+use crate::sim::contact::Tissue;
+use crate::sim::control::Law;
+use crate::sim::dynamics::Terms;
+use crate::sim::figure::assist::{Assist, PelvisHelp};
+use crate::sim::figure::params::assist::LARGEST_FORCE;
+use crate::sim::figure::plan_task::Planning;
+use crate::sim::figure::rehearsed::{JointOffset, MotorLaw, RootStep};
+use crate::sim::figure::tick::TickContext;
+use crate::sim::figure::torque_step::{
+    Accuracy, ExternalForces, StepInput, TorqueRange, TorqueStepper,
+};
+use crate::sim::math::Vec3;
+use crate::sim::motion::TargetPair;
+use crate::sim::strength::{MuscleScale, Strength};
+use std::sync::Arc;
+
+/// What a sample adds to the desired motion in a window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Action {
+    /// Offsets of the joints, rad.
+    pub offset: JointOffset,
+    /// Largest force towards the desired pelvis over the weight.
+    pub help: f64,
+}
+
+impl Action {
+    /// Nothing.
+    pub const NONE: Self = Self {
+        offset: JointOffset([0.0; DOF_COUNT]),
+        help: 0.0,
+    };
+}
+
+/// A body with its motors on the floor; made once per thread.
+#[derive(Debug)]
+pub struct Simulator {
+    body: Arc<Body>,
+    links: Links,
+    strength: Arc<Strength>,
+    muscles: MuscleScale,
+    world: TickContext,
+    motors: MotorLaw,
+    law: Law,
+    terms: Terms,
+    stepper: TorqueStepper,
+    available: TorqueRange,
+    looker: Looker,
+    /// Ticks done.
+    pub ticks: u64,
+}
+
+impl Simulator {
+    /// Of this problem, with motors that follow by `motors`.
+    pub fn new(problem: &Problem, motors: MotorLaw) -> Self {
+        let none = [0.0; DOF_COUNT];
+        let mut stepper = TorqueStepper::new(problem.friction);
+        stepper.set_accuracy(Accuracy::REHEARSED);
+        Self {
+            body: Arc::clone(&problem.body),
+            links: problem.links.clone(),
+            strength: Arc::clone(&problem.strength),
+            muscles: problem.muscles.clone(),
+            world: TickContext {
+                tick: 0,
+                dt: problem.stage.dt,
+                substeps: problem.stage.substeps,
+                gravity: problem.stage.gravity,
+                planning: Planning::InTick,
+            },
+            law: motors.law(problem.stage.dt),
+            motors,
+            terms: Terms::default(),
+            stepper,
+            available: TorqueRange {
+                lower: none,
+                upper: none,
+            },
+            looker: Looker::default(),
+            ticks: 0,
+        }
+    }
+
+    /// What there is to see of a state.
+    pub fn look(&mut self, state: &State) -> Look {
+        self.looker.look(&self.body, &self.links, state)
+    }
+
+    /// What it costs to be in `state` at the end of tick `k − 1`, and the mean distance from the recording, m.
+    pub fn cost(
+        &mut self,
+        cost: &Cost,
+        state: &State,
+        reference: &Reference,
+        k: usize,
+    ) -> (f64, f64) {
+        let is = self.look(state);
+        let (wanted, should) = (&reference.targets[k].posture, &reference.looks[k]);
+        let cost = cost.of((&state.posture, &is), (wanted, should));
+        (cost, is.distance(should))
+    }
+
+    /// Largest used share of the available torque in the last tick, by DOF.
+    pub fn utilisation(&self) -> [f64; DOF_COUNT] {
+        let TorqueRange { lower, upper } = &self.available;
+        std::array::from_fn(|d| match self.stepper.forces.torque[d] {
+            t if t < 0.0 => t / lower[d],
+            t => t / upper[d],
+        })
+    }
+
+    /// One tick. The velocities of `target` are set back. `record` is called after each substep.
+    pub fn tick(
+        &mut self,
+        state: &mut State,
+        target: &TargetPair,
+        action: &Action,
+        mut record: impl FnMut(RootStep),
+    ) {
+        self.ticks += 1;
+        let Self {
+            body,
+            links,
+            strength,
+            muscles,
+            world,
+            ..
+        } = self;
+        let mut moved = target.clone();
+        action.offset.add_to(&mut moved);
+        self.terms.compute(links, state, &[], world.gravity);
+        let h = world.dt / f64::from(world.substeps);
+        let tissue = Tissue::new(strength, state, world.substeps, h);
+        let angles = anatomical_angles(&state.posture);
+        let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
+        let TorqueRange { lower, upper } = &mut self.available;
+        strength.range(&angles, &rates, muscles, lower, upper);
+        let command = self.motors.command(&self.law, body, state, &moved);
+        let assist = Assist::new(body, action.help / LARGEST_FORCE);
+        let input = StepInput {
+            body,
+            links,
+            strength,
+            scale: muscles,
+            terms: &self.terms,
+            command: &command,
+            available: &self.available,
+            tissue: Some(&tissue),
+            forces: ExternalForces {
+                applied: &[],
+                bar: None,
+                assist: assist.as_ref().map(|a| PelvisHelp::Desired(a, target)),
+            },
+            world,
+        };
+        self.stepper.begin(state);
+        for i in 0..world.substeps {
+            let (position, rotation) = (state.posture.root_position, state.posture.root_rotation);
+            self.stepper.open_substep(&input, state, i);
+            self.stepper.close_substep(&input, state, i);
+            let (v, p) = (&state.velocity, &self.stepper.forces.audit.assist);
+            let vector = |x: &[f64]| Vec3::from_array([x[0], x[1], x[2]]);
+            record(RootStep {
+                position,
+                rotation,
+                velocity: [vector(&v[..3]), vector(&v[3..6])],
+                help: [vector(&p[..3]) * h, vector(&p[3..6]) * h],
+            });
+        }
+        self.stepper.end(&input);
+    }
+}
