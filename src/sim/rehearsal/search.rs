@@ -21,8 +21,8 @@ const HELP: usize = D - 1;
 /// What a sample draws.
 type Vector = [f64; D];
 
-/// Cost of a state that ran away.
-const RUNAWAY: f64 = 1e9;
+/// Cost of a sample that was not simulated to the end of its window: it is no beginning of another one.
+const DROPPED: f64 = 1e9;
 
 /// How far a search has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -194,13 +194,13 @@ impl Window<'_> {
         for k in first..end {
             sim.tick(&mut state, &self.reference.pairs[k], &action, |_| ());
             if !state.is_finite() {
-                return from.child(from.state, parent, vector, RUNAWAY);
+                return from.child(from.state, parent, vector, DROPPED);
             }
             let (cost, distance) = sim.cost(self.cost, &state, self.reference, k + 1);
             last = cost;
             sum += last;
             if last > give_up || distance > self.settings.kept {
-                return from.child(state, parent, vector, 1e-3 * RUNAWAY + last);
+                return from.child(state, parent, vector, DROPPED);
             }
         }
         let mean = sum / (end - first) as f64;
@@ -214,7 +214,7 @@ impl Window<'_> {
             let (share, price) = (vector[HELP] / self.most_help, &self.settings.help);
             cost += price.any + price.full * share;
         }
-        let cost = if cost.is_finite() { cost } else { RUNAWAY };
+        let cost = if cost.is_finite() { cost } else { DROPPED };
         let mut node = from.child(state, parent, vector, cost);
         node.score = cost + self.settings.trials.past * from.score;
         node
@@ -330,10 +330,15 @@ impl<'a> Search<'a> {
         self.state.reached == self.count()
     }
 
-    /// From now on samples may be helped.
+    /// From now on samples may be helped. Where the search was lost it begins with all the help that is allowed, since
+    /// what is kept can be improved: samples with less are preferred.
     fn begin_to_help(&mut self) {
         self.state.helps = true;
-        (self.state.stuck, self.state.farther) = (0, 0);
+        (self.state.stuck, self.state.farther, self.state.total) = (0, 0, f64::INFINITY);
+        let back = self.settings.trials.back;
+        for m in &mut self.means[self.state.reached.saturating_sub(back)..] {
+            m[HELP] = self.problem.most_help;
+        }
         self.first[HELP] = 0.5 * self.problem.most_help;
         for s in &mut self.spreads {
             s[HELP] = self.first[HELP];
@@ -353,6 +358,9 @@ impl<'a> Search<'a> {
         let mut lost = 0;
         for w in first..count {
             let chosen = self.window(w);
+            if chosen.is_empty() {
+                break;
+            }
             let cheapest = chosen.iter().map(|n| n.cost).fold(f64::INFINITY, f64::min);
             self.layers.push(chosen);
             lost = if cheapest > trials.lost { lost + 1 } else { 0 };
@@ -519,10 +527,12 @@ fn simulate_all(
     })
 }
 
-/// Those that live on: ranks spread by a cube over the better 60 %, so that a few come from farther down.
+/// Those that live on, of all that came to the end of the window: ranks spread by a cube over the better 60 %,
+/// so that a few come from farther down.
 fn chosen(mut all: Vec<Node>, survivors: usize) -> Vec<Node> {
+    all.retain(|n| n.cost < DROPPED);
     all.sort_by(|a, b| a.score.total_cmp(&b.score));
-    let pool = (all.len() * 6 / 10).max(1);
+    let pool = (all.len() * 6).div_ceil(10);
     let keep = survivors.min(pool);
     let mut next = 0;
     let ranks: Vec<usize> = (0..keep)

@@ -213,7 +213,7 @@ impl Default for Settings {
                 back: 5,
                 past: 0.4,
                 polish: 3,
-                patience: 6,
+                patience: 4,
                 budget: 400,
             },
             hold: HoldShare {
@@ -224,8 +224,8 @@ impl Default for Settings {
                 reach: 0.5,
             },
             help: HelpPrice {
-                full: 30.0,
-                any: 2.0,
+                full: 6.0,
+                any: 0.5,
                 least: 0.004,
                 passes: 3,
             },
