@@ -26,6 +26,7 @@ pub(super) use motion_switch::ExitPlan;
 pub(crate) use saved::SavedFigure;
 
 use crate::sim::figure::params::support::REST_SHARE;
+use crate::sim::math::Vec3;
 use state::{
     BodyConstants, Controllers, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch,
     StepperChoice, Steppers, Surroundings,
