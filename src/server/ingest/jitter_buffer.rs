@@ -9,7 +9,7 @@
 //! begins anew.
 
 pub use super::playout::Now;
-use super::playout::{Due as Pace, Playout};
+use super::playout::{Due as Pace, Playout, is_time};
 use crate::server::engine;
 use crate::sim::body::{Body, NV, Posture};
 use crate::sim::math::Quat;
@@ -270,6 +270,7 @@ impl JitterBuffer {
             delay,
             settings.extrapolation,
             settings.hold,
+            settings.grace,
             self.blend_time,
         ];
         let is_whole = frames.len() <= CAPACITY
@@ -281,7 +282,8 @@ impl JitterBuffer {
             && times.iter().all(|t| (0.0..=1e6).contains(t))
             && (1.0..=1e4).contains(&settings.rate_hz)
             && self.tick == tick
-            && self.grid.head.is_none_or(f64::is_finite)
+            && self.grid.head.is_none_or(is_time)
+            && self.blend.as_ref().is_none_or(|b| is_time(b.1))
             && self.grid.next.unsigned_abs() < 1 << 53
             && self.pace.is_valid();
         if is_whole {
@@ -335,6 +337,16 @@ impl JitterBuffer {
     /// Delay between arrival and use, s.
     pub fn delay(&self) -> f64 {
         self.pace.delay(&self.settings)
+    }
+
+    /// World time that the clock had left out by the last tick, s; `None`: nothing was played yet.
+    pub fn lost(&self) -> Option<f64> {
+        self.pace.lost()
+    }
+
+    /// How long its driver may be away, s.
+    pub fn grace(&self) -> f64 {
+        self.settings.grace
     }
 
     /// How far the stream is behind because its world leaves ticks out, s; contained in the delay.

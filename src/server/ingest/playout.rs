@@ -17,6 +17,9 @@ pub(super) const CATCH_UP: f64 = 0.02;
 /// Farthest that a stream is behind its world's schedule, s: at 240 Hz the buffer is full then.
 pub(super) const MOST_BEHIND: f64 = 2.0;
 
+/// Largest time that is reckoned with, s.
+const LARGEST_TIME: f64 = 1e12;
+
 /// An instant of a world.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Now {
@@ -72,15 +75,20 @@ impl Default for Playout {
     }
 }
 
+/// True for a time, or a difference of times, that a stream can get to, s.
+pub(super) fn is_time(seconds: f64) -> bool {
+    seconds.abs() <= LARGEST_TIME
+}
+
 impl Playout {
     /// True if it can have come about.
     pub(super) fn is_valid(&self) -> bool {
         let known = [self.arrived, self.behind];
         let optional = [self.origin.map(|o| o.1), self.jitter, self.delay, self.lost];
         self.transit.len() <= WINDOW
-            && known.iter().chain(&self.transit).all(|x| x.is_finite())
-            && optional.iter().flatten().all(|x| x.is_finite())
-            && (self.played.is_finite() || self.played == f64::NEG_INFINITY)
+            && known.iter().chain(&self.transit).all(|x| is_time(*x))
+            && optional.iter().flatten().all(|x| is_time(*x))
+            && (is_time(self.played) || self.played == f64::NEG_INFINITY)
     }
 
     /// A source time as seconds since the first frame.
@@ -113,7 +121,7 @@ impl Playout {
             .iter()
             .copied()
             .fold(f64::INFINITY, f64::min)
-            .min(1e12)
+            .min(LARGEST_TIME)
     }
 
     /// p99 of the arrival jitter up to the last tick, s.
@@ -140,6 +148,11 @@ impl Playout {
             (Delay::Adaptive { .. }, None) => 0.0,
         };
         delay + self.behind
+    }
+
+    /// Time that the world had lost at the last tick, s.
+    pub(super) fn lost(&self) -> Option<f64> {
+        self.lost
     }
 
     /// How far the stream is behind because its world leaves ticks out, s; contained in the delay.

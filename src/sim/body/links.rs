@@ -51,6 +51,22 @@ impl Links<f64> {
         }
     }
 
+    /// False if no body with loads that it may carry is like that.
+    pub fn is_valid(&self) -> bool {
+        let number = |x: f64| x.abs() <= 1e6;
+        let vectors = self.offset.iter().chain(&self.moment);
+        let inertia = self
+            .inertia
+            .iter()
+            .flat_map(|i| [i.xx, i.yy, i.zz, i.xy, i.xz, i.yz]);
+        self.mass.iter().all(|m| *m > 0.0 && number(*m))
+            && self.armature.iter().all(|a| *a >= 0.0 && number(*a))
+            && vectors
+                .flat_map(|v| v.to_array())
+                .chain(inertia)
+                .all(number)
+    }
+
     /// Welds a point mass (kg) to `segment` at `point` (segment frame, m): `docs/model.md`, load as inertia.
     pub fn add_load(&mut self, segment: SegmentId, point: Vec3, mass: f64) {
         let i = segment.index();

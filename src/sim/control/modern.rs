@@ -186,10 +186,12 @@ impl Modern {
     pub fn remember(&mut self, memory: &ModernMemory) -> bool {
         (self.price, self.last_torque) = (memory.price, memory.last_torque);
         self.last_force.fill(Vec3::zero());
+        let forces = memory.last_force.iter().flat_map(|(_, f)| f.to_array());
+        let numbers = memory.price.iter().chain(&memory.last_torque).copied();
         memory.last_force.iter().all(|(k, f)| {
             let place = self.last_force.get_mut(usize::from(*k));
             place.map(|p| *p = *f).is_some()
-        })
+        }) && numbers.chain(forces).all(f64::is_finite)
     }
 
     /// The last decision.

@@ -66,6 +66,11 @@ impl MotionState {
         }
     }
 
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        self.source.is_valid() && self.next().is_none_or(QueuedClip::is_valid)
+    }
+
     /// Source of the desired motion.
     pub fn source(&self) -> &Drive {
         &self.source

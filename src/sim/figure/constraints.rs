@@ -178,7 +178,19 @@ impl Constraints {
     /// False if it cannot be what was written into a checkpoint.
     pub fn is_valid(&self) -> bool {
         let most = MAX_CONSTRAINTS;
-        self.given.len() <= most && self.streams.len() <= most && self.fading.len() <= most
+        let numbers = |c: &Constraint| {
+            let place = c.position.map_or([0.0; 3], Vec3::to_array);
+            let [x, y, z, w] = c.rotation.unwrap_or(Quat::identity()).to_xyzw();
+            (0.0..=1.0).contains(&c.weight)
+                && (0.0..=MAX_EASE).contains(&c.ease)
+                && c.axes.iter().all(|a| (0.0..=1.0).contains(a))
+                && place.iter().chain(&[x, y, z, w]).all(|x| x.is_finite())
+                && !(c.from.is_nan() || c.to.is_nan())
+        };
+        self.given.len() <= most
+            && self.streams.len() <= most
+            && self.fading.len() <= most
+            && self.given.iter().chain(&self.fading).all(numbers)
     }
 
     /// Those that are given, in the order in which they were.

@@ -79,6 +79,14 @@ impl ClipPlayback {
         }
     }
 
+    /// False if it cannot be what was written into a checkpoint.
+    fn is_valid(&self) -> bool {
+        self.start.is_finite()
+            && self.origin.is_finite()
+            && self.motion().is_valid()
+            && self.way_in.as_ref().is_none_or(|way| way.is_valid())
+    }
+
     /// The motion, without place and time.
     pub(super) fn motion(&self) -> NextClip {
         NextClip {
@@ -154,6 +162,11 @@ pub(super) struct EntryProblem {
 }
 
 impl EntryProblem {
+    /// False if it cannot be what was written into a checkpoint.
+    fn is_valid(&self) -> bool {
+        self.next.is_valid() && self.first.is_finite()
+    }
+
     /// True if the clip begins as the figure stands: there is nothing to plan.
     pub fn begins(&self) -> bool {
         self.next.begins_as(&self.body, self.first, &self.stand)
@@ -177,6 +190,15 @@ impl Serialize for Entry {
 }
 
 impl QueuedClip {
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let times = [self.first, self.from, self.due];
+        self.play.is_valid()
+            && self.plan.is_valid()
+            && times.iter().all(|t| t.is_finite())
+            && self.entry.as_ref().is_none_or(|e| e.problem.is_valid())
+    }
+
     /// Asks for the way into the clip, if it is to be planned.
     pub fn request(&self) -> Option<PlanRequest> {
         self.entry.as_ref()?.task.request()
@@ -193,6 +215,16 @@ impl QueuedClip {
 }
 
 impl Drive {
+    /// False if it cannot be what was written into a checkpoint. Whether a stream can be shows when it is completed.
+    pub(super) fn is_valid(&self) -> bool {
+        match self {
+            Self::Hold(_) | Self::External(_) => true,
+            Self::Clip(play) => play.is_valid(),
+            Self::Live(live) => live.offset.is_finite(),
+            Self::Rehearsed(play) => play.start.is_finite() && play.origin.is_finite(),
+        }
+    }
+
     /// Desired motion at the start and the end of a tick from `t` to `t + dt`, s.
     ///
     /// Section 3.2 of the paper.

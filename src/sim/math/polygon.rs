@@ -244,7 +244,10 @@ impl Region {
         let mut best = (f64::INFINITY, z);
         for e in &self.edges {
             let d = [z[0] - e.from[0], z[1] - e.from[1]];
-            let u = (d[0] * e.along[0] + d[1] * e.along[1]).clamp(0.0, e.length);
+            // Not `clamp`, which panics where a length is no number.
+            let u = (d[0] * e.along[0] + d[1] * e.along[1])
+                .max(0.0)
+                .min(e.length);
             let off = [u * e.along[0] - d[0], u * e.along[1] - d[1]];
             let far = off[0] * off[0] + off[1] * off[1];
             if far < best.0 {

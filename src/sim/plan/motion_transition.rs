@@ -39,6 +39,12 @@ pub struct NextClip {
 }
 
 impl NextClip {
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        // The work of planning depends on it.
+        (0.01..=100.0).contains(&self.speed)
+    }
+
     /// The motion at clip time `t`, s.
     fn sample(&self, t: f64) -> Target {
         if self.looped {
@@ -82,6 +88,12 @@ pub struct TransitionClip {
 }
 
 impl TransitionClip {
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let times = [self.begin, self.enters, self.until];
+        times.iter().all(|t| t.is_finite())
+    }
+
     /// True if it comes out of another motion, not from a stand.
     pub fn leads_over(&self) -> bool {
         self.enters > self.begin
@@ -137,6 +149,23 @@ impl TransitionCandidates {
             moments,
             found: none_yet(),
         }
+    }
+
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let known = self.known.len();
+        let seconds = transition::RUN_UP + transition::AHEAD + transition::BEYOND;
+        let skipped = (self.next.skipped() / self.next.speed * stop::RATE) as usize;
+        let fits = |m: &Moment| {
+            m.left >= self.now.max(1)
+                && m.left < known.saturating_sub(1)
+                && m.entered <= skipped + 1
+                && m.place.is_finite()
+        };
+        self.next.is_valid()
+            && known <= (seconds * stop::RATE).ceil() as usize + 1
+            && self.moments.len() <= transition::CANDIDATES
+            && self.moments.iter().all(fits)
     }
 
     /// The moments that are like, most alike first.

@@ -94,6 +94,13 @@ impl StopCandidates {
         }
     }
 
+    /// False if it cannot be what was written into a checkpoint: a stream is known as far as its ring goes, all else
+    /// for less long.
+    pub fn is_valid(&self) -> bool {
+        let window = (stream::LONGEST_WINDOW * stream::RATE) as i64;
+        self.known.len() as i64 <= 2 * stream::PAST + window && self.now <= self.known.len()
+    }
+
     /// True if it is given how the figure stands in the end.
     pub fn have_goal(&self) -> bool {
         self.goal.is_some()

@@ -248,8 +248,15 @@ impl StepTracker {
         self.capture.complete(body);
     }
 
-    /// False if it cannot be what was written into a checkpoint: there are two feet.
+    /// False if it cannot be what was written into a checkpoint: there are two feet, and times are numbers.
     pub fn is_valid(&self) -> bool {
+        let times = [self.clock.phase, self.clock.lag, self.clock.last_speed];
+        let follows = |f: &FollowedPlan| {
+            f.plan.is_valid() && f.origin.is_finite() && (LEAST_SPEED..=1e3).contains(&f.speed)
+        };
+        if !(times.iter().all(|t| t.is_finite()) && self.followed.as_ref().is_none_or(follows)) {
+            return false;
+        }
         let sides = [
             self.events.landing.map(|l| l.side),
             self.timing.side(),

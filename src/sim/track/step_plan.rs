@@ -8,7 +8,7 @@ use super::{FOOT, TOES};
 use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::math::Vec3;
 use crate::sim::motion::Clip;
-use crate::sim::motion::clip::PlanarTransform;
+use crate::sim::motion::clip::{MAX_SAMPLES, PlanarTransform};
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::plan::contact_labels::runs;
 use crate::sim::plan::foot_lock::Sole;
@@ -199,6 +199,15 @@ impl StepPlan {
         self
     }
 
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let times = [self.begin, self.duration, self.seen];
+        self.stances.iter().all(|s| s.len() <= MAX_SAMPLES)
+            && times.iter().all(|t| !t.is_nan())
+            && (self.round).is_none_or(|r| r.is_finite() && self.duration.is_finite())
+            && (self.lead.as_ref()).is_none_or(|l| !l.until.is_nan() && l.plan.is_valid())
+    }
+
     /// The plan of a stream: nothing is known yet.
     pub fn live() -> Self {
         Self {
@@ -348,8 +357,11 @@ impl StepPlan {
             let now = self.current(side, t)?;
             let (round, _) = self.round_of(t);
             let goes_on = self.wraps(side) && now.off >= (round + 1.0) * self.duration;
-            let first = self.unrolled(self.stances[side][0], round + 1.0);
-            Some(if goes_on { first.off } else { now.off })
+            // A foot that stands on the way in only has no stance in the rounds.
+            Some(match self.stances[side].first() {
+                Some(first) if goes_on => self.unrolled(*first, round + 1.0).off,
+                _ => now.off,
+            })
         };
         let off = (0..2).filter_map(stands_until).reduce(f64::max)?;
         let on = f64::min(self.earliest(0, t), self.earliest(1, t));

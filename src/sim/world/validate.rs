@@ -88,7 +88,21 @@ pub(super) fn setup(s: &FigureSetup) -> Result<(), WorldError> {
 }
 
 pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
-    let (from, to) = match p {
+    let (from, to) = acting(p)?;
+    range("perturbation.from_s", from, f64::NEG_INFINITY, 1e12)?;
+    if to.is_nan() || to < from {
+        return Err(WorldError::Interval {
+            field: "perturbation",
+            from,
+            to,
+        });
+    }
+    Ok(())
+}
+
+/// What a perturbation does; returns from when to when, which is up to the caller.
+pub(super) fn acting(p: &Perturbation) -> Result<(f64, f64), WorldError> {
+    Ok(match p {
         Perturbation::Load { .. } | Perturbation::Held(_) => {
             let l = p.load().expect("both kinds are loads");
             range("load.mass_kg", l.mass, 0.0, 500.0)?;
@@ -111,16 +125,7 @@ pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
             vector("force.point_m", *point, 10.0)?;
             (*from, *to)
         }
-    };
-    range("perturbation.from_s", from, f64::NEG_INFINITY, 1e12)?;
-    if to.is_nan() || to < from {
-        return Err(WorldError::Interval {
-            field: "perturbation",
-            from,
-            to,
-        });
-    }
-    Ok(())
+    })
 }
 
 pub(super) fn constraints(all: &[Constraint]) -> Result<(), WorldError> {

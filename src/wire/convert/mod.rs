@@ -146,12 +146,15 @@ pub(crate) fn display_name(field: &str, name: &str) -> Result<String, Fault> {
     Ok(name.to_owned())
 }
 
+/// Most bytes of the last part of a name.
+pub(crate) const MAX_ID: usize = 63;
+
 /// The last part of a new name; `None` if the server is to choose.
 pub(crate) fn new_id(field: &str, id: &str) -> Result<Option<String>, Fault> {
     if id.is_empty() {
         return Ok(None);
     }
-    let good = id.len() <= 63
+    let good = id.len() <= MAX_ID
         && id.starts_with(|c: char| c.is_ascii_lowercase())
         && id
             .chars()

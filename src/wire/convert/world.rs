@@ -76,6 +76,19 @@ pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
     })
 }
 
+/// True if these settings could have come in a request.
+pub fn is_pace(pace: &Pace) -> bool {
+    let caught_up = match pace.overrun {
+        Overrun::CatchUp(most) => most,
+        Overrun::Skip | Overrun::Dilate => pace.catch_up_limit,
+    };
+    let counts = [pace.catch_up_limit, caught_up];
+    display_name("", &pace.display_name).is_ok()
+        && counts.iter().all(|c| (1..=100).contains(c))
+        && speed("", pace.speed).is_ok()
+        && (pace.idle_ttl).is_none_or(|ttl| (IDLE_TTL.0..=IDLE_TTL.1).contains(&ttl))
+}
+
 /// How long a world may be idle; `None`: for ever.
 pub fn idle_ttl(
     field: &str,

@@ -3,8 +3,10 @@
 use super::record::Writer;
 use super::{Member, Player, PlayerKey, Scene};
 use crate::server::engine::{Drive as Motion, Figure, ObstacleKey, World};
+use crate::sim::figure::constraints::MAX_CONSTRAINTS;
 use crate::sim::world::checkpoint::Capture;
-use crate::wire::convert::new_id;
+use crate::wire::convert::world::is_pace;
+use crate::wire::convert::{MAX_ID, display_name, new_id};
 use crate::wire::types::WorldSettings;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -46,6 +48,13 @@ impl<'de> Deserialize<'de> for Players<'_> {
     fn deserialize<D: serde::Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         Vec::deserialize(from).map(Self::Own)
     }
+}
+
+/// True if what is told of a figure could have come in requests.
+fn is_member(m: &Member) -> bool {
+    display_name("", &m.settings.display_name).is_ok()
+        && m.settings.constraints.len() <= MAX_CONSTRAINTS
+        && m.clip.as_ref().is_none_or(|id| id.len() <= MAX_ID)
 }
 
 impl Scene {
@@ -95,7 +104,7 @@ impl Scene {
         let (p, s) = (world.params(), &settings);
         if (p.rate_hz, p.substeps, p.gravity) != (s.rate_hz, s.substeps, s.gravity)
             || (p.friction, p.collisions) != (s.friction, s.collisions)
-            || !(0.01..=10.0).contains(&s.pace.speed)
+            || !is_pace(&s.pace)
         {
             return Err("settings of another world");
         }
@@ -115,7 +124,10 @@ impl Scene {
                 .eq(world.obstacles().map(|(k, _)| k))
             && indices.len() == members.len()
             && indices.iter().all(|i| (0..next_index).contains(i))
+            && members.iter().all(is_member)
             && next_obstacle < u64::MAX / 2
+            && seq < u64::MAX / 2
+            && next_player < u64::MAX / 2
             && next_index < i32::MAX / 2
             && names(members.iter().map(|m| &m.id).collect())
             && names(obstacles.iter().map(|o| &o.0).collect());
@@ -148,6 +160,12 @@ impl Scene {
             next_player,
             record: Writer::after(seq),
         })
+    }
+
+    /// World time that the clock had left out when live motion was played last, s.
+    pub fn lost(&self) -> f64 {
+        let lost = self.players.iter().filter_map(|p| p.buffer.lost());
+        lost.fold(0.0, f64::max)
     }
 
     /// Nothing plays live motion any more: figures that were driven finish their step and stand.

@@ -34,7 +34,7 @@ pub(super) struct ExitGoal {
 
 /// How a motion is left, while that is planned.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(from = "ExitProblem")]
+#[serde(try_from = "ExitProblem")]
 pub(in crate::sim::figure) struct ExitPlan {
     problem: ExitProblem,
     /// Over to the clip that waits, best first.
@@ -107,10 +107,38 @@ impl ExitProblem {
             before: 0.0,
         }
     }
+
+    /// False if it cannot be what was written into a checkpoint.
+    fn is_valid(&self) -> bool {
+        let times = [
+            self.goal.from,
+            self.known_from,
+            self.due,
+            self.begin,
+            self.before,
+        ];
+        self.lead <= MOST_LEAD
+            && times.iter().all(|t| t.is_finite())
+            && self.ways.as_ref().is_none_or(|w| w.is_valid())
+            && self.ends.as_ref().is_none_or(|e| e.is_valid())
+    }
 }
 
-impl From<ExitProblem> for ExitPlan {
-    fn from(problem: ExitProblem) -> Self {
+impl TryFrom<ExitProblem> for ExitPlan {
+    type Error = &'static str;
+
+    /// Of what was read from a checkpoint.
+    fn try_from(problem: ExitProblem) -> Result<Self, Self::Error> {
+        if problem.is_valid() {
+            Ok(Self::of(problem))
+        } else {
+            Err("an exit from a motion that cannot be")
+        }
+    }
+}
+
+impl ExitPlan {
+    fn of(problem: ExitProblem) -> Self {
         let ways = problem.ways.as_ref();
         let over = |k| {
             let ways = Arc::clone(ways?);
@@ -218,7 +246,7 @@ impl Figure {
         if ends {
             self.plan_stops(&mut leaving, time);
         }
-        let leaving = (ends || leaving.ways.is_some()).then(|| leaving.into());
+        let leaving = (ends || leaving.ways.is_some()).then(|| ExitPlan::of(leaving));
         self.motion.plan_exit(leaving);
         (stands, entered)
     }
@@ -261,7 +289,7 @@ impl Figure {
         };
         let mut leaving = ExitProblem::at(time + lead as f64 / splice::RATE, goal, lead);
         self.plan_stops(&mut leaving, time);
-        self.motion.plan_exit(Some(leaving.into()));
+        self.motion.plan_exit(Some(ExitPlan::of(leaving)));
     }
 
     /// True if it hardly moves, or stands in its motion.
@@ -272,7 +300,9 @@ impl Figure {
 
     /// States the ends of the motion.
     fn plan_stops(&mut self, leaving: &mut ExitProblem, time: f64) {
+        // Never more than the longest lead, whatever a state that was read says.
         let after = ((leaving.due - time) * splice::RATE).round() as usize;
+        let after = after.min(MOST_LEAD);
         let (given, so_far) = self.motion_until_stop(time, after);
         (leaving.begin, leaving.before) = (given.begin, given.before);
         let posture = leaving.goal.posture.filter(|_| self.is_slow());
@@ -407,10 +437,12 @@ impl Figure {
             Drive::Live(live) => (true, live.stream_time(begin)),
             Drive::Hold(_) | Drive::External(_) | Drive::Rehearsed(_) => (false, 0.0),
         };
+        let now = ((from - begin) * splice::RATE).max(0.0) as usize;
         let given = Given {
             begin,
             before,
-            now: ((from - begin) * splice::RATE).max(0.0) as usize + after,
+            // It goes on at least that far, also where a state that was read says otherwise.
+            now: now.saturating_add(after).min(so_far.len()),
             streamed,
         };
         (given, so_far)

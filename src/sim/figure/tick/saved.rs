@@ -127,11 +127,17 @@ impl Figure {
         if !(physical.state.is_finite() && physical.last_good.is_finite()) {
             return Err("a state that is not finite");
         }
+        if !physical.links.is_valid() {
+            return Err("masses that no body has");
+        }
         let mut motion = motion.into_owned();
         if let Drive::Live(live) = motion.source_mut()
             && !live.motion.complete()
         {
             return Err("a stream that cannot be");
+        }
+        if !motion.is_valid() {
+            return Err("a motion that cannot be");
         }
         let mut desired = desired.into_owned();
         desired.tracker.complete(&setup.body);

@@ -23,6 +23,11 @@ fn reduced(angle: f64) -> f64 {
 }
 
 impl PlanarTransform {
+    /// True if it is a place.
+    pub fn is_finite(self) -> bool {
+        [self.x, self.y, self.yaw].iter().all(|x| x.is_finite())
+    }
+
     /// Its turn.
     pub fn rotation(self) -> Quat {
         Quat::exp(Vec3::Z * reduced(self.yaw))

@@ -132,15 +132,17 @@ fn swing_toe(pitch: f64) -> f64 {
 }
 
 impl Foot {
-    /// False if it cannot be what was written into a checkpoint.
-    pub fn is_valid(&self) -> bool {
+    /// False if it cannot be what was written into a checkpoint, after `samples` of which the one of number `posed`
+    /// was posed last.
+    pub fn is_valid(&self, samples: i64, posed: i64) -> bool {
         let known = is_sample;
         let times = |s: &Stance| known(s.start) && (known(s.end) || s.end == i64::MAX);
         self.count <= STANCES
             && self.stances.iter().chain(&self.coming).all(times)
-            && [self.strayed, self.steep, self.posed]
-                .into_iter()
-                .all(known)
+            && [self.strayed, self.steep]
+                .iter()
+                .all(|n| (0..=samples).contains(n))
+            && self.posed == posed
             && (known(self.moving) || self.moving == i64::MIN)
     }
 

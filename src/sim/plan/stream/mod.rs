@@ -279,17 +279,30 @@ impl StreamPlan {
         for sample in &mut self.ring {
             sample.poses = forward(&body, &sample.smooth);
         }
-        let counts = [self.count, self.output.last];
+        // How far everything has come follows from the number of samples: what is between is gone through in a tick.
+        let newest = self.count - 1;
+        let out = newest + 3 - self.timing.window;
+        let posed = (out + self.timing.ahead).max(-1);
+        let labelled = (newest - LABEL + 1).max(0);
+        let fade = |f: &(Difference, i64, f64)| (0..=self.count).contains(&f.1) && f.2 > 0.0;
+        let join = |j: &(i64, f64)| is_sample(j.0) && j.1 > 0.0;
         self.timing.window == fresh.timing.window
             && self.timing.ahead == fresh.timing.ahead
             && self.ring.len() == fresh.ring.len()
             && self.output.knots.len() == fresh.output.knots.len()
             && self.input.pending.len() <= MOST_PENDING
-            && counts.iter().all(|c| *c >= -1 && is_sample(*c))
+            && self.input.newest.is_valid()
+            && is_sample(self.count)
             && self.count >= 0
-            && self.output.last < self.count.max(1)
-            && self.feet.iter().all(Foot::is_valid)
-            && self.balance.horizon.complete(self.timing.window as usize)
+            && self.output.last == out.max(-1)
+            && self.feet.iter().all(|f| f.is_valid(self.count, posed))
+            && self.placement.frame.is_finite()
+            && self.placement.fade.as_ref().is_none_or(fade)
+            && self.placement.join.as_ref().is_none_or(join)
+            && self
+                .balance
+                .horizon
+                .complete(self.timing.window as usize, (out.max(0), labelled))
     }
 
     /// Length of the window, s.

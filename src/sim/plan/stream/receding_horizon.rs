@@ -1,7 +1,7 @@
 //! The shift of the trunk that keeps the balance of a stream: a small optimal control problem over the window, solved
 //! on with every sample.
 
-use super::{H, RATE, is_sample};
+use super::{H, RATE};
 use crate::sim::math::banded::{Factor, Pentadiagonal};
 use crate::sim::math::exp::exp;
 use crate::sim::math::polygon::SmallPolygon;
@@ -143,8 +143,9 @@ impl Balance {
         }
     }
 
-    /// Adds the buffers to what was read from a checkpoint. False if it is not for windows of at most `most` samples.
-    pub fn complete(&mut self, most: usize) -> bool {
+    /// Adds the buffers to what was read from a checkpoint. False if it is not for windows of at most `most` samples,
+    /// or does not hold samples from number `first` up to `end`.
+    pub fn complete(&mut self, most: usize, (first, end): (i64, i64)) -> bool {
         let fresh = Self::new(most);
         let room = fresh.shift.len();
         (self.matrix, self.rows) = (fresh.matrix, fresh.rows);
@@ -152,8 +153,8 @@ impl Balance {
             && self.samples.len() < room
             && self.solved <= room
             && self.first.1 <= room
-            && self.first.0 >= 0
-            && is_sample(self.first.0)
+            && self.first.0 == first
+            && self.samples.len() as i64 == (end - first).max(0)
     }
 
     /// The next sample that is known.

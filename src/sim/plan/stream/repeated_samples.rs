@@ -1,6 +1,6 @@
 //! A stream whose newest samples repeat one: a driver that has stopped moving and goes on sending.
 
-use super::RATE;
+use super::{RATE, is_sample};
 use crate::sim::body::Posture;
 use crate::sim::plan::params::stream;
 use serde::{Deserialize, Serialize};
@@ -21,6 +21,11 @@ pub(super) struct RepeatedSamples {
 }
 
 impl RepeatedSamples {
+    /// False if it cannot be what was written into a checkpoint.
+    pub(super) fn is_valid(&self) -> bool {
+        self.repeated >= 0 && is_sample(self.repeated)
+    }
+
     pub(super) fn take(&mut self, posture: &Posture) {
         let Some(last) = self.posture.replace(*posture) else {
             return;
