@@ -13,7 +13,7 @@ use super::store::{
 };
 use bytes::Bytes;
 use sha2::{Digest, Sha256};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs::{File, TryLockError};
 use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -47,6 +47,46 @@ pub struct LastEnd {
     pub stepping: Vec<(WorldKey, u64)>,
     /// What is wrong with the log as a whole.
     pub damage: Vec<String>,
+}
+
+/// How far the log went: its last row, and that of each world. Rows of worlds that rest are followed by those of
+/// others, so that the last one alone would not tell.
+struct EndNote {
+    end: i64,
+    worlds: BTreeMap<WorldKey, i64>,
+}
+
+impl EndNote {
+    /// Checksum, length, rows.
+    fn to_bytes(&self) -> Vec<u8> {
+        let mut rest = Vec::with_capacity(12 + 16 * self.worlds.len());
+        rest.extend_from_slice(&(self.worlds.len() as u32).to_le_bytes());
+        rest.extend_from_slice(&self.end.to_le_bytes());
+        for (world, id) in &self.worlds {
+            rest.extend_from_slice(&world.0.to_le_bytes());
+            rest.extend_from_slice(&id.to_le_bytes());
+        }
+        let sum = crc32fast::hash(&rest).to_le_bytes();
+        [&sum[..], &rest].concat()
+    }
+
+    /// `None`: it is not what was written, as after a power cut.
+    fn read(bytes: &[u8]) -> Option<Self> {
+        let (sum, rest) = bytes.split_first_chunk::<4>()?;
+        let count = u32::from_le_bytes(*rest.first_chunk::<4>()?) as usize;
+        // What is behind it is from a time with more worlds.
+        let rest = rest.get(..count.checked_mul(16)?.checked_add(12)?)?;
+        if crc32fast::hash(rest).to_le_bytes() != *sum {
+            return None;
+        }
+        let (rows, _) = rest[12..].as_chunks::<16>();
+        let number = |bytes: &[u8]| u64::from_le_bytes(bytes.try_into().expect("eight bytes"));
+        let row = |r: &[u8; 16]| (WorldKey(number(&r[..8])), number(&r[8..]) as i64);
+        Some(Self {
+            end: number(&rest[4..12]) as i64,
+            worlds: rows.iter().map(row).collect(),
+        })
+    }
 }
 
 /// A directory with worlds and clips. It is locked as long as this lives.
@@ -161,9 +201,12 @@ impl LocalStore {
     /// Notes how far the log goes, without waiting for the disk: after a power cut the note may be behind the log,
     /// never before it.
     fn note_end(&self) -> Result<(), StoreError> {
-        let end = self.log.end().to_le_bytes();
         let path = self.dir.join("log.end");
-        let note = [end, (!self.log.end()).to_le_bytes()].concat();
+        let note = EndNote {
+            end: self.log.end(),
+            worlds: self.log.ends().clone(),
+        };
+        let note = note.to_bytes();
         let written = File::options()
             .write(true)
             .create(true)
@@ -173,17 +216,21 @@ impl LocalStore {
         written.map_err(|e| files::io_error(&path, &e))
     }
 
-    /// What a log that ends before its note has lost. SQLite leaves damaged ends of its write-ahead log out silently.
-    fn missing_end(&self) -> Option<String> {
+    /// What a log that ends before its note has lost: SQLite leaves damaged ends of its write-ahead log out silently.
+    /// Whether worlds end before theirs shows when they are read.
+    fn missing_end(&mut self) -> Option<String> {
         let note = std::fs::read(self.dir.join("log.end")).ok()?;
-        let (end, check) = note.split_first_chunk::<8>()?;
-        let end = i64::from_le_bytes(*end);
-        let whole = check == (!end).to_le_bytes();
-        (whole && self.log.end() < end && self.last_end.damage.is_empty()).then(|| {
+        let note = EndNote::read(&note)?;
+        // A log that was begun anew has nothing of what was noted.
+        if !self.last_end.damage.is_empty() {
+            return None;
+        }
+        self.log.expect(note.worlds);
+        (self.log.end() < note.end).then(|| {
             format!(
-                "{}: the last {} commits of worlds are missing: the write-ahead log is damaged",
+                "{}: the last {} rows of worlds are missing: the log is damaged",
                 self.dir.join("log.sqlite").display(),
-                end - self.log.end()
+                note.end - self.log.end()
             )
         })
     }
@@ -366,6 +413,7 @@ impl CheckpointStore for LocalStore {
     fn worlds(&mut self) -> Result<Found<WorldRecord>, StoreError> {
         let paths = files::list(&self.dir.join("worlds"), "world")?;
         let mut out = found(paths.clone(), Self::read_world)?;
+        out.whole.iter().for_each(|w| self.log.know(w.key));
         // A world of which only the log knows: its own file is gone. One whose file is damaged is named already.
         for key in self.log.worlds() {
             let path = self.world_path(key, "world");
@@ -386,6 +434,7 @@ impl CheckpointStore for LocalStore {
     }
 
     fn put_world(&mut self, world: &WorldRecord) -> Result<(), StoreError> {
+        self.log.know(world.key);
         let packed = Packed::default()
             .bytes(&world.key.0.to_le_bytes())
             .bytes(world.name.as_bytes())
@@ -442,6 +491,10 @@ impl CheckpointStore for LocalStore {
         Ok(histories.pop().unwrap_or_default())
     }
 
+    fn oldest(&mut self, world: WorldKey) -> Option<u64> {
+        self.log.oldest(world)
+    }
+
     fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError> {
         let usage = self.log.cut(limits)?;
         self.write_states()?;
@@ -465,7 +518,9 @@ impl CheckpointStore for LocalStore {
                 // Closed first: SQLite removes files by their names when it closes.
                 self.log.close();
                 let aside = set_aside(&self.dir)?;
-                self.log = Log::open(&self.dir.join("log.sqlite"))?;
+                let mut log = Log::open(&self.dir.join("log.sqlite"))?;
+                self.log.known().for_each(|world| log.know(world));
+                self.log = log;
                 Ok(Some(format!(
                     "a new log is begun; the old one is kept in {}",
                     aside.display()

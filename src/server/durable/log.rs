@@ -185,6 +185,8 @@ struct Reading {
     ended: bool,
     /// A damaged place behind the last row of it. Nothing in a damaged row can be trusted, the world included.
     doubtful: bool,
+    /// Its last row that is whole.
+    last: i64,
 }
 
 impl Reading {
@@ -196,6 +198,7 @@ impl Reading {
             history: History::default(),
             ended: false,
             doubtful: false,
+            last: 0,
         }
     }
 
@@ -204,15 +207,18 @@ impl Reading {
         if record.id < self.from {
             return;
         }
+        let last = record.id;
         if record.kind == CHECKPOINT {
             // Also one that the table has lost. With it, nothing before it matters.
             if self.at.is_none_or(|at| record.tick <= at) {
                 *self = Self::new(self.from, self.at);
+                self.last = last;
                 self.next = Some((record.session, record.seq));
                 self.history.checkpoint = Some((record.tick, record.bytes.clone()));
             }
             return;
         }
+        self.last = last;
         let Some((session, next)) = self.next.filter(|_| !self.ended) else {
             return;
         };
@@ -245,8 +251,8 @@ impl Reading {
         });
     }
 
-    /// `latest`: the latest checkpoint there has been.
-    fn end(mut self, latest: Place) -> History {
+    /// `latest`: the latest checkpoint there has been; `end`: its last row, if it was noted.
+    fn end(mut self, latest: Place, end: Option<i64>) -> History {
         let (session, next) = self.next.unwrap_or_default();
         let short = session < latest.session
             || session == latest.session && next < latest.seq
@@ -256,6 +262,9 @@ impl Reading {
                 self.lose("its latest checkpoint is damaged");
             } else if self.doubtful {
                 self.lose("a part of the log is damaged that may have been its end");
+            } else if self.at.is_none() && end.is_some_and(|end| self.last < end) {
+                // Pages that SQLite does not know of any more are no error to it.
+                self.lose("the end of its log is missing");
             }
         }
         self.history
@@ -269,8 +278,10 @@ pub(super) struct Log {
     session: i64,
     next_id: i64,
     tracks: HashMap<WorldKey, Track>,
-    /// Worlds that are gone, of which the last entries may still be on their way.
-    forgotten: HashSet<WorldKey>,
+    /// Worlds that there are. Of those that are gone the last entries may still be on their way.
+    known: HashSet<WorldKey>,
+    /// The last row of each world, as it should be.
+    ends: BTreeMap<WorldKey, i64>,
     /// Rows with wrong checksums that were met, and places that could not be read.
     pub damaged_rows: u64,
 }
@@ -322,7 +333,8 @@ impl Log {
             session: now_ms(),
             next_id: 1,
             tracks: HashMap::new(),
-            forgotten: HashSet::new(),
+            known: HashSet::new(),
+            ends: BTreeMap::new(),
             damaged_rows: 0,
         };
         log.load()?;
@@ -394,8 +406,34 @@ impl Log {
             let track = self.tracks.entry(world).or_default();
             track.written = track.written.max(place.bytes_before);
             track.places.push_back(place);
+            self.known.insert(world);
         }
         Ok(())
+    }
+
+    /// The tick of the oldest checkpoint of a world.
+    pub fn oldest(&self, world: WorldKey) -> Option<u64> {
+        Some(self.tracks.get(&world)?.places.front()?.tick)
+    }
+
+    /// Worlds of which entries are taken.
+    pub fn known(&self) -> impl Iterator<Item = WorldKey> + '_ {
+        self.known.iter().copied()
+    }
+
+    /// From now on entries of this world are taken.
+    pub fn know(&mut self, world: WorldKey) {
+        self.known.insert(world);
+    }
+
+    /// The last row of each world that was written, for the note beside the log.
+    pub fn ends(&self) -> &BTreeMap<WorldKey, i64> {
+        &self.ends
+    }
+
+    /// Where the note says that worlds end: what is read and ends before that has lost something.
+    pub fn expect(&mut self, ends: BTreeMap<WorldKey, i64>) {
+        self.ends = ends;
     }
 
     /// Worlds that the log knows.
@@ -403,7 +441,7 @@ impl Log {
         self.tracks.keys().copied()
     }
 
-    /// Session and number of the last row, for the note beside the log.
+    /// Number of the last row, for the note beside the log.
     pub fn end(&self) -> i64 {
         self.next_id - 1
     }
@@ -422,7 +460,7 @@ impl Log {
         };
         let mut places = Vec::new();
         for entry in entries {
-            if self.forgotten.contains(&entry.world) {
+            if !self.known.contains(&entry.world) {
                 continue;
             }
             let track = changed.entry(entry.world).or_insert_with(|| {
@@ -472,6 +510,7 @@ impl Log {
         }
         self.write(&rows.out, &places).map_err(|e| self.fault(&e))?;
         self.next_id = rows.next_id;
+        self.ends.extend(rows.out.iter().map(|r| (r.world, r.id)));
         for (world, new) in changed {
             let track = self.tracks.entry(world).or_default();
             track.written = new.written;
@@ -605,13 +644,15 @@ impl Log {
             for (i, reading) in open.into_values() {
                 // Without its checkpoint the one before it is looked for.
                 if reading.history.checkpoint.is_some() {
-                    out[i] = latest[i].map(|latest| reading.end(latest));
+                    let end = self.ends.get(&worlds[i]).copied();
+                    out[i] = latest[i].map(|latest| reading.end(latest, end));
                 }
             }
         }
+        let noted = |i: usize| at.is_none() && self.ends.contains_key(&worlds[i]);
         let missing = |i: usize| History {
-            losses: latest[i]
-                .map(|_| Loss {
+            losses: (latest[i].is_some() || noted(i))
+                .then(|| Loss {
                     after_tick: None,
                     why: "no checkpoint of it is whole".to_owned(),
                 })
@@ -655,7 +696,8 @@ impl Log {
         let done = self.db.execute(sql, [world.0 as i64]);
         done.map_err(|e| self.fault(&e))?;
         self.tracks.remove(&world);
-        self.forgotten.insert(world);
+        self.known.remove(&world);
+        self.ends.remove(&world);
         Ok(())
     }
 
@@ -793,6 +835,13 @@ impl Log {
         self.db
             .pragma_update_and_check(None, "max_page_count", pages, |_| Ok(()))
             .expect("a limit");
+    }
+
+    /// Copies the write-ahead log to where its pages belong.
+    pub fn move_to_place(&self) {
+        self.db
+            .query_row("PRAGMA wal_checkpoint(TRUNCATE)", [], |_| Ok(()))
+            .expect("no reader");
     }
 
     /// Takes no writes any more, as on a read-only disk.

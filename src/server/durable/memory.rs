@@ -145,6 +145,12 @@ impl CheckpointStore for MemoryStore {
         Ok(Self::history(&self.0.content(), world, Some(tick)))
     }
 
+    fn oldest(&mut self, world: WorldKey) -> Option<u64> {
+        let content = self.0.content();
+        let checkpoint = |e: &&Entry| e.world == world && matches!(e.item, Item::Checkpoint { .. });
+        content.log.iter().find(checkpoint).map(|e| e.tick)
+    }
+
     /// Holds everything: tests are short.
     fn cut(&mut self, _limits: &Retention) -> Result<Usage, StoreError> {
         let content = self.0.content();

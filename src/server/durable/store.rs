@@ -287,6 +287,9 @@ pub trait CheckpointStore: Send {
     /// Nothing can be read.
     fn history_at(&mut self, world: WorldKey, tick: u64) -> Result<History, StoreError>;
 
+    /// The tick of the oldest checkpoint of a world that is held.
+    fn oldest(&mut self, world: WorldKey) -> Option<u64>;
+
     /// Hashes of the states after ticks, as they were written last.
     ///
     /// # Errors

@@ -324,6 +324,110 @@ fn no_number_of_a_row_is_trusted() {
     }
 }
 
+/// What an orderly end leaves of a world that rests while others go on.
+fn with_one_at_rest() -> (Temporary, Vec<WorldRecord>) {
+    let dir = Temporary::new();
+    let mut store = LocalStore::open(&dir.0).unwrap();
+    let worlds = fill(&mut store, 40);
+    for tick in 41..=TICKS {
+        let entries = worlds.iter().zip(0..).skip(1);
+        let entries: Vec<Entry> = entries
+            .flat_map(|(w, n)| tick_entries(w, n, tick))
+            .collect();
+        store.commit(&entries).unwrap();
+    }
+    store.log().move_to_place();
+    (dir, worlds)
+}
+
+#[test]
+fn the_end_of_a_world_that_rests_is_missed() {
+    // Nothing is wrong with the log but that rows in the middle of it are not there.
+    for (rows, lost) in [(0, false), (1, true), (7, true), (60, true)] {
+        let (dir, worlds) = with_one_at_rest();
+        let log = rusqlite::Connection::open(dir.0.join("log.sqlite")).unwrap();
+        let key = worlds[0].key.0 as i64;
+        let cut = "DELETE FROM log WHERE id IN (SELECT id FROM log WHERE world = ?1 ORDER BY id DESC LIMIT ?2)";
+        log.execute(cut, [key, rows]).unwrap();
+        drop(log);
+        let mut store = LocalStore::open(&dir.0).unwrap();
+        let found = recover(&mut store, &[]).unwrap();
+        assert!(found.damaged.is_empty(), "{:?}", found.damaged);
+        for (world, history) in &found.worlds {
+            let rests = world.key == worlds[0].key;
+            let last = check(world.name[1..].parse().unwrap(), history).unwrap();
+            assert_eq!(
+                !history.losses.is_empty(),
+                rests && lost,
+                "{rows}: {history:?}"
+            );
+            if !(rests && lost) {
+                assert_eq!(last, Some(if rests { 40 } else { TICKS }));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_page_count_that_is_wrong_loses_nothing_unseen() {
+    let (whole, worlds) = with_one_at_rest();
+    for bit in 0..32 {
+        let dir = Temporary::new();
+        copy(&whole.0, &dir.0);
+        for end in ["wal", "shm"] {
+            let _ = std::fs::remove_file(dir.0.join(format!("log.sqlite-{end}")));
+        }
+        let path = dir.0.join("log.sqlite");
+        let mut bytes = std::fs::read(&path).unwrap();
+        bytes[28 + bit / 8] ^= 1 << (bit % 8); // size of the database in pages
+        std::fs::write(&path, bytes).unwrap();
+        let Ok(mut store) = LocalStore::open(&dir.0) else {
+            continue;
+        };
+        let Ok(found) = recover(&mut store, &[]) else {
+            continue;
+        };
+        for (world, history) in &found.worlds {
+            let n = world.name[1..].parse().unwrap();
+            let meant = if world.key == worlds[0].key {
+                40
+            } else {
+                TICKS
+            };
+            let last = check(n, history).unwrap();
+            let named = !history.losses.is_empty() || !found.damaged.is_empty();
+            assert!(
+                last == Some(meant) || named,
+                "bit {bit}: w{n} ends at {last:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_is_held_of_deleted_worlds_is_nothing() {
+    let dir = Temporary::new();
+    let mut store = LocalStore::open(&dir.0).unwrap();
+    let checkpoint = |world: WorldKey| Entry {
+        world,
+        tick: 1,
+        item: Item::Checkpoint {
+            bytes: state(0, 1),
+            after_gap: false,
+        },
+    };
+    for _ in 0..50 {
+        let key = world(&mut store, 0).key;
+        store.commit(&[checkpoint(key)]).unwrap();
+        store.delete_world(key).unwrap();
+        // Its thread hands in a last state before it hears of it.
+        store.commit(&[checkpoint(key)]).unwrap();
+    }
+    assert_eq!(store.log().known().count(), 0);
+    assert_eq!(store.log().worlds().count(), 0);
+    assert!(store.log().ends().is_empty());
+}
+
 #[test]
 fn each_file_of_a_store_is_needed() {
     // The test above fails if damage is not seen: here every file is overwritten, and all but the notes are missed.
