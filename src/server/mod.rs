@@ -147,7 +147,7 @@ pub async fn serve(
         health: health.clone(),
         stop,
     };
-    let tls = app.access.tls.as_ref().map(|tls| tls.acceptor.clone());
+    let tls = app.access.tls.clone();
     let incoming = edge::connections::incoming(listener, edge.doors.clone(), tls);
     let (close, closing) = watch::channel(false);
     let serving = serve_ages(

@@ -346,6 +346,47 @@ async fn a_certificate_says_who_a_client_is() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn another_root_of_clients_needs_no_restart() {
+    let server = Guarded::start(&[("tls_require_client_cert", "true")]).await;
+    let next = Authority::new("next root");
+    let of = |root: &Authority| {
+        let (certificate, key) = root.issue("alice", Vec::new());
+        Credentials {
+            certificate: Some((certificate.into_bytes(), key.into_bytes())),
+            ..Default::default()
+        }
+    };
+    let (old, new) = (of(&server.root), of(&next));
+    let served = async |credentials: &Credentials| match server.connect(credentials.clone()).await {
+        Ok(client) => who(&client).await.is_ok(),
+        Err(_) => false,
+    };
+    let alice = server.connect(old.clone()).await.unwrap();
+    assert_eq!(who(&alice).await.unwrap().principal, "cert:alice");
+    assert!(!served(&new).await);
+    let tls = server.app.access.tls.clone().unwrap();
+    let touched = |text: &str| {
+        let file = std::fs::File::options()
+            .append(true)
+            .open(server.files.write("root.pem", text));
+        // Within the resolution of the file system's clock.
+        let later =
+            std::time::SystemTime::now() + std::time::Duration::from_secs(text.len() as u64);
+        file.unwrap().set_modified(later).unwrap();
+        tls.read_again();
+    };
+    // Files that cannot be read change nothing.
+    touched("no certificate");
+    assert!(served(&old).await && !served(&new).await);
+    touched(&[server.root.pem(), next.pem()].concat());
+    assert!(served(&old).await && served(&new).await);
+    touched(&next.pem());
+    assert!(!served(&old).await && served(&new).await);
+    // Who is connected stays.
+    assert_eq!(who(&alice).await.unwrap().principal, "cert:alice");
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn who_never_agrees_on_tls_keeps_nobody_waiting() {
     let server = Guarded::start(&[("first_request_s", "0.3")]).await;
     let mut silent = Vec::new();

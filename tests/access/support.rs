@@ -85,7 +85,8 @@ pub fn token(secret: &[u8], subject: &str, roles: &[Role], worlds: Option<&[&str
 
 /// A server with TLS and a shared secret.
 pub struct Guarded {
-    _files: Files,
+    pub files: Files,
+    pub app: Arc<App>,
     pub root: Authority,
     pub secret: Vec<u8>,
     pub address: SocketAddr,
@@ -122,17 +123,19 @@ impl Guarded {
         let (stop, stopped) = tokio::sync::oneshot::channel::<()>();
         let (signal, stopping) = tokio::sync::watch::channel(false);
         let app = Arc::new(App::new(Arc::new(config), stopping).unwrap());
+        let served = app.clone();
         tokio::spawn(async move {
             let shutdown = async move {
                 let _ = stopped.await;
             };
-            sinew::server::serve(app, listener, shutdown, signal)
+            sinew::server::serve(served, listener, shutdown, signal)
                 .await
                 .unwrap();
         });
         Self {
             secret: read_secret(&secret).unwrap(),
-            _files: files,
+            files,
+            app,
             root,
             address,
             _stop: stop,

@@ -1,6 +1,7 @@
 //! TLS on the port of the server, and who a client certificate speaks for.
 //!
-//! Certificate and key are read again when their files change, so that a renewed certificate needs no restart.
+//! Certificate, key and the roots of clients are read again when their files change, so that neither a renewed
+//! certificate nor another root needs a restart. Connections that there are stay as they were agreed on.
 
 use super::caller::{Claims, Identity};
 use super::keys::roots;
@@ -10,8 +11,8 @@ use crate::server::config::Config;
 use rustls::crypto::CryptoProvider;
 use rustls::pki_types::pem::PemObject as _;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer};
-use rustls::server::{ClientHello, ResolvesServerCert, WebPkiClientVerifier};
-use rustls::sign::CertifiedKey;
+use rustls::server::WebPkiClientVerifier;
+use rustls::sign::{CertifiedKey, SingleCertAndKey};
 use std::sync::{Arc, PoisonError, RwLock};
 use std::time::{Duration, SystemTime};
 use tokio_rustls::TlsAcceptor;
@@ -21,69 +22,64 @@ use x509_parser::prelude::{FromDer as _, X509Certificate};
 /// How often the files are looked at.
 const LOOK_EVERY: Duration = Duration::from_secs(30);
 
+/// What is agreed on with clients, and the files that it comes from.
+struct Agreed {
+    /// Certificate, key, and roots of clients; empty where there are none.
+    files: [String; 3],
+    /// Connections without a client certificate are refused.
+    required: bool,
+    now: RwLock<(TlsAcceptor, [Option<SystemTime>; 3])>,
+}
+
+fn changed(files: &[String; 3]) -> [Option<SystemTime>; 3] {
+    [0, 1, 2].map(|i: usize| std::fs::metadata(&files[i]).and_then(|m| m.modified()).ok())
+}
+
+/// TLS with what the files hold now.
+fn load(files: &[String; 3], required: bool) -> Result<TlsAcceptor, String> {
+    let [certificates, key, client_ca] = files;
+    let provider = Arc::new(rustls::crypto::aws_lc_rs::default_provider());
+    let shown = shown(certificates, key, &provider)?;
+    let server = rustls::ServerConfig::builder_with_provider(provider.clone())
+        .with_safe_default_protocol_versions()
+        .map_err(|e| e.to_string())?;
+    let server = if client_ca.is_empty() {
+        server.with_no_client_auth()
+    } else {
+        let named = |e: String| format!("tls_client_ca: {e}");
+        let roots = Arc::new(roots(client_ca).map_err(named)?);
+        let verifier = WebPkiClientVerifier::builder_with_provider(roots, provider);
+        let verifier = if required {
+            verifier
+        } else {
+            verifier.allow_unauthenticated() // with a token instead, or for health
+        };
+        let verifier = verifier.build().map_err(|e| named(e.to_string()))?;
+        server.with_client_cert_verifier(verifier)
+    };
+    let mut server = server.with_cert_resolver(Arc::new(SingleCertAndKey::from(shown)));
+    server.alpn_protocols = vec![b"h2".to_vec(), b"http/1.1".to_vec()];
+    Ok(TlsAcceptor::from(Arc::new(server)))
+}
+
 /// The certificate that the server shows.
-#[derive(Debug)]
-struct Shown {
-    files: [String; 2],
-    provider: Arc<CryptoProvider>,
-    key: RwLock<Arc<CertifiedKey>>,
-}
-
-impl ResolvesServerCert for Shown {
-    fn resolve(&self, _: ClientHello<'_>) -> Option<Arc<CertifiedKey>> {
-        Some(
-            self.key
-                .read()
-                .unwrap_or_else(PoisonError::into_inner)
-                .clone(),
-        )
+fn shown(certificates: &str, key: &str, provider: &CryptoProvider) -> Result<CertifiedKey, String> {
+    let chain = CertificateDer::pem_file_iter(certificates)
+        .and_then(Iterator::collect::<Result<Vec<_>, _>>)
+        .map_err(|e| format!("tls_cert: {certificates}: {e}"))?;
+    if chain.is_empty() {
+        return Err(format!(
+            "tls_cert: {certificates}: there is no certificate in it"
+        ));
     }
-}
-
-impl Shown {
-    fn load(
-        [certificates, key]: &[String; 2],
-        provider: &CryptoProvider,
-    ) -> Result<Arc<CertifiedKey>, String> {
-        let chain = CertificateDer::pem_file_iter(certificates)
-            .and_then(Iterator::collect::<Result<Vec<_>, _>>)
-            .map_err(|e| format!("tls_cert: {certificates}: {e}"))?;
-        if chain.is_empty() {
-            return Err(format!(
-                "tls_cert: {certificates}: there is no certificate in it"
-            ));
-        }
-        // The error of a key says nothing of what is in it.
-        let private =
-            PrivateKeyDer::from_pem_file(key).map_err(|e| format!("tls_key: {key}: {e}"))?;
-        CertifiedKey::from_der(chain, private, provider)
-            .map(Arc::new)
-            .map_err(|e| format!("tls_key: {key}: {e}"))
-    }
-
-    fn changed(&self) -> [Option<SystemTime>; 2] {
-        let at = |path: &String| std::fs::metadata(path).and_then(|m| m.modified()).ok();
-        [at(&self.files[0]), at(&self.files[1])]
-    }
-
-    fn reload(&self) {
-        match Self::load(&self.files, &self.provider) {
-            Ok(key) => {
-                *self.key.write().unwrap_or_else(PoisonError::into_inner) = key;
-                tracing::info!("certificate read again");
-            }
-            Err(error) => tracing::warn!(error, "the certificate stays as it was"),
-        }
-    }
+    // The error of a key says nothing of what is in it.
+    let private = PrivateKeyDer::from_pem_file(key).map_err(|e| format!("tls_key: {key}: {e}"))?;
+    CertifiedKey::from_der(chain, private, provider).map_err(|e| format!("tls_key: {key}: {e}"))
 }
 
 /// TLS as the settings say.
 #[derive(Clone)]
-pub struct Tls {
-    /// Takes connections.
-    pub acceptor: TlsAcceptor,
-    shown: Arc<Shown>,
-}
+pub struct Tls(Arc<Agreed>);
 
 impl std::fmt::Debug for Tls {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -100,49 +96,46 @@ impl Tls {
         if config.tls_cert.is_empty() {
             return Ok(None);
         }
-        let provider = Arc::new(rustls::crypto::aws_lc_rs::default_provider());
-        let files = [config.tls_cert.clone(), config.tls_key.clone()];
-        let key = RwLock::new(Shown::load(&files, &provider)?);
-        let shown = Arc::new(Shown {
+        let files = [&config.tls_cert, &config.tls_key, &config.tls_client_ca].map(String::clone);
+        let required = config.tls_require_client_cert;
+        let read = changed(&files);
+        let now = RwLock::new((load(&files, required)?, read));
+        Ok(Some(Self(Arc::new(Agreed {
             files,
-            provider: provider.clone(),
-            key,
-        });
-        let server = rustls::ServerConfig::builder_with_provider(provider.clone())
-            .with_safe_default_protocol_versions()
-            .map_err(|e| e.to_string())?;
-        let server = if config.tls_client_ca.is_empty() {
-            server.with_no_client_auth()
-        } else {
-            let named = |e: String| format!("tls_client_ca: {e}");
-            let roots = Arc::new(roots(&config.tls_client_ca).map_err(named)?);
-            let verifier = WebPkiClientVerifier::builder_with_provider(roots, provider);
-            let verifier = if config.tls_require_client_cert {
-                verifier
-            } else {
-                verifier.allow_unauthenticated() // with a token instead, or for health
-            };
-            let verifier = verifier.build().map_err(|e| named(e.to_string()))?;
-            server.with_client_cert_verifier(verifier)
-        };
-        let mut server = server.with_cert_resolver(shown.clone());
-        server.alpn_protocols = vec![b"h2".to_vec(), b"http/1.1".to_vec()];
-        Ok(Some(Self {
-            acceptor: TlsAcceptor::from(Arc::new(server)),
-            shown,
-        }))
+            required,
+            now,
+        }))))
     }
 
-    /// Reads the certificate again when it changes, for as long as it is polled.
+    /// Takes connections, as the files have it by now.
+    pub fn acceptor(&self) -> TlsAcceptor {
+        let now = self.0.now.read();
+        now.unwrap_or_else(PoisonError::into_inner).0.clone()
+    }
+
+    /// Reads the files again if one of them has changed since. What cannot be read changes nothing. Sessions that were
+    /// agreed on with what was before are not resumed: who was let in by a root that is gone comes in no more.
+    pub fn read_again(&self) {
+        let read = changed(&self.0.files);
+        let mut now = self.0.now.write().unwrap_or_else(PoisonError::into_inner);
+        if now.1 == read {
+            return;
+        }
+        now.1 = read;
+        match load(&self.0.files, self.0.required) {
+            Ok(acceptor) => {
+                now.0 = acceptor;
+                tracing::info!("certificates read again");
+            }
+            Err(error) => tracing::warn!(error, "the certificates stay as they were"),
+        }
+    }
+
+    /// Reads the files again when they change, for as long as it is polled.
     pub async fn follow_files(&self) {
-        let mut last = self.shown.changed();
         loop {
             tokio::time::sleep(LOOK_EVERY).await;
-            let now = self.shown.changed();
-            if now != last {
-                last = now;
-                self.shown.reload();
-            }
+            self.read_again();
         }
     }
 }

@@ -5,6 +5,7 @@
 //! for health and metrics only; of these one that has its answer goes first, then the oldest. So whoever holds
 //! connections without using them locks out nobody.
 
+use super::super::access::tls::Tls;
 use super::super::config::Config;
 use futures_util::task::AtomicWaker;
 use rustls::pki_types::CertificateDer;
@@ -19,7 +20,6 @@ use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::time::{Instant, Sleep};
-use tokio_rustls::TlsAcceptor;
 use tokio_rustls::server::TlsStream;
 use tokio_stream::Stream;
 use tonic::transport::server::Connected;
@@ -362,7 +362,7 @@ pub(in crate::server) struct Connection {
 pub(in crate::server) fn incoming(
     listener: TcpListener,
     doors: Arc<Doors>,
-    tls: Option<TlsAcceptor>,
+    tls: Option<Tls>,
 ) -> impl Stream<Item = io::Result<Connection>> {
     let state = (listener, doors, tls);
     futures_util::stream::unfold(state, |(listener, doors, tls)| async move {
@@ -374,7 +374,7 @@ pub(in crate::server) fn incoming(
                     metrics::counter!("sinew_connections_total").increment(1);
                     let (number, peer) = doors.enter(address);
                     let transport = match &tls {
-                        Some(tls) => Transport::Agreeing(Box::new(tls.accept(stream))),
+                        Some(tls) => Transport::Agreeing(Box::new(tls.acceptor().accept(stream))),
                         None => Transport::Plain(stream),
                     };
                     let connection = Connection {
