@@ -45,6 +45,12 @@ pub fn export(
     give: &mut Give<'_>,
 ) -> Result<(), Fault> {
     let (from, until) = recorded.ticks;
+    if recorded.segments.is_empty() {
+        return Err(Fault::DataLoss {
+            reason: "RECORDING_LOST",
+            message: format!("ticks {from} to {until} of world {world:?} are not on disk any more"),
+        });
+    }
     let mut writer: Box<dyn Writer> = match format {
         Format::Mcap => Box::new(Mcap::new(world)?),
         Format::Bvh(figure) => Box::new(Bvh::of(figure)),

@@ -12,11 +12,12 @@ use super::durable::local::LocalStore;
 use super::durable::marks::Marks;
 use super::durable::recovery::{Recovered, recover};
 use super::durable::store::{
-    ClipRecord, Durability, History, Item, Retention, StoreError, WorldKey, WorldRecord,
+    self, ClipRecord, Durability, History, Item, Retention, StoreError, WorldKey, WorldRecord,
 };
 use super::library::NewClip;
+use super::recordings::{Recordings, StoredRecording};
 use super::tick::command::Origin;
-use super::tick::journal::{self, Logged};
+use super::tick::journal::{self, Logged, Segment};
 use super::tick::replay::Replay;
 use super::tick::scene::Scene;
 use super::tick::shard::Shard;
@@ -24,7 +25,7 @@ use super::worlds::WorldHandle;
 use crate::wire::convert::{body, figure, motion, new_id, obstacle, world};
 use crate::wire::pb;
 use crate::wire::status::Fault;
-use crate::wire::types::WorldUpdate;
+use crate::wire::types::{ControlInfo, KeptLease, WorldUpdate};
 use prost::Message;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -48,6 +49,56 @@ struct Described {
     obstacles: Vec<pb::Obstacle>,
     #[prost(message, repeated, tag = "4")]
     grants: Vec<pb::Grant>,
+    #[prost(message, repeated, tag = "5")]
+    recordings: Vec<StoredRecording>,
+    #[prost(message, repeated, tag = "6")]
+    controls: Vec<StoredControl>,
+}
+
+/// What is stored of who controls a figure.
+#[derive(Clone, PartialEq, Message)]
+struct StoredControl {
+    /// Last part of the name of the figure.
+    #[prost(string, tag = "1")]
+    figure: String,
+    #[prost(int64, tag = "2")]
+    epoch: i64,
+    /// Who has the lease; empty: nobody.
+    #[prost(string, tag = "3")]
+    holder: String,
+    /// SHA-256 of its token.
+    #[prost(bytes = "vec", tag = "4")]
+    token: Vec<u8>,
+    #[prost(int32, tag = "5")]
+    priority: i32,
+    #[prost(uint64, tag = "6")]
+    grace_ms: u64,
+}
+
+impl StoredControl {
+    fn of(info: &ControlInfo) -> Self {
+        let lease = info.kept.as_ref();
+        Self {
+            figure: info.figure.clone(),
+            epoch: info.epoch,
+            holder: lease.map_or_else(String::new, |l| l.holder.to_string()),
+            token: lease.map_or_else(Vec::new, |l| l.token.to_vec()),
+            priority: lease.map_or(0, |l| l.priority),
+            grace_ms: lease.map_or(0, |l| l.grace.as_millis() as u64),
+        }
+    }
+
+    /// Figure, epoch, and the lease if there was one.
+    fn kept(self) -> (String, i64, Option<KeptLease>) {
+        let token = self.token.try_into().ok();
+        let lease = token.map(|token| KeptLease {
+            holder: self.holder.into(),
+            token,
+            priority: self.priority,
+            grace: Duration::from_millis(self.grace_ms),
+        });
+        (self.figure, self.epoch, lease)
+    }
 }
 
 /// What is stored of a clip besides the request that made it.
@@ -76,6 +127,8 @@ pub struct Persistence {
     durability: Durability,
     worlds: Mutex<BTreeMap<String, WorldRecord>>,
     recovered: Mutex<Option<Recovered>>,
+    /// Parts of the past that are kept, of which the log has the content.
+    recordings: Arc<Recordings>,
     /// Held while the description of a world is written.
     writing: tokio::sync::Mutex<()>,
 }
@@ -85,7 +138,7 @@ impl Persistence {
     ///
     /// # Errors
     /// It cannot be used: another server has it, it cannot be written to, or a later version has written it.
-    pub fn open(config: &Config) -> Result<Option<Self>, StoreError> {
+    pub fn open(config: &Config, recordings: &Arc<Recordings>) -> Result<Option<Self>, StoreError> {
         if config.data_dir.is_empty() {
             return Ok(None);
         }
@@ -125,6 +178,7 @@ impl Persistence {
             durability: Durability::by_name(&config.durability).unwrap_or_default(),
             worlds: Mutex::new(worlds),
             recovered: Mutex::new(Some(recovered)),
+            recordings: Arc::clone(recordings),
             writing: tokio::sync::Mutex::default(),
         }))
     }
@@ -303,8 +357,109 @@ impl Persistence {
                 .call(origin(), move |s| s.add_obstacle(id, setup))
                 .await?;
         }
+        let controls = described.controls.into_iter().map(StoredControl::kept);
+        let controls: Vec<_> = controls.collect();
+        handle
+            .call(origin(), move |s| {
+                s.bring_leases_back(controls);
+                Ok(())
+            })
+            .await?;
+        for stored in described.recordings {
+            self.bring_recording_back(&handle, record.key, stored).await;
+        }
         self.follow(&handle);
         Ok(())
+    }
+
+    /// Brings a recording back, with what the log has of it.
+    async fn bring_recording_back(
+        &self,
+        handle: &Arc<WorldHandle>,
+        key: WorldKey,
+        stored: StoredRecording,
+    ) {
+        let Some(journal) = &handle.journal else {
+            return; // no past is kept at all
+        };
+        let now = handle.latest().tick;
+        let until = stored.last.unwrap_or(now);
+        let most = self.recordings.most_bytes();
+        let kept = self.recorded(key, (stored.first, until), most).await;
+        let kept = kept.unwrap_or_else(|why| {
+            let (world, recording) = (&*handle.id, &*stored.id);
+            tracing::error!(world, recording, %why, "a recording cannot be read");
+            Vec::new()
+        });
+        let at = (&*handle.id, now);
+        self.recordings.bring_back(journal, at, stored, kept);
+    }
+
+    /// What the log has of the past of a world from tick `first` to tick `until`, at most `most` bytes of it: a part of
+    /// each server that has written it.
+    async fn recorded(
+        &self,
+        key: WorldKey,
+        (first, until): (u64, u64),
+        most: u64,
+    ) -> Result<Vec<Arc<Segment>>, Fault> {
+        let read = |from: u64| self.keeper.call(move |store| store.history_at(key, from));
+        let oldest = self.keeper.call(move |store| Ok(store.oldest(key))).await;
+        let oldest = oldest.map_err(storage)?.unwrap_or(u64::MAX);
+        let (mut from, mut bytes, mut out) = (first.max(oldest), 0, Vec::new());
+        while from <= until && bytes <= most {
+            let history = read(from).await.map_err(storage)?;
+            let (Some((_, state)), Some(last)) = (&history.checkpoint, history.last_tick()) else {
+                break;
+            };
+            if last < from {
+                break;
+            }
+            let (state, entries) = (state.clone(), read_entries(&history.entries).0);
+            let segment = tokio::task::spawn_blocking(move || {
+                let scene = checkpoints::decode("checkpoint", &state)?;
+                Ok::<_, Fault>(Segment::of_disk(scene, entries, until))
+            });
+            let segment = segment
+                .await
+                .map_err(|e| Fault::Internal(e.to_string()))??;
+            bytes += segment.bytes();
+            from = segment.last_tick().max(last) + 1;
+            out.push(segment);
+        }
+        Ok(out)
+    }
+
+    /// What is stored of a world, without what changes in each tick.
+    fn describe(&self, handle: &WorldHandle) -> Described {
+        let described = handle.described();
+        let obstacles = &handle.latest().obstacles;
+        let figures = described.figures.iter().map(|f| {
+            pb::Figure {
+                profile: None, // the name of the body says it
+                status: None,
+                constraints: Vec::new(),
+                ..figure::figure_out(f)
+            }
+        });
+        let obstacles = obstacles.iter().map(|o| obstacle::out(&handle.id, o));
+        Described {
+            world: Some(pb::World {
+                tick: 0,
+                time_s: 0.0,
+                ..world::world_out(&described.world)
+            }),
+            figures: figures.collect(),
+            obstacles: obstacles.collect(),
+            grants: (handle.grants.list().iter())
+                .map(|g| access::grant_out(&handle.id, g))
+                .collect(),
+            recordings: self.recordings.stored(&handle.id),
+            controls: (described.controls.iter())
+                .filter(|c| c.epoch > 0 || c.kept.is_some())
+                .map(StoredControl::of)
+                .collect(),
+        }
     }
 
     /// Writes a new world down.
@@ -317,7 +472,7 @@ impl Persistence {
             name: handle.id.to_string(),
             durability: self.durability,
             quarantined: None,
-            settings: describe(handle).encode_to_vec().into(),
+            settings: self.describe(handle).encode_to_vec().into(),
         };
         let record = self
             .keeper
@@ -344,7 +499,7 @@ impl Persistence {
     pub async fn changed(&self, handle: &WorldHandle) -> Result<(), Fault> {
         // One after the other, so that what is described last is written last.
         let _turn = self.writing.lock().await;
-        let settings = describe(handle).encode_to_vec();
+        let settings = self.describe(handle).encode_to_vec();
         let Some(record) = self.worlds().get(&*handle.id).cloned() else {
             return Ok(()); // deleted meanwhile
         };
@@ -525,20 +680,9 @@ async fn write_state(
 async fn replayed(record: &WorldRecord, history: &History) -> Option<Scene> {
     let (tick, bytes) = history.checkpoint.clone()?;
     let world = &*record.name;
-    let mut entries = Vec::with_capacity(history.entries.len());
-    for entry in &history.entries {
-        entries.push(match &entry.item {
-            Item::Hash(hash) => Logged::Hash(entry.tick, *hash),
-            Item::Input(bytes) => match journal::from_disk(entry.tick, bytes) {
-                Ok(record) => Logged::Record(record),
-                Err(why) => {
-                    let tick = entry.tick;
-                    tracing::error!(world, tick, why, "what follows is lost");
-                    break;
-                }
-            },
-            Item::Checkpoint { .. } => continue,
-        });
+    let (entries, unreadable) = read_entries(&history.entries);
+    if let Some((tick, why)) = unreadable {
+        tracing::error!(world, tick, why, "what follows is lost");
     }
     let entries = Arc::new(entries);
     let mut until = u64::MAX;
@@ -583,37 +727,26 @@ async fn replayed(record: &WorldRecord, history: &History) -> Option<Scene> {
     }
 }
 
+/// What was logged, up to the first entry that cannot be read: its tick, and why.
+fn read_entries(entries: &[store::Logged]) -> (Vec<Logged>, Option<(u64, String)>) {
+    let mut out = Vec::with_capacity(entries.len());
+    for entry in entries {
+        out.push(match &entry.item {
+            Item::Hash(hash) => Logged::Hash(entry.tick, *hash),
+            Item::Input(bytes) => match journal::from_disk(entry.tick, bytes) {
+                Ok(record) => Logged::Record(record),
+                Err(why) => return (out, Some((entry.tick, why))),
+            },
+            Item::Checkpoint { .. } => continue,
+        });
+    }
+    (out, None)
+}
+
 fn origin() -> Origin {
     Origin {
         client: "".into(),
         sequence: 0,
-    }
-}
-
-/// What is stored of a world, without what changes in each tick.
-fn describe(handle: &WorldHandle) -> Described {
-    let described = handle.described();
-    let obstacles = &handle.latest().obstacles;
-    let figures = described.figures.iter().map(|f| {
-        pb::Figure {
-            profile: None, // the name of the body says it
-            status: None,
-            constraints: Vec::new(),
-            ..figure::figure_out(f)
-        }
-    });
-    let obstacles = obstacles.iter().map(|o| obstacle::out(&handle.id, o));
-    Described {
-        world: Some(pb::World {
-            tick: 0,
-            time_s: 0.0,
-            ..world::world_out(&described.world)
-        }),
-        figures: figures.collect(),
-        obstacles: obstacles.collect(),
-        grants: (handle.grants.list().iter())
-            .map(|g| access::grant_out(&handle.id, g))
-            .collect(),
     }
 }
 

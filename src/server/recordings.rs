@@ -52,6 +52,62 @@ impl Recording {
     }
 }
 
+/// What is stored of a recording: that it is there, whose it is, and of what. The past itself is in the log.
+#[derive(Clone, PartialEq, prost::Message)]
+pub struct StoredRecording {
+    /// Last part of its name.
+    #[prost(string, tag = "1")]
+    pub id: String,
+    /// Who began it.
+    #[prost(string, tag = "2")]
+    pub owner: String,
+    /// Its first tick.
+    #[prost(uint64, tag = "3")]
+    pub first: u64,
+    /// Its last tick, once it has ended.
+    #[prost(uint64, optional, tag = "4")]
+    pub last: Option<u64>,
+    /// Why it has ended, as it is told.
+    #[prost(string, tag = "5")]
+    pub end: String,
+    /// When it was begun, ms since 1970.
+    #[prost(uint64, tag = "6")]
+    pub created_ms: u64,
+}
+
+impl Recording {
+    /// As it is stored.
+    fn stored(&self) -> StoredRecording {
+        let end = self.pin.end();
+        let created = self.created.duration_since(SystemTime::UNIX_EPOCH);
+        StoredRecording {
+            id: self.id.clone(),
+            owner: self.owner.to_string(),
+            first: self.pin.first_tick(),
+            last: end.map(|_| self.journal.pinned(&self.pin).1),
+            end: end.map_or("", end_name).to_owned(),
+            created_ms: created.map_or(0, |d| d.as_millis() as u64),
+        }
+    }
+}
+
+/// What it is called that a recording has ended.
+pub fn end_name(end: PinEnd) -> &'static str {
+    match end {
+        PinEnd::Stopped => "STOPPED",
+        PinEnd::Full => "MAX_RECORDING_BYTES",
+        PinEnd::Restored => "WORLD_RESTORED",
+        PinEnd::Lost => "HISTORY_LOST",
+    }
+}
+
+/// The end of that name.
+fn end_of(name: &str) -> Option<PinEnd> {
+    use PinEnd::{Full, Lost, Restored, Stopped};
+    let all = [Stopped, Full, Restored, Lost];
+    all.into_iter().find(|end| end_name(*end) == name)
+}
+
 /// All recordings, by world and name.
 #[derive(Debug)]
 pub struct Recordings {
@@ -83,6 +139,11 @@ impl Recordings {
             most_bytes,
             share,
         }
+    }
+
+    /// Bytes of one of them, at most.
+    pub fn most_bytes(&self) -> u64 {
+        self.most_bytes
     }
 
     fn all(&self) -> MutexGuard<'_, BTreeMap<(String, String), Arc<Recording>>> {
@@ -130,6 +191,56 @@ impl Recordings {
         });
         all.insert((new.world, id), Arc::clone(&recording));
         Ok(recording)
+    }
+
+    /// Recordings of a world as they are stored, by name.
+    pub fn stored(&self, world: &str) -> Vec<StoredRecording> {
+        self.of_world(world).iter().map(|r| r.stored()).collect()
+    }
+
+    /// Brings one back that was stored, with what is left of its past, of a world that goes on at tick `now`.
+    pub fn bring_back(
+        &self,
+        journal: &Arc<Journal>,
+        (world, now): (&str, u64),
+        stored: StoredRecording,
+        kept: Vec<Arc<Segment>>,
+    ) {
+        let first = kept
+            .first()
+            .map_or(stored.first, |s| s.start.tick().max(stored.first));
+        let reached = kept.last().map(|s| s.last_tick());
+        let whole =
+            first == stored.first && reached.is_some_and(|r| r >= stored.last.unwrap_or(now));
+        let end = match (end_of(&stored.end), whole) {
+            (end, true) => end,
+            // What is there of one that goes on leads up to now.
+            (None, false) if reached == Some(now) => None,
+            (_, false) => Some(PinEnd::Lost),
+        };
+        if !whole {
+            let (recording, last) = (&*stored.id, stored.last.unwrap_or(now));
+            let (from, until) = (first, reached);
+            tracing::error!(
+                world,
+                recording,
+                first = stored.first,
+                last,
+                from,
+                until,
+                "a part of a recording is lost: its history was cut off"
+            );
+        }
+        let created = SystemTime::UNIX_EPOCH + std::time::Duration::from_millis(stored.created_ms);
+        let recording = Arc::new(Recording {
+            pin: journal.pin_again(kept, (first, self.most_bytes), end),
+            world: world.to_owned(),
+            id: stored.id.clone(),
+            created,
+            owner: stored.owner.into(),
+            journal: Arc::clone(journal),
+        });
+        self.all().insert((world.to_owned(), stored.id), recording);
     }
 
     /// One.

@@ -6,13 +6,19 @@ use super::pb;
 pub trait Repeatable: prost::Message {
     /// Its name; empty: it counts each time.
     fn request_id(&self) -> &str;
+    /// It only tries: nothing is done, so its name is free afterwards.
+    fn is_trial(&self) -> bool;
 }
 
 macro_rules! repeatable {
-    ($($name:ident)*) => {
+    ($($name:ident $(: $trial:ident)?,)*) => {
         $(impl Repeatable for pb::$name {
             fn request_id(&self) -> &str {
                 &self.request_id
+            }
+
+            fn is_trial(&self) -> bool {
+                [false $(, self.$trial)?].contains(&true)
             }
         })*
         #[cfg(test)]
@@ -21,35 +27,35 @@ macro_rules! repeatable {
 }
 
 repeatable! {
-    AcceptControlRequest
-    AcquireControlRequest
-    ApplyPerturbationsRequest
-    CheckpointWorldRequest
-    ClearPerturbationsRequest
-    CreateClipRequest
-    CreateFigureRequest
-    CreateGrantRequest
-    CreateObstacleRequest
-    CreateWorldRequest
-    DeleteCheckpointRequest
-    DeleteClipRequest
-    DeleteFigureRequest
-    DeleteGrantRequest
-    DeleteObstacleRequest
-    DeleteRecordingRequest
-    DeleteWorldRequest
-    ForkWorldRequest
-    PlayClipRequest
-    ReleaseControlRequest
-    ResetFigureRequest
-    RestoreWorldRequest
-    SeekWorldRequest
-    StartOperationRequest
-    StartRecordingRequest
-    StepWorldRequest
-    StopClipRequest
-    StopRecordingRequest
-    TransferControlRequest
+    AcceptControlRequest,
+    AcquireControlRequest,
+    ApplyPerturbationsRequest: validate_only,
+    CheckpointWorldRequest,
+    ClearPerturbationsRequest,
+    CreateClipRequest: validate_only,
+    CreateFigureRequest: validate_only,
+    CreateGrantRequest: validate_only,
+    CreateObstacleRequest: validate_only,
+    CreateWorldRequest: validate_only,
+    DeleteCheckpointRequest,
+    DeleteClipRequest,
+    DeleteFigureRequest,
+    DeleteGrantRequest,
+    DeleteObstacleRequest,
+    DeleteRecordingRequest,
+    DeleteWorldRequest,
+    ForkWorldRequest,
+    PlayClipRequest,
+    ReleaseControlRequest,
+    ResetFigureRequest,
+    RestoreWorldRequest,
+    SeekWorldRequest,
+    StartOperationRequest,
+    StartRecordingRequest,
+    StepWorldRequest,
+    StopClipRequest,
+    StopRecordingRequest,
+    TransferControlRequest,
 }
 
 #[cfg(test)]
@@ -65,5 +71,15 @@ mod tests {
         let mut named: Vec<&str> = named.map(|m| m.name()).collect();
         named.sort_unstable();
         assert_eq!(named, ALL);
+    }
+
+    #[test]
+    fn a_request_that_only_tries_says_so() {
+        let trial = pb::CreateWorldRequest {
+            validate_only: true,
+            ..Default::default()
+        };
+        assert!(trial.is_trial() && !pb::CreateWorldRequest::default().is_trial());
+        assert!(!pb::StepWorldRequest::default().is_trial());
     }
 }

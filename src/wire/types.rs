@@ -763,6 +763,22 @@ pub struct Transfer {
     pub lasts: Duration,
 }
 
+/// SHA-256 of a secret.
+pub type TokenHash = [u8; 32];
+
+/// A lease as it outlives the server.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeptLease {
+    /// Who has it.
+    pub holder: Arc<str>,
+    /// What is known of its secret.
+    pub token: TokenHash,
+    /// Its priority.
+    pub priority: i32,
+    /// How long it is kept unused.
+    pub grace: Duration,
+}
+
 /// Who controls a figure.
 #[derive(Clone, Debug, Default)]
 pub struct ControlInfo {
@@ -780,6 +796,8 @@ pub struct ControlInfo {
     pub implicit: bool,
     /// To whom it is offered.
     pub offered_to: Option<Arc<str>>,
+    /// What of it outlives the server. Not for clients.
+    pub kept: Option<KeptLease>,
 }
 
 /// Which events a viewer wants.

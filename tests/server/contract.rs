@@ -52,7 +52,7 @@ impl TestServer {
         listed.into_iter().map(|w| w.name).collect()
     }
 
-    async fn get_world(&self, name: &str) -> pb::World {
+    pub async fn get_world(&self, name: &str) -> pb::World {
         let request = pb::GetWorldRequest { name: name.into() };
         let got = self.client.worlds().get_world(request).await;
         got.unwrap().into_inner().world.unwrap()
@@ -656,5 +656,29 @@ async fn an_etag_outlives_the_server_that_stores_its_world() {
     };
     let found = server.client.obstacles().get_obstacle(get).await.unwrap();
     assert_eq!(found.into_inner().obstacle.unwrap().etag, ball.etag);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_request_that_only_tries_does_not_use_its_name_up() {
+    let server = TestServer::start().await;
+    let create = pb::CreateWorldRequest {
+        world_id: "w".into(),
+        request_id: "once".into(),
+        validate_only: true,
+        ..Default::default()
+    };
+    for _ in 0..2 {
+        let tried = server.client.worlds().create_world(create.clone()).await;
+        assert_eq!(tried.unwrap().into_inner().world.unwrap().name, "worlds/w");
+    }
+    let create = pb::CreateWorldRequest {
+        validate_only: false,
+        ..create
+    };
+    for _ in 0..2 {
+        let made = server.client.worlds().create_world(create.clone()).await;
+        assert_eq!(made.unwrap().into_inner().world.unwrap().name, "worlds/w");
+    }
     server.stop().await;
 }

@@ -208,3 +208,93 @@ async fn a_bad_batch_ends_the_stream_with_its_field() {
     );
     server.stop().await;
 }
+
+/// Whether a text stands in a file below a directory.
+fn is_in(dir: &std::path::Path, text: &str) -> bool {
+    std::fs::read_dir(dir).unwrap().any(|entry| {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            return is_in(&path, text);
+        }
+        let bytes = std::fs::read(path).unwrap();
+        bytes.windows(text.len()).any(|w| w == text.as_bytes())
+    })
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_lease_outlives_the_server_and_its_secret_is_not_on_disk() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("leases");
+    let _ = std::fs::remove_dir_all(&folder); // of an earlier run
+    let settings = [("data_dir", folder.to_str().unwrap())];
+    let acquire = async |server: &TestServer, figure: &str, control_token: &str, grace_ms: f64| {
+        let request = pb::AcquireControlRequest {
+            figure: format!("worlds/w/figures/{figure}"),
+            control_token: control_token.into(),
+            grace_ms,
+            ..Default::default()
+        };
+        let taken = server.client.control().acquire_control(request).await;
+        taken.map(tonic::Response::into_inner)
+    };
+    let server = TestServer::with(&settings).await;
+    let world = server.paused_world("w").await;
+    for id in ["a", "b"] {
+        server.figure(&world, id).await;
+    }
+    let long = acquire(&server, "a", "", 60_000.0).await.unwrap();
+    let short = acquire(&server, "b", "", 60_000.0).await.unwrap();
+    // Kept for a moment only.
+    let token = &short.control_token;
+    acquire(&server, "b", token, 100.0).await.unwrap();
+    let epoch = long.lease.unwrap().control_epoch;
+    server.stop().await;
+    assert!(is_in(&folder, "figures/a"), "the world is on disk");
+    assert!(!is_in(&folder, &long.control_token));
+
+    let server = TestServer::with(&settings).await;
+    server.app.restore().await;
+    // Others are kept out, with and without a token.
+    for (token, reason) in [("", "FIGURE_CONTROLLED"), ("x", "CONTROL_FENCED")] {
+        let refused = acquire(&server, "a", token, 0.0).await.unwrap_err();
+        assert_eq!(refusal(&refused).1, reason);
+    }
+    let stranger = server.client.drive(header(&world, "a", "stranger")).await;
+    assert!(match stranger {
+        Ok(mut driver) => driver.feedback().await.is_err(),
+        Err(_) => true,
+    });
+    // Its holder comes back.
+    let mine = pb::DriveHeader {
+        control_tokens: vec![long.control_token.clone()],
+        ..header(&world, "a", "me")
+    };
+    let mut driver = server.client.drive(mine).await.unwrap();
+    assert!(
+        driver
+            .send((0..10).map(|i| arm_frame("a", i)).collect())
+            .await
+    );
+    taken(&mut driver, 9).await;
+    let renewed = acquire(&server, "a", &long.control_token, 0.0)
+        .await
+        .unwrap();
+    assert_eq!(renewed.lease.unwrap().control_epoch, epoch);
+    // One that nobody comes back for ends.
+    let get = pb::GetControlRequest {
+        figure: "worlds/w/figures/b".into(),
+    };
+    let ended = async {
+        loop {
+            let now = server.client.control().get_control(get.clone()).await;
+            if now.unwrap().into_inner().lease.unwrap().holder.is_empty() {
+                break;
+            }
+            tokio::time::sleep(std::time::Duration::from_millis(20)).await;
+        }
+    };
+    let limit = std::time::Duration::from_secs(30);
+    tokio::time::timeout(limit, ended).await.unwrap();
+    let again = acquire(&server, "b", token, 0.0).await.unwrap_err();
+    assert_eq!(refusal(&again).1, "CONTROL_FENCED");
+    server.stop().await;
+}

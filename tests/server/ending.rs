@@ -315,3 +315,80 @@ async fn a_driver_whose_figure_is_removed_is_told_so() {
     assert_eq!(refusal(&e.unwrap_err()).0, Code::NotFound);
     server.stop().await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_world_whose_tick_does_not_end_is_given_up_and_no_other_notices() {
+    let settings = [("slow_tick_s", "0.05"), ("stuck_tick_s", "0.3")];
+    let server = TestServer::with(&settings).await;
+    let other = server.world("other", false, pb::World::default()).await;
+    server.figure(&other, "a").await;
+    let world = server.world("w", false, pb::World::default()).await;
+    let (go, wait) = std::sync::mpsc::channel::<()>();
+    let handle = server.app.worlds.get("w").unwrap();
+    let origin = sinew::server::tick::command::Origin {
+        client: "c".into(),
+        sequence: 0,
+    };
+    // The round of this world hangs, as if its step never ended.
+    let hangs = move |_: &mut _| {
+        let _ = wait.recv();
+    };
+    handle.send(origin, hangs).unwrap();
+
+    let failed = async {
+        while server.get_world(&world).await.state != i32::from(pb::WorldState::Failed) {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    };
+    tokio::time::timeout(Duration::from_secs(30), failed)
+        .await
+        .unwrap();
+    assert!(
+        server
+            .get_world(&world)
+            .await
+            .failure
+            .contains("did not end")
+    );
+    // Who wants something of it learns so, the server is not ready, and says that it lives.
+    let pause = pb::PauseWorldRequest {
+        name: world.clone(),
+        ..Default::default()
+    };
+    let refused = server.client.worlds().pause_world(pause).await;
+    let (code, reason, _) = refusal(&refused.unwrap_err());
+    assert_eq!(
+        (code, reason.as_str()),
+        (Code::FailedPrecondition, "WORLD_FAILED")
+    );
+    assert_eq!(ready(&server).await, "HTTP/1.1 503 Service Unavailable");
+    assert_eq!(page(&server, "/livez").await, "HTTP/1.1 200 OK");
+    // The other world goes on, takes commands, and new ones come.
+    let before = server.get_world(&other).await.tick;
+    let ticks = async {
+        while server.get_world(&other).await.tick < before + 20 {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    };
+    tokio::time::timeout(Duration::from_secs(30), ticks)
+        .await
+        .unwrap();
+    server.figure(&other, "b").await;
+    let new = server.paused_world("new").await;
+    server.step(&new, 3).await;
+    // Once the tick has ended after all, the server is ready again. The world stays as it was given up.
+    go.send(()).unwrap();
+    let again = async {
+        while ready(&server).await != "HTTP/1.1 200 OK" {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    };
+    tokio::time::timeout(Duration::from_secs(30), again)
+        .await
+        .unwrap();
+    assert_eq!(
+        server.get_world(&world).await.state,
+        i32::from(pb::WorldState::Failed)
+    );
+    server.stop().await;
+}

@@ -6,6 +6,7 @@ use sinew::sim::motion::Bvh;
 use sinew::wire::pb;
 use sinew::wire::pb::fork_world_request::Source as From;
 use sinew::wire::watched::WatchWorldResponse;
+use std::path::{Path, PathBuf};
 use tonic::{Code, Status};
 
 impl TestServer {
@@ -97,6 +98,35 @@ impl TestServer {
         }
         Ok(file)
     }
+}
+
+/// A folder of a test, empty.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder); // of an earlier run
+    folder
+}
+
+/// What a process leaves that is killed now.
+fn killed(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).unwrap();
+    for entry in std::fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        if entry.file_type().unwrap().is_dir() {
+            killed(&entry.path(), &to.join(entry.file_name()));
+        } else {
+            std::fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
+        }
+    }
+}
+
+/// Ticks and hashes of an MCAP file.
+fn frames_of(file: &[u8]) -> Vec<(i64, i64)> {
+    let frame = |m: Result<mcap::Message<'_>, mcap::McapError>| {
+        let frame = <pb::WorldFrame as prost::Message>::decode(&*m.unwrap().data).unwrap();
+        (frame.tick, frame.state_hash)
+    };
+    mcap::MessageStream::new(file).unwrap().map(frame).collect()
 }
 
 /// A world with a figure that walks and one that is driven, after some ticks; the hash after each.
@@ -391,5 +421,192 @@ async fn a_recording_outlives_its_past_and_becomes_files() {
     let request = pb::GetRecordingRequest { name };
     let gone = recordings.get_recording(request).await.unwrap_err();
     assert_eq!(refusal(&gone).0, Code::NotFound);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_fork_goes_on_as_the_world_would_to_which_nothing_more_comes() {
+    for window_ms in [0.0, 400.0] {
+        let window = format!("{window_ms}");
+        let settings = [("live_window_ms", window.as_str()), ("memory_s", "3600")];
+        let server = TestServer::with(&settings).await;
+        let (world, _, mut driver) = driven(&server).await;
+        // In the middle of what was sent, and of a clip.
+        let frames: Vec<_> = (60..80).map(|i| arm_frame("b", i)).collect();
+        assert!(driver.send(frames).await);
+        while driver.feedback().await.unwrap().unwrap().received_sequence < 79 {}
+        server.step(&world, 5).await;
+        let then = server.frame(&world, &["root_pose"]).await;
+        server
+            .fork("now", From::World(world.clone()))
+            .await
+            .unwrap();
+        let alone = server.hashes(&world, 120).await;
+        assert_eq!(server.hashes("worlds/now", 120).await, alone);
+        // The same from its past.
+        server.fork_at("then", &world, then.tick).await.unwrap();
+        assert_eq!(server.hashes("worlds/then", 120).await, alone);
+        // Nobody drives the figure there: who asks for it gets it, and it does what it is told.
+        let driving = |f: &pb::Figure| f.status.as_ref().unwrap().driver_id.clone();
+        let figure = server.look("worlds/then/figures/b").await;
+        assert_eq!(driving(&figure), "");
+        let mut other = server
+            .client
+            .drive(header("worlds/then", "b", "other"))
+            .await
+            .unwrap();
+        assert!(
+            other
+                .send((0..60).map(|i| arm_frame("b", i)).collect())
+                .await
+        );
+        while other.feedback().await.unwrap().unwrap().received_sequence < 59 {}
+        server.step("worlds/then", 60).await;
+        let shown = server.frame("worlds/then", &["status"]).await;
+        assert!(shown.figures[1].applied_sequence >= 0, "{shown:?}");
+        server
+            .play("worlds/now/figures/b", "clips/walk", true)
+            .await;
+        server.step("worlds/now", 30).await;
+        let walks = server.look("worlds/now/figures/b").await.status.unwrap();
+        assert_eq!(walks.clip, "clips/walk");
+        // Left alone it stands after the grace time of its driver, five seconds, and stays so.
+        server.fork_at("left", &world, then.tick).await.unwrap();
+        server.step("worlds/left", 400).await;
+        let shown = server.frame("worlds/left", &["status"]).await;
+        assert_eq!(
+            shown.figures[1].applied_sequence, -1,
+            "nothing plays to it any more"
+        );
+        server.stop().await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn recordings_outlive_the_server_as_far_as_its_log_reaches() {
+    let (live, left, lost) = (
+        folder("recorded"),
+        folder("recorded-kill"),
+        folder("recorded-lost"),
+    );
+    let on = |dir: &Path| {
+        let dir = dir.to_str().unwrap().to_owned();
+        async move {
+            // However slow this machine is, nothing of it is old.
+            let settings = [
+                ("data_dir", dir.as_str()),
+                ("durability", "each"),
+                ("history_s", "3600"),
+                ("memory_s", "3600"),
+            ];
+            let server = TestServer::with(&settings).await;
+            server.app.restore().await;
+            server
+        }
+    };
+    let recording = |name: &str| pb::GetRecordingRequest {
+        name: format!("worlds/w/recordings/{name}"),
+    };
+    let get = async |server: &TestServer, name: &str| {
+        let found = server
+            .client
+            .recordings()
+            .get_recording(recording(name))
+            .await;
+        found.unwrap().into_inner().recording.unwrap()
+    };
+    let server = on(&live).await;
+    let (world, mut hashes, driver) = driven(&server).await;
+    for (id, first_tick) in [("whole", Some(30)), ("ended", Some(10)), ("gone", None)] {
+        let request = pb::StartRecordingRequest {
+            parent: world.clone(),
+            recording_id: id.into(),
+            first_tick,
+            ..Default::default()
+        };
+        server
+            .client
+            .recordings()
+            .start_recording(request)
+            .await
+            .unwrap();
+    }
+    hashes.extend(server.hashes(&world, 10).await);
+    let stop = pb::StopRecordingRequest {
+        name: recording("ended").name,
+        ..Default::default()
+    };
+    server
+        .client
+        .recordings()
+        .stop_recording(stop)
+        .await
+        .unwrap();
+    let delete = pb::DeleteRecordingRequest {
+        name: recording("gone").name,
+        ..Default::default()
+    };
+    server
+        .client
+        .recordings()
+        .delete_recording(delete)
+        .await
+        .unwrap();
+    hashes.extend(server.hashes(&world, 5).await);
+    let begun = get(&server, "whole").await.create_time;
+    // As it is killed now, and as it ends in good order.
+    killed(&live, &left);
+    drop(driver);
+    server.stop().await;
+
+    for dir in [&left, &live] {
+        let mut hashes = hashes.clone();
+        let server = on(dir).await;
+        let whole = get(&server, "whole").await;
+        let running = i32::from(pb::RecordingState::Running);
+        assert_eq!(
+            (whole.state, whole.first_tick, whole.last_tick),
+            (running, 30, 75)
+        );
+        assert_eq!(
+            whole.create_time.map(|t| (t.seconds, t.nanos / 1_000_000)),
+            begun.map(|t| (t.seconds, t.nanos / 1_000_000))
+        );
+        let ended = get(&server, "ended").await;
+        assert_eq!((ended.first_tick, ended.last_tick), (10, 70));
+        assert_eq!(ended.end_reason, "STOPPED");
+        let gone = server
+            .client
+            .recordings()
+            .get_recording(recording("gone"))
+            .await;
+        assert_eq!(refusal(&gone.unwrap_err()).0, Code::NotFound);
+        // It goes on with the world.
+        hashes.extend(server.hashes(&world, 20).await);
+        let mcap = pb::RecordingFormat::Mcap;
+        for (name, first, last) in [("whole", 30, 95), ("ended", 10, 70)] {
+            let file = server
+                .export(&recording(name).name, mcap, "")
+                .await
+                .unwrap();
+            let meant: Vec<_> = (first..=last).map(|t| (t, hashes[t as usize])).collect();
+            assert_eq!(frames_of(&file), meant, "{name}");
+        }
+        server.stop().await;
+    }
+
+    // Without the log there is no content, and that is said.
+    killed(&live, &lost);
+    for file in ["log.sqlite", "log.sqlite-wal", "log.sqlite-shm", "log.end"] {
+        let _ = std::fs::remove_file(lost.join(file));
+    }
+    let server = on(&lost).await;
+    let whole = get(&server, "whole").await;
+    assert_eq!(whole.end_reason, "HISTORY_LOST");
+    let file = server
+        .export(&whole.name, pb::RecordingFormat::Mcap, "")
+        .await;
+    let (code, reason, _) = refusal(&file.unwrap_err());
+    assert_eq!((code, reason.as_str()), (Code::DataLoss, "RECORDING_LOST"));
     server.stop().await;
 }

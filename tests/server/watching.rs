@@ -71,7 +71,7 @@ async fn a_roster_comes_first_and_again_when_figures_change() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_viewer_that_lost_its_connection_resumes_without_a_gap() {
-    let server = TestServer::with(&[("history_ticks", "20")]).await;
+    let server = TestServer::with(&[("history_ticks", "20"), ("memory_s", "0")]).await;
     let world = server.paused_world("w").await;
     server.figure(&world, "a").await;
     server.step(&world, 30).await;
@@ -251,5 +251,108 @@ async fn events_say_what_happens() {
         .await
         .unwrap_err();
     assert_eq!(e.code(), Code::NotFound);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn who_joins_late_gets_the_past_and_then_what_comes_without_a_gap() {
+    let server = TestServer::with(&[("history_ticks", "8"), ("memory_s", "3600")]).await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    server
+        .play(&format!("{world}/figures/a"), "clips/walk", true)
+        .await;
+    let mut hashes = vec![0];
+    hashes.extend(server.hashes(&world, 20).await);
+    server.figure(&world, "b").await;
+    hashes.extend(server.hashes(&world, 130).await);
+    let mut frames = server
+        .client
+        .watch(&world, view(&["root_pose"]), Some(2))
+        .await
+        .unwrap();
+    let mut names = Vec::new();
+    let mut tick = 2;
+    while tick < 150 {
+        match next(&mut frames).await {
+            WatchWorldResponse::Roster(r) => names.push((tick, r.figures.len(), r.version)),
+            WatchWorldResponse::Frame(f) => {
+                tick += 1;
+                assert_eq!((f.tick, f.state_hash), (tick, hashes[tick as usize]));
+                assert_eq!(f.figures.len(), if tick > 20 { 2 } else { 1 });
+                assert_eq!(f.roster_version, names.last().unwrap().2);
+                assert_eq!(f.epoch, 1);
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+    // The names come before the first frame, when they change, and where frames that are held go on.
+    let counts: Vec<_> = names.iter().map(|n| (n.0, n.1)).collect();
+    assert_eq!(counts, [(2, 1), (20, 2), (142, 2)]);
+    server.step(&world, 1).await;
+    assert_eq!(next_frame(&mut frames).await.tick, 151);
+    // Others begin and do not read: those that do get theirs all the same.
+    let mut idle = Vec::new();
+    let first = server
+        .client
+        .watch(&world, view(&["root_pose"]), Some(-1))
+        .await;
+    let mut first = first.unwrap();
+    assert_eq!(next_frame(&mut first).await.tick, 0);
+    for _ in 0..20 {
+        let watched = server
+            .client
+            .watch(&world, view(&["root_pose"]), Some(-1))
+            .await;
+        let mut frames = watched.unwrap();
+        assert_eq!(next_frame(&mut frames).await.tick, 0);
+        idle.push(frames);
+    }
+    for tick in 1..=151 {
+        assert_eq!(next_frame(&mut first).await.tick, tick);
+    }
+    drop(idle);
+    // Every third frame; what is not computed yet is none of the past.
+    let third = pb::View {
+        rate_divisor: 3,
+        ..view(&["root_pose"])
+    };
+    let mut frames = server.client.watch(&world, third, Some(-1)).await.unwrap();
+    for tick in (0..=150).step_by(3) {
+        assert_eq!(next_frame(&mut frames).await.tick, tick);
+    }
+    for tick in [152, -2] {
+        let watched = server
+            .client
+            .watch(&world, view(&["root_pose"]), Some(tick))
+            .await;
+        assert_eq!(refusal(&watched.unwrap_err()).0, Code::OutOfRange, "{tick}");
+    }
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn who_joins_a_world_late_that_runs_catches_up_with_it() {
+    let server = TestServer::with(&[("history_ticks", "16"), ("memory_s", "3600")]).await;
+    let world = server.world("w", false, pb::World::default()).await;
+    server.figure(&world, "a").await;
+    let begun = async {
+        while server.get_world(&world).await.tick < 120 {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+    };
+    tokio::time::timeout(Duration::from_secs(60), begun)
+        .await
+        .unwrap();
+    let mut frames = server
+        .client
+        .watch(&world, view(&["root_pose"]), Some(30))
+        .await
+        .unwrap();
+    let now = server.get_world(&world).await.tick;
+    // As far as it was when it was asked for, and on from there.
+    for tick in 31..=now + 10 {
+        assert_eq!(next_frame(&mut frames).await.tick, tick);
+    }
     server.stop().await;
 }

@@ -44,6 +44,7 @@ impl ControlService for Api {
             let (info, token) = handle
                 .call(origin(&request), move |s| s.acquire(&figure, &who, acquire))
                 .await?;
+            api.stored(&handle).await?;
             Ok(pb::AcquireControlResponse {
                 lease: Some(control::lease(&handle.id, &info)),
                 control_token: token,
@@ -65,6 +66,7 @@ impl ControlService for Api {
             handle
                 .call(origin(&request), move |s| s.release(&figure, &who))
                 .await?;
+            api.stored(&handle).await?;
             Ok(pb::ReleaseControlResponse {})
         })
         .await
@@ -122,6 +124,7 @@ impl ControlService for Api {
                     s.accept(&figure, &who, token, grace)
                 })
                 .await?;
+            api.stored(&handle).await?;
             Ok(pb::AcceptControlResponse {
                 lease: Some(control::lease(&handle.id, &info)),
                 control_token: token,

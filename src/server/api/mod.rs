@@ -9,6 +9,7 @@ mod drive;
 mod figures;
 mod history;
 mod info;
+mod late;
 mod long;
 mod obstacles;
 mod operations;
@@ -115,7 +116,7 @@ pub struct App {
     /// Checkpoints of worlds.
     pub checkpoints: Checkpoints,
     /// Parts of their past that are kept.
-    pub recordings: Recordings,
+    pub recordings: Arc<Recordings>,
     /// Where files become clips.
     pub conversions: Pool,
     /// Where clips are simulated.
@@ -132,6 +133,8 @@ pub struct App {
     pub started: SystemTime,
     /// Turns true when streams are to end.
     stopping: watch::Receiver<bool>,
+    /// Viewers that are shown the past.
+    late: late::LateViewers,
     viewers: Places,
     drivers: Places,
     next_stream: AtomicU64,
@@ -146,13 +149,14 @@ impl App {
         super::telemetry::metrics();
         let bodies = Bodies::new(&config);
         let share = config.max_client_share;
+        let (most, bytes) = (config.max_recordings, config.max_recording_bytes);
+        let recordings = Arc::new(Recordings::new(most, bytes, share));
         Ok(Self {
             access: Access::new(&config).map_err(Fault::Internal)?,
             clips: Clips::new(&config, &bodies)?,
             bodies,
             worlds: Registry::new(config.clone())?,
             checkpoints: Checkpoints::new(&config),
-            recordings: Recordings::new(config.max_recordings, config.max_recording_bytes, share),
             conversions: Pool::new(
                 "file conversion",
                 "max_waiting_conversions",
@@ -165,13 +169,14 @@ impl App {
                 config.max_simulations,
                 config.max_waiting_simulations,
             ),
-            persistence: Persistence::open(&config)
+            persistence: Persistence::open(&config, &recordings)
                 .map_err(|e| Fault::Precondition {
                     reason: "DATA_DIR",
                     message: e.to_string(),
                     facts: vec![],
                 })?
                 .map(Arc::new),
+            recordings,
             operations: Operations::new(long_work::Limits {
                 most: config.max_operations,
                 share,
@@ -181,6 +186,7 @@ impl App {
             repeats: Repeats::new(config.max_request_ids, share),
             started: SystemTime::now(),
             stopping,
+            late: late::LateViewers::default(),
             viewers: Places::new("max_viewers", config.max_viewers, share, "sinew_viewers"),
             drivers: Places::new("max_drivers", config.max_drivers, share, "sinew_drivers"),
             next_stream: AtomicU64::new(1),
@@ -426,7 +432,7 @@ impl Api {
         W: Future<Output = Result<R, Fault>> + Send + 'static,
     {
         let id = client_id("request_id", request.get_ref().request_id()).map_err(refusal)?;
-        if id.is_empty() {
+        if id.is_empty() || request.get_ref().is_trial() {
             return answer(work(self.clone(), request).await);
         }
         let caller = caller(&request).map_err(refusal)?;

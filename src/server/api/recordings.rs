@@ -3,8 +3,7 @@
 use super::history::journal;
 use super::{Api, answer, client, refusal};
 use crate::server::export::{Format, export};
-use crate::server::recordings::{NewRecording, Recording};
-use crate::server::tick::journal::PinEnd;
+use crate::server::recordings::{NewRecording, Recording, end_name};
 use crate::wire::convert::names::RECORDING;
 use crate::wire::convert::{new_id, not_negative, page, timestamp};
 use crate::wire::pb;
@@ -24,9 +23,7 @@ fn out(recording: &Recording) -> pb::Recording {
     let now = recording.now();
     let end = match now.end {
         None => "",
-        Some(PinEnd::Stopped) => "STOPPED",
-        Some(PinEnd::Full) => "MAX_RECORDING_BYTES",
-        Some(PinEnd::Restored) => "WORLD_RESTORED",
+        Some(end) => end_name(end),
     };
     let state = match now.end {
         None => pb::RecordingState::Running,
@@ -71,6 +68,7 @@ impl RecordingService for Api {
                 owner: client(&request),
             };
             let recording = api.recordings.start(journal(&handle)?, new)?;
+            api.stored(&handle).await?;
             Ok(pb::StartRecordingResponse {
                 recording: Some(out(&recording)),
             })
@@ -85,6 +83,8 @@ impl RecordingService for Api {
         self.once(request, |api, request| async move {
             let recording = api.recording(&request, &request.get_ref().name)?;
             recording.stop();
+            let handle = api.worlds.get(&recording.world)?;
+            api.stored(&handle).await?;
             Ok(pb::StopRecordingResponse {
                 recording: Some(out(&recording)),
             })
@@ -131,6 +131,8 @@ impl RecordingService for Api {
         self.once(request, |api, request| async move {
             let recording = api.recording(&request, &request.get_ref().name)?;
             api.recordings.remove(&recording.world, &recording.id)?;
+            let handle = api.worlds.get(&recording.world)?;
+            api.stored(&handle).await?;
             Ok(pb::DeleteRecordingResponse {})
         })
         .await

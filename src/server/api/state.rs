@@ -1,6 +1,8 @@
 //! `StateService`.
 
+use super::late::Late;
 use super::permit::Permit;
+use super::watching::Before;
 use super::{Api, answer, caller, client, refusal, watching};
 use crate::wire::convert::state;
 use crate::wire::frame::{roster, world_frame};
@@ -62,17 +64,31 @@ impl StateService for Api {
             check(&view.figures, &handle.outlet.latest.borrow())?;
             let place = self.viewers.take(client(&request))?;
             let permit = Permit::new(self, &handle, caller(&request)?, &[]);
-            let held = match r.resume_tick {
-                None => Vec::new(),
-                Some(tick) => handle.history().after(tick)?,
+            let resumed = r
+                .resume_tick
+                .map(|tick| (tick, handle.history().after(tick)));
+            let late = match &resumed {
+                // What is not held as a frame is done again, as far back as the past goes.
+                Some((tick, Err(expired))) => {
+                    if *tick < -1 || handle.journal.is_none() {
+                        return Err(expired.clone());
+                    }
+                    Some(Late::after(self, client(&request), &handle, *tick)?)
+                }
+                _ => None,
             };
             let channel = handle
                 .hub
                 .channel(&view, &handle.outlet.latest, client(&request))?;
+            let past = match (late, resumed) {
+                (Some(late), _) => Before::Late(Box::new(late)),
+                (None, Some((_, Ok(held)))) => watching::held(&handle, &view, held),
+                (None, _) => watching::held(&handle, &view, Vec::new()),
+            };
             Ok(watching::frames(
                 handle,
                 (&view, channel),
-                held,
+                past,
                 (self.stopping.clone(), permit),
                 place,
             ))

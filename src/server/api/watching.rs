@@ -1,6 +1,7 @@
 //! Streams of frames and events. A stream is asked for its next message when the connection has room, so a slow viewer
 //! skips frames instead of collecting them.
 
+use super::late::Late;
 use super::permit::Permit;
 use super::{Place, refusal, stopped};
 use crate::server::fanout::hub::{Channel, Encoded, Resuming};
@@ -42,13 +43,21 @@ impl End {
     }
 }
 
+/// Ticks before the latest.
+pub(super) enum Before {
+    /// Frames that are not held any more.
+    Late(Box<Late>),
+    /// Frames that are held.
+    Held(Resuming),
+}
+
 struct Viewer {
     handle: Arc<WorldHandle>,
     channel: Arc<Channel>, // keeps its encoder running
     view: ViewSpec,
     frames: watch::Receiver<Option<Encoded>>,
     /// Ticks before the latest that are to be sent first.
-    past: Option<Resuming>,
+    past: Option<Before>,
     /// At most a roster and a frame.
     ready: VecDeque<Bytes>,
     roster: Option<i32>,
@@ -62,27 +71,24 @@ struct Viewer {
 
 impl Drop for Viewer {
     fn drop(&mut self) {
-        if self.past.is_some() {
+        if let Some(Before::Held(_)) = self.past {
             self.handle.hub.resumed();
         }
         self.handle.viewers.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
-/// Frames of a view: first those that are held, then as they come.
+/// Frames of a view: first those of the past, then as they come.
 pub(super) fn frames(
     handle: Arc<WorldHandle>,
     (view, channel): (&ViewSpec, Arc<Channel>),
-    held: Vec<Arc<Snapshot>>,
+    past: Before,
     (stopping, permit): (watch::Receiver<bool>, Permit),
     place: Place,
 ) -> Frames {
     let mut frames = channel.subscribe();
     frames.mark_changed(); // what is there already is the first to send
     handle.viewers.fetch_add(1, Ordering::Relaxed);
-    let divisor = u64::from(view.divisor);
-    let held = held.into_iter().filter(|s| s.tick % divisor == 0);
-    let past = handle.hub.resume(held);
     let viewer = Viewer {
         closed: handle.closed.clone(),
         handle,
@@ -104,6 +110,13 @@ pub(super) fn frames(
     }))
 }
 
+/// Frames of a view that are held.
+pub(super) fn held(handle: &WorldHandle, view: &ViewSpec, held: Vec<Arc<Snapshot>>) -> Before {
+    let divisor = u64::from(view.divisor);
+    let held = held.into_iter().filter(|s| s.tick % divisor == 0);
+    Before::Held(handle.hub.resume(held))
+}
+
 impl Viewer {
     /// Makes a past tick ready to be sent.
     fn catch_up(&mut self, snapshot: &Snapshot) {
@@ -116,6 +129,14 @@ impl Viewer {
         self.last = Some(snapshot.tick);
     }
 
+    /// The frames that are held behind the last one that was done again.
+    fn held_on(&self) -> Before {
+        let last = self.last.map_or(-1, |l| l as i64);
+        // What has gone meanwhile is missed, as by any viewer that is too slow.
+        let after = self.handle.history().after(last).unwrap_or_default();
+        held(&self.handle, &self.view, after)
+    }
+
     async fn next(&mut self) -> Option<Result<WatchWorldResponse, Status>> {
         loop {
             if let Some(bytes) = self.ready.pop_front() {
@@ -125,15 +146,38 @@ impl Viewer {
             if self.over {
                 return None;
             }
-            if let Some(past) = &mut self.past {
-                match past.take_next() {
-                    Some(snapshot) => self.catch_up(&snapshot),
-                    None => {
-                        self.past = None;
-                        self.handle.hub.resumed();
+            match &mut self.past {
+                Some(Before::Held(past)) => {
+                    match past.take_next() {
+                        Some(snapshot) => self.catch_up(&snapshot),
+                        None => {
+                            self.past = None;
+                            self.handle.hub.resumed();
+                        }
                     }
+                    continue;
                 }
-                continue;
+                Some(Before::Late(late)) => {
+                    let next = tokio::select! {
+                        next = late.take_next() => next.map_err(End::Refused),
+                        () = stopped(&mut self.stopping) => Err(End::Server),
+                        _ = self.closed.changed() => Err(End::World),
+                        fault = self.permit.ended() => Err(End::Refused(fault)),
+                    };
+                    match next {
+                        Ok(Some(s)) if s.tick % u64::from(self.view.divisor) != 0 => {
+                            self.last = Some(s.tick);
+                        }
+                        Ok(Some(snapshot)) => self.catch_up(&snapshot),
+                        Ok(None) => self.past = Some(self.held_on()),
+                        Err(end) => {
+                            self.over = true;
+                            return Some(Err(refusal(end.fault(&self.handle))));
+                        }
+                    }
+                    continue;
+                }
+                None => {}
             }
             let ended = tokio::select! {
                 changed = self.frames.changed() => changed.is_err().then_some(End::World),

@@ -94,6 +94,20 @@ impl Segment {
         }
     }
 
+    /// A part of the past that was on disk, up to tick `until`: a state, and what followed.
+    pub fn of_disk(mut start: Scene, entries: Vec<Logged>, until: u64) -> Arc<Self> {
+        let mut out = Self::new(Arc::new(start.capture()), Instant::now());
+        // Who drove the world then went on in their own way.
+        out.restored = true;
+        for entry in entries {
+            if matches!(entry, Logged::Hash(tick, _) if tick > until) {
+                break;
+            }
+            out.push(entry);
+        }
+        out.sealed()
+    }
+
     /// Nothing more is appended: gives back what a vector takes beyond its entries, up to as much again.
     fn sealed(mut self) -> Arc<Self> {
         self.entries.shrink_to_fit();
@@ -106,6 +120,11 @@ impl Segment {
             self.bytes += r.bytes.len();
         }
         self.entries.push(entry);
+    }
+
+    /// What it takes, bytes.
+    pub fn bytes(&self) -> u64 {
+        self.bytes as u64
     }
 
     /// Ticks done at its end.
@@ -147,6 +166,8 @@ pub enum PinEnd {
     Full,
     /// The world has another past now.
     Restored,
+    /// What follows is not on disk any more.
+    Lost,
 }
 
 /// A part of the past that is kept as long as this is.
@@ -434,6 +455,26 @@ impl Journal {
         });
         inside.pins.push(Arc::downgrade(&pin));
         Ok(pin)
+    }
+
+    /// A pin that was there before: with what is left of it, and going on if it has not ended.
+    pub fn pin_again(
+        &self,
+        kept: Vec<Arc<Segment>>,
+        (first, most_bytes): (u64, u64),
+        end: Option<PinEnd>,
+    ) -> Arc<Pin> {
+        let pin = Arc::new(Pin {
+            most_bytes,
+            first,
+            inside: Mutex::new(Pinned {
+                bytes: kept.iter().map(|s| s.bytes as u64).sum(),
+                kept,
+                end,
+            }),
+        });
+        self.inside().pins.push(Arc::downgrade(&pin));
+        pin
     }
 
     /// Ends a pin, unless it has ended.

@@ -4,6 +4,8 @@
 //! drives a figure that has no lease has it as long as the drive lasts, by name and without a token (`drives`).
 
 use crate::wire::status::Fault;
+use crate::wire::types::{KeptLease, TokenHash};
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -21,13 +23,18 @@ pub struct Offer {
     pub expires: Instant,
 }
 
+/// What is known of a secret.
+pub fn token_hash(token: &str) -> TokenHash {
+    Sha256::digest(token).into()
+}
+
 /// The lease of one figure.
 #[derive(Clone, Debug)]
 pub struct Lease {
     /// Who has it.
     pub holder: Arc<str>,
-    /// Its secret.
-    token: String,
+    /// What is known of its secret: who reads memory or disk cannot use it.
+    token: TokenHash,
     /// A higher one takes its place.
     pub priority: i32,
     /// How long it is kept unused.
@@ -47,10 +54,10 @@ pub struct Leases {
     epochs: BTreeMap<String, i64>,
 }
 
-/// Whether two secrets are the same, in a time that does not tell how much of them is.
-fn same(a: &str, b: &str) -> bool {
-    let differ = a.bytes().zip(b.bytes()).fold(0, |d, (a, b)| d | (a ^ b));
-    a.len() == b.len() && differ == 0
+/// Whether a secret is the one of which this is known, in a time that does not tell how much of it is.
+fn same(token: &str, known: &TokenHash) -> bool {
+    let hash = token_hash(token);
+    hash.iter().zip(known).fold(0, |d, (a, b)| d | (a ^ b)) == 0
 }
 
 /// What a holder learns whose token is not the valid one.
@@ -65,11 +72,29 @@ impl Lease {
     /// A new lease.
     pub fn new(
         holder: Arc<str>,
-        token: String,
+        token: &str,
         priority: i32,
         grace: Duration,
         now: Instant,
     ) -> Self {
+        let token = token_hash(token);
+        let kept = KeptLease {
+            holder,
+            token,
+            priority,
+            grace,
+        };
+        Self::again(kept, now)
+    }
+
+    /// A lease of before, unused until its holder comes back.
+    pub fn again(kept: KeptLease, now: Instant) -> Self {
+        let KeptLease {
+            holder,
+            token,
+            priority,
+            grace,
+        } = kept;
         Self {
             holder,
             token,
@@ -81,9 +106,14 @@ impl Lease {
         }
     }
 
-    /// Its secret, for its holder.
-    pub fn token(&self) -> &str {
-        &self.token
+    /// As it outlives the server.
+    pub fn kept(&self) -> KeptLease {
+        KeptLease {
+            holder: Arc::clone(&self.holder),
+            token: self.token,
+            priority: self.priority,
+            grace: self.grace,
+        }
     }
 
     /// Whether someone holds it, with one of these tokens.
@@ -127,6 +157,14 @@ impl Leases {
     pub fn put(&mut self, figure: &str, lease: Lease) {
         self.count(figure);
         self.by_figure.insert(figure.to_owned(), lease);
+    }
+
+    /// Brings back what is known of a figure from before the server was started.
+    pub fn bring_back(&mut self, figure: &str, epoch: i64, lease: Option<Lease>) {
+        self.epochs.insert(figure.to_owned(), epoch);
+        if let Some(lease) = lease {
+            self.by_figure.insert(figure.to_owned(), lease);
+        }
     }
 
     /// Ends a lease.
@@ -237,7 +275,7 @@ mod tests {
         let now = Instant::now();
         let mut leases = Leases::default();
         let lease = |holder: &str, token: &str| {
-            Lease::new(holder.into(), token.into(), 0, Duration::from_secs(1), now)
+            Lease::new(holder.into(), token, 0, Duration::from_secs(1), now)
         };
         let tokens = |t: &str| vec![t.to_owned()];
         let reason = |leases: &Leases, who: &str, tokens: &[String]| {

@@ -17,7 +17,7 @@ use super::drives::Drive;
 use super::journal::Journal;
 use super::leases::Leases;
 use super::planners::Planners;
-use super::scene::{Input, Scene};
+use super::scene::{Input, PlayerKey, Scene};
 use crate::server::durable::marks::Mark;
 use crate::server::engine::{self, FigureKey, Planning};
 use crate::server::ingest::mailbox::Mailboxes;
@@ -67,6 +67,10 @@ pub struct Shard {
     roster: Arc<[RosterEntry]>,
     roster_version: i32,
     drives: Vec<Drive>,
+    /// What plays live motion without a driver, and until which tick: it came with the state that the world began with.
+    undriven: BTreeMap<PlayerKey, u64>,
+    /// World time that clocks of before had left out, s: live motion is reckoned by it.
+    lost_before: f64,
     leases: Leases,
     mailboxes: Arc<Mailboxes>,
     next_driver: u64,
@@ -118,6 +122,8 @@ impl Shard {
             roster: Arc::new([]),
             roster_version: 1,
             drives: Vec::new(),
+            undriven: BTreeMap::new(),
+            lost_before: 0.0,
             leases: Leases::default(),
             mailboxes: Arc::default(),
             next_driver: 1,

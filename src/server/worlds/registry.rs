@@ -551,7 +551,7 @@ impl Registry {
         let name: Arc<str> = id.as_str().into();
         let mut shard = self.shard(name.clone(), settings, paused)?;
         if let Some(from) = from {
-            shard.restore(from, Past::Elsewhere)?;
+            shard.restore(from, Past::Beginning)?;
         }
         let room = Room {
             bytes: self.config.max_world_memory_bytes,

@@ -1,8 +1,9 @@
 //! A world that goes on from another state.
 
 use super::Shard;
+use crate::server::engine::FigureKey;
 use crate::server::telemetry::metrics::CheckpointTimer;
-use crate::server::tick::scene::{Input, Scene};
+use crate::server::tick::scene::{Input, Player, Scene};
 use crate::sim::world::checkpoint::Capture;
 use crate::wire::status::Fault;
 use crate::wire::types::{EventKind, WorldInfo};
@@ -11,6 +12,8 @@ use std::time::Instant;
 /// Where the state comes from that a world goes on with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
+    /// It begins with it: drives that nobody sends to go on with what has come.
+    Beginning,
     /// Another world, or what it once was: what is known of its past leads nowhere.
     Elsewhere,
     /// Its own past: what was before that is its past still.
@@ -74,7 +77,15 @@ impl Shard {
         let tick = scene.world().tick();
         let pace = self.scene.settings().pace.clone();
         scene.set_threads(self.scene.world().params().threads);
-        scene.end_live();
+        if from == Origin::Beginning {
+            self.lost_before = scene.lost();
+            let tick = scene.world().tick();
+            let grace = |p: &Player| (p.buffer.grace() / scene.world().dt()).ceil() as u64;
+            let players = scene.players().iter();
+            self.undriven = players.map(|p| (p.key, tick + grace(p))).collect();
+        } else {
+            scene.end_live();
+        }
         // From here on this is the world.
         self.scene = scene;
         let _ = self.scene.apply(Input::Pace(pace)); // never refused
@@ -102,6 +113,31 @@ impl Shard {
         let figures: Vec<String> = slots.filter(gone).map(|s| s.figure.clone()).collect();
         for figure in figures {
             self.detach(&figure, "the world was restored");
+        }
+    }
+
+    /// Ends what plays to a figure without a driver: someone else says what it does.
+    pub(super) fn end_undriven(&mut self, figure: FigureKey) {
+        let players = self.scene.players().iter();
+        let own = players.filter(|p| p.figure == figure && self.undriven.contains_key(&p.key));
+        for key in own.map(|p| p.key).collect::<Vec<_>>() {
+            self.undriven.remove(&key);
+            let _ = self.scene.apply(Input::Unfollow(key)); // never refused
+        }
+    }
+
+    /// Lets figures finish their steps and stand whose drives came with the state that the world began with, after the
+    /// grace time of their drivers in world time.
+    pub(in crate::server::tick) fn expire_undriven(&mut self) {
+        let tick = self.scene.world().tick();
+        while let Some((key, _)) = self.undriven.iter().find(|(_, until)| **until <= tick) {
+            let key = *key;
+            self.undriven.remove(&key);
+            let Some(figure) = self.scene.player(key).map(|p| p.figure) else {
+                continue; // it went with its figure
+            };
+            let _ = self.scene.apply(Input::Unfollow(key)); // neither is refused
+            let _ = self.scene.apply(Input::Stop(figure));
         }
     }
 

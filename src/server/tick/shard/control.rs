@@ -5,7 +5,7 @@ use crate::server::ingest::mailbox::DriverId;
 use crate::server::tick::leases::{Lease, Offer, controlled, fenced};
 use crate::server::tick::scene::Input;
 use crate::wire::status::Fault;
-use crate::wire::types::{Acquire, ControlInfo, ControlKey, EventKind, Transfer};
+use crate::wire::types::{Acquire, ControlInfo, ControlKey, EventKind, KeptLease, Transfer};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -44,6 +44,7 @@ impl Shard {
             info.expires_in = left(lease.expires);
             let offer = lease.offer.as_ref().filter(|o| o.expires > now);
             info.offered_to = offer.map(|o| o.to.clone().unwrap_or_else(|| "*".into()));
+            info.kept = Some(lease.kept());
         } else if let Some(drive) = self.drives.iter().find(|d| d.has(figure)) {
             info.holder = Some(drive.id.principal.clone());
             info.expires_in = left(drive.expires);
@@ -76,7 +77,10 @@ impl Shard {
             if lease.expires.is_some() {
                 lease.touch(now);
             }
-            let token = lease.token().to_owned();
+            // The one that was shown to be valid.
+            let mut tokens = who.tokens.iter();
+            let token = tokens.find(|t| lease.is_held_by(&who.principal, std::slice::from_ref(t)));
+            let token = token.cloned().ok_or_else(|| fenced(figure))?;
             return Ok((self.control(figure)?, token));
         }
         // Nobody knows two anonymous callers apart, so a lost token is lost.
@@ -98,13 +102,7 @@ impl Shard {
             self.take_figure(figure, "someone else has the lease now");
         }
         let token = a.token;
-        let lease = Lease::new(
-            who.principal.clone(),
-            token.clone(),
-            a.priority,
-            a.grace,
-            now,
-        );
+        let lease = Lease::new(who.principal.clone(), &token, a.priority, a.grace, now);
         self.leases.put(figure, lease);
         self.use_leases(now);
         self.event(
@@ -116,6 +114,19 @@ impl Shard {
         );
         self.touch();
         Ok((self.control(figure)?, token))
+    }
+
+    /// Brings leases back from before the server was started: their holders have their grace time to come back. Those
+    /// of figures that are no more are gone.
+    pub fn bring_leases_back(&mut self, all: Vec<(String, i64, Option<KeptLease>)>) {
+        let now = Instant::now();
+        for (figure, epoch, kept) in all {
+            if self.member(&figure).is_ok() {
+                let lease = kept.map(|kept| Lease::again(kept, now));
+                self.leases.bring_back(&figure, epoch, lease);
+            }
+        }
+        self.touch();
     }
 
     /// Gives a lease back.
@@ -181,13 +192,7 @@ impl Shard {
                 who.principal
             ),
         })?;
-        let mut next = Lease::new(
-            who.principal.clone(),
-            token.clone(),
-            lease.priority,
-            grace,
-            now,
-        );
+        let mut next = Lease::new(who.principal.clone(), &token, lease.priority, grace, now);
         // Without a drive there is nothing to go over from.
         let driven = self.drives.iter().any(|d| d.has(figure));
         next.takeover = driven.then_some(offer.blend);

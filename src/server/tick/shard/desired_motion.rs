@@ -33,6 +33,7 @@ impl Shard {
         self.may_direct(figure, who)?;
         let key = self.scene.members()[i].key;
         let reset = playback.reset;
+        self.end_undriven(key);
         let done = self.scene.apply(Input::Play {
             figure: key,
             name: clip_id.to_owned(),
@@ -49,6 +50,7 @@ impl Shard {
     pub(super) fn hold(&mut self, figure: &str) {
         let Ok(i) = self.member(figure) else { return };
         let key = self.scene.members()[i].key;
+        self.end_undriven(key);
         let _ = self.scene.apply(Input::Stop(key)); // never refused
     }
 
@@ -102,8 +104,10 @@ impl Shard {
             {
                 lease.takeover = None;
             }
+            let key = self.scene.members()[self.member(figure)?].key;
+            self.end_undriven(key);
             let followed = self.scene.apply(Input::Follow {
-                figure: self.scene.members()[self.member(figure)?].key,
+                figure: key,
                 settings: open.settings.clone(),
                 window: open.settings.window.unwrap_or(self.limits.window),
                 takeover,
@@ -165,7 +169,7 @@ impl Shard {
 
     /// World time that the clock has left out so far, s.
     fn lost(&self) -> f64 {
-        self.clock.lost() * self.scene.world().dt()
+        self.lost_before + self.clock.lost() * self.scene.world().dt()
     }
 
     /// The scheduled time of an arrival. While the clock stands still so does scheduled time.
@@ -290,6 +294,7 @@ impl Shard {
 
     /// Hands the desired motion of this tick to driven figures.
     pub(in crate::server::tick) fn sample_motion(&mut self) {
+        self.expire_undriven();
         for player in self.scene.sample(self.lost()) {
             let slots = self.drives.iter().flat_map(|d| &d.slots);
             let mut ended = slots.filter(|s| s.player == Some(player));

@@ -216,6 +216,7 @@ impl Shard {
         let i = self.member(figure)?;
         self.may_direct(figure, who)?;
         let key = self.scene.members()[i].key;
+        self.end_undriven(key);
         self.scene.apply(Input::ResetFigure(key, place))?;
         self.changed = true;
         self.figure(figure)
