@@ -156,6 +156,14 @@ impl Fatigue {
         }
     }
 
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let share = |x: f64| (0.0..=1.0).contains(&x);
+        let mut fibres = self.fibres.iter().flatten();
+        (0.0..=MAX_TIME_SCALE).contains(&self.time_scale)
+            && fibres.all(|c| share(c.active) && share(c.fatigued))
+    }
+
     /// What is left of the strength, 0.01…1, for the positive and the negative direction.
     pub fn remaining(&self) -> [[f64; 2]; DOF_COUNT] {
         self.fibres

@@ -130,6 +130,9 @@ impl Figure {
         if !physical.links.is_valid() {
             return Err("masses that no body has");
         }
+        if !physical.fatigue.as_ref().is_none_or(|f| f.is_valid()) {
+            return Err("fatigue that no muscle has");
+        }
         let mut motion = motion.into_owned();
         if let Drive::Live(live) = motion.source_mut()
             && !live.motion.complete()
