@@ -350,9 +350,15 @@ async fn who_joins_a_world_late_that_runs_catches_up_with_it() {
         .await
         .unwrap();
     let now = server.get_world(&world).await.tick;
-    // As far as it was when it was asked for, and on from there.
-    for tick in 31..=now + 10 {
-        assert_eq!(next_frame(&mut frames).await.tick, tick);
+    // Nothing of what is done again is left out; a viewer that is too slow for what comes gets the latest.
+    let mut last = 30;
+    while last < now + 10 {
+        let tick = next_frame(&mut frames).await.tick;
+        assert!(
+            tick == last + 1 || tick > last && last > now - 17,
+            "{tick} after {last}, at {now}"
+        );
+        last = tick;
     }
     server.stop().await;
 }
