@@ -111,7 +111,7 @@ fn items() -> Vec<Item> {
                 docs = lines.get(i + 1).copied().into_iter().collect();
             }
             let attribute = |d: &&str| d.trim_start().starts_with("#[") && d.contains("test");
-            let is_test = docs.iter().any(|d| attribute(&d)) || python && name.starts_with("test_");
+            let is_test = docs.iter().any(attribute) || python && name.starts_with("test_");
             out.push(Item {
                 module: module(path),
                 owner: owner.clone(),
@@ -283,7 +283,7 @@ fn mistakes_in_the_table_are_found() {
     for (right, wrong) in [
         ("support_ratios`", "support_rations`"),
         (
-            "`standing_figure_has_two_supports_with_equal_ratios`, `main_support_is_kept_within_the_hysteresis`",
+            "`members_keep_their_torque_and_the_others_get_the_wish`",
             "–",
         ),
         ("| (5) |", "| (6) |"),

@@ -493,3 +493,38 @@ fn bodies_are_listed_for_people_and_for_programs() {
         );
     }
 }
+
+#[test]
+fn a_clip_that_is_tracked_is_not_rehearsed() {
+    let dir = Scratch::new("rehearse");
+    let (strip, out) = (dir.file("strip.png"), dir.file("out.bvh"));
+    let text = succeed(&[
+        "rehearse",
+        "builtin:wave",
+        "--json",
+        "--strip",
+        &strip,
+        "--out",
+        &out,
+    ]);
+    let report: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(report["followed"]["way"], "tracked");
+    assert!(report["followed"]["rehearsal"].is_null());
+    assert_eq!(report["outcome"], report["tracked"]);
+    let said = report["followed"]["reason"].as_str().expect("a reason");
+    assert!(said.starts_with("forecast: "), "{said}");
+    let read = |path: &str| std::fs::read(path).expect("the file was written");
+    assert!(read(&strip).starts_with(b"\x89PNG") && read(&out).starts_with(b"HIERARCHY"));
+
+    let wrong = fail(&["rehearse", "builtin:wave", "--max-help", "3"]);
+    assert!(wrong.contains("--max-help 3: outside 0…2"), "{wrong}");
+    let wrong = fail(&[
+        "rehearse",
+        "builtin:crate",
+        "--load",
+        "2@l_hand+r_hand",
+        "--strength",
+        "0.1",
+    ]);
+    assert!(wrong.contains("two hands"), "{wrong}");
+}

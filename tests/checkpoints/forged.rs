@@ -148,8 +148,8 @@ fn states() -> Vec<Taken> {
 }
 
 /// Ends the process when a case does not end, and says which one.
-fn watch(case: &Arc<AtomicU64>) -> mpsc::Sender<()> {
-    let (done, ended) = mpsc::channel();
+fn watch(case: &Arc<AtomicU64>) -> mpsc::SyncSender<()> {
+    let (done, ended) = mpsc::sync_channel(1);
     let case = Arc::clone(case);
     std::thread::spawn(move || {
         let mut last = u64::MAX;

@@ -323,7 +323,7 @@ async fn a_world_whose_tick_does_not_end_is_given_up_and_no_other_notices() {
     let other = server.world("other", false, pb::World::default()).await;
     server.figure(&other, "a").await;
     let world = server.world("w", false, pb::World::default()).await;
-    let (go, wait) = std::sync::mpsc::channel::<()>();
+    let (go, wait) = std::sync::mpsc::sync_channel::<()>(1);
     let handle = server.app.worlds.get("w").unwrap();
     let origin = sinew::server::tick::command::Origin {
         client: "c".into(),
@@ -353,7 +353,6 @@ async fn a_world_whose_tick_does_not_end_is_given_up_and_no_other_notices() {
     // Who wants something of it learns so, the server is not ready, and says that it lives.
     let pause = pb::PauseWorldRequest {
         name: world.clone(),
-        ..Default::default()
     };
     let refused = server.client.worlds().pause_world(pause).await;
     let (code, reason, _) = refusal(&refused.unwrap_err());

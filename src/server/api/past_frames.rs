@@ -56,7 +56,7 @@ pub(super) fn read(
         if turn.stop() {
             return false;
         }
-        if tick < first || tick % u64::from(part.view.divisor) != 0 {
+        if tick < first || !tick.is_multiple_of(u64::from(part.view.divisor)) {
             return true;
         }
         failed = frames.take(scene).err();

@@ -180,7 +180,7 @@ impl Constraints {
         let most = MAX_CONSTRAINTS;
         let numbers = |c: &Constraint| {
             let place = c.position.map_or([0.0; 3], Vec3::to_array);
-            let [x, y, z, w] = c.rotation.unwrap_or(Quat::identity()).to_xyzw();
+            let [x, y, z, w] = c.rotation.unwrap_or_default().to_xyzw();
             (0.0..=1.0).contains(&c.weight)
                 && (0.0..=MAX_EASE).contains(&c.ease)
                 && c.axes.iter().all(|a| (0.0..=1.0).contains(a))

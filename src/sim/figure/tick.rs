@@ -26,7 +26,6 @@ pub(super) use motion_switch::ExitPlan;
 pub(crate) use saved::SavedFigure;
 
 use crate::sim::figure::params::support::REST_SHARE;
-use crate::sim::math::Vec3;
 use state::{
     BodyConstants, Controllers, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch,
     StepperChoice, Steppers, Surroundings,
@@ -45,6 +44,7 @@ use crate::sim::body::State;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::contact::Tissue;
 use crate::sim::control::{Command, Modern, MomentumTarget, Paper};
+use crate::sim::math::Vec3;
 use crate::sim::report::{Flags, TickReport};
 use crate::sim::setup::{ControllerKind, FigureSetup, Share};
 use crate::sim::support::Support;

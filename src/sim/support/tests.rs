@@ -86,7 +86,7 @@ fn who_moves_towards_a_wall_leans_more_on_the_hand_on_it() {
     let (t, _) = supported(&standing(&mannequin()));
     let hand = Rest {
         segment: R_HAND,
-        position: t.com + vec3(0.5, -0.2, -0.1),
+        position: t.com + vec3(0.5, 0.0, -0.1),
         normal: -Vec3::X,
         force: -Vec3::X * 50.0,
         lift: 0.0,
