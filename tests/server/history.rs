@@ -554,7 +554,8 @@ async fn recordings_outlive_the_server_as_far_as_its_log_reaches() {
         .unwrap();
     hashes.extend(server.hashes(&world, 5).await);
     let begun = get(&server, "whole").await.create_time;
-    // As it is killed now, and as it ends in good order.
+    // As it is killed now, and as it ends in good order. What was done is handed over every 10 ms.
+    tokio::time::sleep(std::time::Duration::from_millis(500)).await;
     killed(&live, &left);
     drop(driver);
     server.stop().await;
