@@ -60,6 +60,11 @@ with sinew.Client(args.address, token=args.token, ca=args.ca) as client:
                         figure=figure, control_token=lease.control_token, to=args.to
                     )
                     say(offer=client.control_stub.TransferControl(offer).offer_token)
+            # Whoever accepts late finds a figure that stands where the walk has ended.
+            for i in range(len(motion), len(motion) + round(20 * motion.rate_hz)):
+                t = i / motion.rate_hz
+                time.sleep(max(began + t - time.monotonic(), 0.0))
+                drive.send(motion.pose(len(motion) - 1), time_s=t)
     except sinew.SinewError as error:
         say(ended=error.reason)
     else:

@@ -229,7 +229,9 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     const { controlToken } = await dora.control.acceptControl({ figure: anna, offerToken, graceMs: 60_000 });
     // Both saw the same person walk.
     const ahead = Math.round((Date.now() / 1000 - Number(await said.get("began"))) * 60);
-    await drive("anna", [controlToken], WINDOW_MS, (i) => motion[i + ahead]);
+    await drive("anna", [controlToken], WINDOW_MS, (i) =>
+      i < 120 ? motion[Math.min(i + ahead, motion.length - 1)] : motion[i + ahead],
+    );
     expect(await said.get("ended")).toBe("CONTROL_FENCED");
     expect(await refusal(eve.control.acceptControl({ figure: anna, offerToken }))).toBe(
       "PermissionDenied ROLE_REQUIRED",
