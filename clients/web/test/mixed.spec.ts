@@ -3,12 +3,7 @@
 // driver hands its figure over to the one in TypeScript, and nobody falls.
 import { fromJson, type JsonValue } from "@bufbuild/protobuf";
 import { Code, ConnectError } from "@connectrpc/connect";
-import {
-  execFile,
-  execFileSync,
-  spawn,
-  type ChildProcess,
-} from "node:child_process";
+import { execFile, execFileSync, spawn, type ChildProcess } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -16,10 +11,7 @@ import { createInterface } from "node:readline";
 import { setTimeout as sleep } from "node:timers/promises";
 import { promisify } from "node:util";
 import { connect, details } from "../src/client.js";
-import {
-  FigureMotionSchema,
-  type FigureMotion,
-} from "../src/gen/sinew/v1/motion_pb.js";
+import { FigureMotionSchema, type FigureMotion } from "../src/gen/sinew/v1/motion_pb.js";
 import { Role } from "../src/gen/sinew/v1/options_pb.js";
 import { EventType, type Event } from "../src/gen/sinew/v1/state_pb.js";
 import { expect, live, program, root, shot, Sinew, test } from "./support.js";
@@ -51,15 +43,11 @@ class Lines {
   private readonly seen: Record<string, JsonValue>[] = [];
   constructor(readonly child: ChildProcess) {
     if (child.stdout)
-      createInterface(child.stdout).on("line", (line) =>
-        this.seen.push(JSON.parse(line) as Record<string, JsonValue>),
-      );
+      createInterface(child.stdout).on("line", (line) => this.seen.push(JSON.parse(line) as Record<string, JsonValue>));
   }
 
   async get(key: string): Promise<JsonValue> {
-    await expect
-      .poll(() => this.seen.some((l) => key in l), { intervals: [20] })
-      .toBe(true);
+    await expect.poll(() => this.seen.some((l) => key in l), { intervals: [20] }).toBe(true);
     return this.seen.find((l) => key in l)?.[key] ?? null;
   }
 }
@@ -68,10 +56,7 @@ class Lines {
 test.use({ ignoreHTTPSErrors: true });
 process.env.NODE_TLS_REJECT_UNAUTHORIZED = "0";
 
-test("strangers share a world from four kinds of clients, and a walk is handed over", async ({
-  page,
-  server,
-}) => {
+test("strangers share a world from four kinds of clients, and a walk is handed over", async ({ page, server }) => {
   const work = mkdtempSync(join(tmpdir(), "sinew-mixed-"));
   const key = join(work, "key");
   const token = (name: string, ...roles: string[]): string =>
@@ -83,26 +68,9 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
   const ca = join(work, "server.pem");
   const tls = join(work, "server.key");
   execFileSync("openssl", [
-    ...[
-      "req",
-      "-x509",
-      "-newkey",
-      "ec",
-      "-pkeyopt",
-      "ec_paramgen_curve:P-256",
-      "-nodes",
-      "-days",
-      "1",
-    ],
+    ...["req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "1"],
     ...["-subj", "/CN=sinew", "-addext", "basicConstraints=critical,CA:FALSE"],
-    ...[
-      "-addext",
-      "subjectAltName=DNS:localhost,IP:127.0.0.1",
-      "-keyout",
-      tls,
-      "-out",
-      ca,
-    ],
+    ...["-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1", "-keyout", tls, "-out", ca],
   ]);
   writeFileSync(
     config,
@@ -119,14 +87,8 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     vic: token("vic"),
     eve: token("eve"),
   };
-  const client = (name: keyof typeof tokens): Sinew =>
-    new Sinew(url, connect(url, tokens[name]));
-  const [ada, dora, vic, eve] = [
-    client("ada"),
-    client("dora"),
-    client("vic"),
-    client("eve"),
-  ];
+  const client = (name: keyof typeof tokens): Sinew => new Sinew(url, connect(url, tokens[name]));
+  const [ada, dora, vic, eve] = [client("ada"), client("dora"), client("vic"), client("eve")];
   const world = "worlds/studio";
   const [anna, bert] = [`${world}/figures/anna`, `${world}/figures/bert`];
 
@@ -161,54 +123,23 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     const ticks: bigint[] = [];
     const watching = [
       (async () => {
-        for await (const { message } of vic.state.watchWorld(
-          { world },
-          { signal: over.signal },
-        ))
+        for await (const { message } of vic.state.watchWorld({ world }, { signal: over.signal }))
           if (message.case === "frame") ticks.push(message.value.tick);
       })(),
       (async () => {
-        for await (const told of vic.state.watchEvents(
-          { world },
-          { signal: over.signal },
-        ))
-          events.push(...told.events);
+        for await (const told of vic.state.watchEvents({ world }, { signal: over.signal })) events.push(...told.events);
       })(),
-    ].map((stream) =>
-      stream.catch((e: unknown) =>
-        over.signal.aborted ? undefined : Promise.reject(e as Error),
-      ),
-    );
-    const call = (
-      name: keyof typeof tokens,
-      method: string,
-      request: object,
-      ...options: string[]
-    ): string[] => [
-      ...[
-        "-cacert",
-        ca,
-        "-H",
-        `authorization: Bearer ${tokens[name]}`,
-        ...options,
-        "-d",
-        JSON.stringify(request),
-      ],
+    ].map((stream) => stream.catch((e: unknown) => (over.signal.aborted ? undefined : Promise.reject(e as Error))));
+    const call = (name: keyof typeof tokens, method: string, request: object, ...options: string[]): string[] => [
+      ...["-cacert", ca, "-H", `authorization: Bearer ${tokens[name]}`, ...options, "-d", JSON.stringify(request)],
       ...[server.address, `sinew.v1.${method}`],
     ];
-    const watcher = spawn(
-      grpcurl,
-      call("vic", "StateService/WatchWorld", { world }),
-      {
-        stdio: ["ignore", "pipe", "inherit"],
-      },
-    );
+    const watcher = spawn(grpcurl, call("vic", "StateService/WatchWorld", { world }), {
+      stdio: ["ignore", "pipe", "inherit"],
+    });
     children.push(watcher);
     let printed = 0;
-    watcher.stdout.on(
-      "data",
-      (text) => (printed += String(text).split('"frame": {').length - 1),
-    );
+    watcher.stdout.on("data", (text) => (printed += String(text).split('"frame": {').length - 1));
     await live(page, `${url}/#world=studio&token=${tokens.vic}`);
     expect(page.url()).not.toContain("token");
     await expect(page.locator("#figures button")).toHaveText([/anna/, /bert/]);
@@ -218,31 +149,9 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     const walk = join(root, "tests/corpus/walk-normal.vrm.bvh");
     const driver = spawn(
       python,
-      [
-        join(root, "clients/web/test/driver.py"),
-        url,
-        "studio",
-        "anna",
-        walk,
-      ].concat(
-        [
-          "--token",
-          tokens.cleo,
-          "--ca",
-          ca,
-          "--to",
-          "user:dora",
-          "--after",
-          String(AFTER_S),
-        ],
-        [
-          "--window-ms",
-          String(WINDOW_MS),
-          "--playout-ms",
-          String(PLAYOUT_MS),
-          "--frames",
-          frames,
-        ],
+      [join(root, "clients/web/test/driver.py"), url, "studio", "anna", walk].concat(
+        ["--token", tokens.cleo, "--ca", ca, "--to", "user:dora", "--after", String(AFTER_S)],
+        ["--window-ms", String(WINDOW_MS), "--playout-ms", String(PLAYOUT_MS), "--frames", frames],
       ),
       { stdio: ["ignore", "pipe", "inherit"] },
     );
@@ -251,9 +160,9 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     expect(await said.get("lease")).toBe("user:cleo");
 
     // Driver two, in TypeScript: bert waves, and anna when she is offered.
-    const motion = (
-      JSON.parse(readFileSync(frames, "utf8")) as JsonValue[]
-    ).map((f) => fromJson(FigureMotionSchema, f));
+    const motion = (JSON.parse(readFileSync(frames, "utf8")) as JsonValue[]).map((f) =>
+      fromJson(FigureMotionSchema, f),
+    );
     const drive = async (
       figureId: string,
       controlTokens: string[],
@@ -277,10 +186,7 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
       };
       const begun = performance.now();
       for (let sent = 0; !over.signal.aborted; await sleep(30)) {
-        const due = Math.min(
-          Math.floor(((performance.now() - begun) * 60) / 1000),
-          sent + 60,
-        );
+        const due = Math.min(Math.floor(((performance.now() - begun) * 60) / 1000), sent + 60);
         const batch = [];
         for (; sent < due; sent++) {
           const figure = posture(sent);
@@ -291,8 +197,7 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
             figures: [figure],
           });
         }
-        if (batch.length)
-          await dora.motion.pushMotion({ header, batch: { frames: batch } });
+        if (batch.length) await dora.motion.pushMotion({ header, batch: { frames: batch } });
       }
     };
     const still = fromJson(FigureMotionSchema, {
@@ -316,9 +221,7 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
         ],
       });
     await run(grpcurl, push(10));
-    const tooHard = await run(grpcurl, push(100)).catch((e: unknown) =>
-      String((e as { stderr: string }).stderr),
-    );
+    const tooHard = await run(grpcurl, push(100)).catch((e: unknown) => String((e as { stderr: string }).stderr));
     expect(tooHard).toContain("PermissionDenied");
 
     // The hostile one sees the world and nothing more.
@@ -341,10 +244,9 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     ];
     for (const refused of await Promise.all(hostile.map(refusal)))
       expect(refused).toBe("PermissionDenied ROLE_REQUIRED");
-    const flood = Array.from({ length: 6 }, async () => {
+    const flood = Array.from({ length: 20 }, async () => {
       const seen = new Set<string>();
-      for (let i = 0; i < 100; i++)
-        seen.add(await refusal(eve.worlds.getWorld({ name: world })));
+      for (let i = 0; i < 100; i++) seen.add(await refusal(eve.worlds.getWorld({ name: world })));
       return [...seen];
     });
     const garbage = Array.from({ length: 50 }, () =>
@@ -366,18 +268,14 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
       graceMs: 60_000,
     });
     // Both saw the same person walk.
-    const ahead = Math.round(
-      (Date.now() / 1000 - Number(await said.get("began"))) * 60,
-    );
+    const ahead = Math.round((Date.now() / 1000 - Number(await said.get("began"))) * 60);
     await drive("anna", [controlToken], WINDOW_MS, (i) =>
-      i < 120
-        ? motion[Math.min(i + ahead, motion.length - 1)]
-        : motion[i + ahead],
+      i < 120 ? motion[Math.min(i + ahead, motion.length - 1)] : motion[i + ahead],
     );
     expect(await said.get("ended")).toBe("CONTROL_FENCED");
-    expect(
-      await refusal(eve.control.acceptControl({ figure: anna, offerToken })),
-    ).toBe("PermissionDenied ROLE_REQUIRED");
+    expect(await refusal(eve.control.acceptControl({ figure: anna, offerToken }))).toBe(
+      "PermissionDenied ROLE_REQUIRED",
+    );
     await sleep(2000);
     await shot(page, "mixed-clients");
 
@@ -385,8 +283,7 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
       "ResourceExhausted LIMIT_REACHED",
       "nothing",
     ]);
-    for (const answer of await Promise.all(garbage))
-      expect(answer.headers.get("grpc-status") ?? "200").not.toBe("13");
+    for (const answer of await Promise.all(garbage)) expect(answer.headers.get("grpc-status") ?? "200").not.toBe("13");
 
     // Nobody fell, and those who drive were told what happened.
     const names = events.map((e) => `${EventType[e.type]} ${e.figureId}`);
@@ -394,16 +291,8 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     expect(names).not.toContain("FELL bert");
     expect(names).not.toContain("BALANCE_LOST anna");
     expect(names).toContain("CONTROL_OFFERED anna");
-    expect(
-      events.some(
-        (e) =>
-          e.type === EventType.ACCESS_REFUSED && e.detail.includes("user:eve"),
-      ),
-    ).toBe(true);
-    const taken = events.find(
-      (e) =>
-        e.type === EventType.CONTROL_ACQUIRED && e.detail.includes("user:dora"),
-    );
+    expect(events.some((e) => e.type === EventType.ACCESS_REFUSED && e.detail.includes("user:eve"))).toBe(true);
+    const taken = events.find((e) => e.type === EventType.CONTROL_ACQUIRED && e.detail.includes("user:dora"));
     expect(taken?.figureId).toBe("anna");
 
     // Every viewer has seen it; nothing ran backwards.
