@@ -60,9 +60,7 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
   const work = mkdtempSync(join(tmpdir(), "sinew-mixed-"));
   const key = join(work, "key");
   const token = (name: string, ...roles: string[]): string =>
-    execFileSync(program, ["token", "--key", key, "--for", name, ...roles], {
-      encoding: "utf8",
-    }).trim();
+    execFileSync(program, ["token", "--key", key, "--for", name, ...roles], { encoding: "utf8" }).trim();
   execFileSync(program, ["token", "--key", key, "--new-key"]);
   const config = join(work, "sinew.toml");
   const ca = join(work, "server.pem");
@@ -95,19 +93,11 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
   // The owner makes the world and says who may do what.
   await ada.worlds.createWorld({ worldId: "studio" });
   await ada.figures.createFigure({ parent: world, figureId: "anna" });
-  await ada.figures.createFigure({
-    parent: world,
-    figureId: "bert",
-    figure: { placement: { yM: 3 } },
-  });
+  await ada.figures.createFigure({ parent: world, figureId: "bert", figure: { placement: { yM: 3 } } });
   const grant = (principal: string, ...roles: Role[]): Promise<unknown> =>
     ada.access.createGrant({
       parent: world,
-      grant: {
-        principal: `user:${principal}`,
-        roles,
-        bounds: { maxForceNewtons: 300, maxRateHz: 5 },
-      },
+      grant: { principal: `user:${principal}`, roles, bounds: { maxForceNewtons: 300, maxRateHz: 5 } },
     });
   await grant("cleo", Role.DRIVER);
   await grant("dora", Role.DRIVER);
@@ -170,19 +160,8 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
       posture: (frame: number) => FigureMotion | undefined,
     ): Promise<void> => {
       const header = {
-        ...{
-          world,
-          figureIds: [figureId],
-          driverId: `dora-${figureId}`,
-          nominalRateHz: 60,
-          controlTokens,
-        },
-        ...{
-          playoutDelayMs: PLAYOUT_MS,
-          preparationWindowMs: windowMs,
-          holdLimitMs: 600_000,
-          graceMs: 60_000,
-        },
+        ...{ world, figureIds: [figureId], driverId: `dora-${figureId}`, nominalRateHz: 60, controlTokens },
+        ...{ playoutDelayMs: PLAYOUT_MS, preparationWindowMs: windowMs, holdLimitMs: 600_000, graceMs: 60_000 },
       };
       const begun = performance.now();
       for (let sent = 0; !over.signal.aborted; await sleep(30)) {
@@ -200,9 +179,7 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
         if (batch.length) await dora.motion.pushMotion({ header, batch: { frames: batch } });
       }
     };
-    const still = fromJson(FigureMotionSchema, {
-      jointAnglesRad: Array<number>(39).fill(0),
-    });
+    const still = fromJson(FigureMotionSchema, { jointAnglesRad: Array<number>(39).fill(0) });
     const waving = drive("bert", [], 0, () => still);
 
     // The perturber, with grpcurl: bert is pushed and stays up; more than its grant allows is refused.
@@ -212,11 +189,7 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
         perturbations: [
           {
             figureId: "bert",
-            impulse: {
-              segment: "chest",
-              impulseNewtonSeconds: { x: newtonSeconds },
-              durationS: 0.1,
-            },
+            impulse: { segment: "chest", impulseNewtonSeconds: { x: newtonSeconds }, durationS: 0.1 },
           },
         ],
       });
@@ -232,15 +205,9 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
       eve.figures.resetFigure({ name: bert }),
       eve.control.acquireControl({ figure: anna, priority: 99 }),
       eve.motion.playClip({ figure: anna, clip: "clips/squat" }),
-      eve.motion.pushMotion({
-        header: { world, figureIds: ["anna"] },
-        batch: { frames: [{ figures: [still] }] },
-      }),
+      eve.motion.pushMotion({ header: { world, figureIds: ["anna"] }, batch: { frames: [{ figures: [still] }] } }),
       eve.perturbations.clearPerturbations({ figure: bert }),
-      eve.access.createGrant({
-        parent: world,
-        grant: { principal: "user:eve", roles: [Role.OWNER] },
-      }),
+      eve.access.createGrant({ parent: world, grant: { principal: "user:eve", roles: [Role.OWNER] } }),
     ];
     for (const refused of await Promise.all(hostile.map(refusal)))
       expect(refused).toBe("PermissionDenied ROLE_REQUIRED");
@@ -252,21 +219,14 @@ test("strangers share a world from four kinds of clients, and a walk is handed o
     const garbage = Array.from({ length: 50 }, () =>
       fetch(`${url}/sinew.v1.MotionService/PushMotion`, {
         method: "POST",
-        headers: {
-          "content-type": "application/grpc-web+proto",
-          authorization: `Bearer ${tokens.eve}`,
-        },
+        headers: { "content-type": "application/grpc-web+proto", authorization: `Bearer ${tokens.eve}` },
         body: Uint8Array.from({ length: 4096 }, (_, i) => (i * 197) % 256),
       }),
     );
 
     // The hand-over, in the middle of a step.
     const offerToken = String(await said.get("offer"));
-    const { controlToken } = await dora.control.acceptControl({
-      figure: anna,
-      offerToken,
-      graceMs: 60_000,
-    });
+    const { controlToken } = await dora.control.acceptControl({ figure: anna, offerToken, graceMs: 60_000 });
     // Both saw the same person walk.
     const ahead = Math.round((Date.now() / 1000 - Number(await said.get("began"))) * 60);
     await drive("anna", [controlToken], WINDOW_MS, (i) =>

@@ -22,12 +22,7 @@ async function stepped(server: Server, id: string, clip: string, ticks: number, 
     figureId: "anna",
     figure: { body: "bodies/adult-man" },
   });
-  await api.motion.playClip({
-    figure: figure?.name ?? "",
-    clip: `clips/${clip}`,
-    loop: true,
-    reset: true,
-  });
+  await api.motion.playClip({ figure: figure?.name ?? "", clip: `clips/${clip}`, loop: true, reset: true });
   const first = push ? RATE : ticks;
   await api.worlds.stepWorld({ name: world, tickCount: first });
   if (!push) return api;
@@ -38,11 +33,7 @@ async function stepped(server: Server, id: string, clip: string, ticks: number, 
         figureId: "anna",
         kind: {
           case: "impulse",
-          value: {
-            segment: "chest",
-            impulseNewtonSeconds: { x: push, y: 0, z: 0 },
-            durationS: 0.1,
-          },
+          value: { segment: "chest", impulseNewtonSeconds: { x: push, y: 0, z: 0 }, durationS: 0.1 },
         },
       },
     ],
@@ -62,10 +53,7 @@ const tickOf = async (api: Sinew, id: string): Promise<number> =>
 
 /** What the figure carries in the newest frame, kg. */
 async function load(api: Sinew, id: string): Promise<number> {
-  const { frame } = await api.state.getWorldFrame({
-    world: `worlds/${id}`,
-    view: { fields: { paths: ["status"] } },
-  });
+  const { frame } = await api.state.getWorldFrame({ world: `worlds/${id}`, view: { fields: { paths: ["status"] } } });
   return (frame?.figures[0].status?.loads ?? []).reduce((sum, l) => sum + l.massKg, 0);
 }
 
@@ -107,12 +95,8 @@ test("the past is looked at with pointer and keys, and the present goes on", asy
   if (!box) throw new Error("the time line is seen");
   await page.mouse.move(box.x + box.width - 8, box.y + box.height / 2);
   await page.mouse.down();
-  await page.mouse.move(box.x + box.width * 0.25, box.y + box.height / 2, {
-    steps: 9,
-  });
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2, {
-    steps: 5,
-  });
+  await page.mouse.move(box.x + box.width * 0.25, box.y + box.height / 2, { steps: 9 });
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2, { steps: 5 });
   await expect.poll(() => moment(page)).toBeGreaterThan(2.8);
   await page.mouse.up();
   expect(Math.abs((await moment(page)) - 3)).toBeLessThan(0.2);
