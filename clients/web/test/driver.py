@@ -38,8 +38,6 @@ with sinew.Client(args.address, token=args.token, ca=args.ca) as client:
     figure = f"{world.resource}/figures/{args.figure}"
     lease = client.control_stub.AcquireControl(control_pb2.AcquireControlRequest(figure=figure))
     say(lease=lease.lease.holder)
-    began = time.monotonic()
-    say(began=time.time())
     offered = False
     try:
         with world.drive(
@@ -50,6 +48,9 @@ with sinew.Client(args.address, token=args.token, ca=args.ca) as client:
             reset=True,
             control_tokens=[lease.control_token],
         ) as drive:
+            # From now on frames leave when they are due: who takes over reckons by it where the walk is.
+            began = time.monotonic()
+            say(began=time.time())
             for i in range(len(motion)):
                 t = i / motion.rate_hz
                 time.sleep(max(began + t - time.monotonic(), 0.0))
@@ -60,11 +61,6 @@ with sinew.Client(args.address, token=args.token, ca=args.ca) as client:
                         figure=figure, control_token=lease.control_token, to=args.to
                     )
                     say(offer=client.control_stub.TransferControl(offer).offer_token)
-            # Whoever accepts late finds a figure that stands where the walk has ended.
-            for i in range(len(motion), len(motion) + round(20 * motion.rate_hz)):
-                t = i / motion.rate_hz
-                time.sleep(max(began + t - time.monotonic(), 0.0))
-                drive.send(motion.pose(len(motion) - 1), time_s=t)
     except sinew.SinewError as error:
         say(ended=error.reason)
     else:
