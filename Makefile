@@ -53,7 +53,8 @@ physics: ## the physics compiles without a network crate in sight
 rust: ## Rust tests
 	cd $(ROOT) && $(CARGO) test --locked --no-fail-fast
 
-traces: export CARGO_PROFILE_DEV_OPT_LEVEL := 0 # no physics in it that takes time: compiling does
+# No physics in it that takes time: compiling does. (A comment behind the value would be part of it.)
+traces: export CARGO_PROFILE_DEV_OPT_LEVEL := 0
 traces: ## the feature otlp, which is off by default, with a collector in the test
 	cd $(ROOT) && $(CARGO) test --locked --features otlp --test otlp
 
