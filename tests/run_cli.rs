@@ -528,3 +528,47 @@ fn a_clip_that_is_tracked_is_not_rehearsed() {
     ]);
     assert!(wrong.contains("two hands"), "{wrong}");
 }
+
+#[test]
+fn who_did_a_motion_does_it_again_by_the_strength_that_it_took() {
+    let scratch = Scratch::new("strength");
+    let (file, cells) = (scratch.file("person.json"), scratch.file("cells.json"));
+    // A weak old woman, seen lifting 5 kg.
+    let person = ["--body", "female-75y-1600mm-67000g", "--load", "5@r_hand"];
+    let mut args = vec!["strength", "builtin:lift", "--percentile", "5"];
+    args.extend(person);
+    args.extend(["--out", &file, "--envelope", &cells]);
+    let table = succeed(&args);
+    assert!(table.contains("r_shoulder_flexion"), "{table}");
+    let strength = json(&file);
+    let factors: Vec<f64> = (strength["dofs"].as_array().expect("a list").iter())
+        .map(|d| d["factor"].as_f64().expect("a number"))
+        .collect();
+    assert!(factors.iter().any(|f| *f > 1.2) && factors.iter().all(|f| *f >= 1.0));
+    let cells = json(&cells);
+    assert!(cells.as_array().is_some_and(|c| c.len() > 100));
+    let run = |more: &[&str], report: &str| {
+        let report = scratch.file(report);
+        let mut args = vec!["run", "builtin:lift", "--report", &report];
+        args.extend(person);
+        args.extend(more);
+        succeed(&args);
+        number(&json(&report), "tracking_joint_rms_deg")
+    };
+    let tables = run(&["--percentile", "5"], "tables.json");
+    let motion = run(&["--strength-file", &file], "motion.json");
+    println!("by the tables {tables:.2}°, by the motion {motion:.2}°");
+    assert!(motion < 0.5 && tables > 3.0 * motion);
+    let text = fail(&[
+        "run",
+        "builtin:idle",
+        "--strength-file",
+        &file,
+        "--strength",
+        "2",
+    ]);
+    assert!(text.contains("--strength"), "{text}");
+    std::fs::write(&file, "{\"dofs\": [{\"dof\": \"tail\", \"factor\": 2}]}").expect("a file");
+    let text = fail(&["run", "builtin:idle", "--strength-file", &file]);
+    assert!(text.contains("tail"), "{text}");
+}

@@ -41,6 +41,8 @@ enum Command {
     Survey(Box<cli::survey::SurveyArgs>),
     /// Find out what has to be added to a motion, or how much help it takes, so that a figure does it
     Rehearse(Box<cli::rehearse::RehearseArgs>),
+    /// Estimate the strength that motions need, as a file for `run --strength-file` and for requests
+    Strength(Box<cli::strength::StrengthArgs>),
     /// Report how recordings fit the body: what was found, estimated and changed
     Lint(cli::lint::LintArgs),
     /// Fit a recording to the body and write the prepared motion
@@ -73,6 +75,7 @@ fn main() -> ExitCode {
         Some(Command::Run(args)) => cli::run::run(&args),
         Some(Command::Survey(args)) => cli::survey::run(&args).map(Into::into),
         Some(Command::Rehearse(args)) => cli::rehearse::run(&args).map(Into::into),
+        Some(Command::Strength(args)) => cli::strength::run(&args).map(Into::into),
         Some(Command::Lint(args)) => cli::lint::run(&args).map(Into::into),
         Some(Command::Convert(args)) => cli::convert::run(&args).map(Into::into),
         Some(Command::Paper(args)) => cli::paper::run(&args).map(Into::into),

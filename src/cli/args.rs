@@ -10,6 +10,7 @@ mod obstacle;
 mod push;
 mod recording;
 mod spec;
+mod strength_file;
 mod then;
 
 pub use body::{BodyArgs, BodyNameParser, describe, short_name};
@@ -23,4 +24,5 @@ pub use obstacle::ObstacleSpec;
 pub use push::PushSpec;
 pub use recording::{FileArgs, RecordingArgs, UpArg};
 pub use spec::SpecError;
+pub use strength_file::StrengthFile;
 pub use then::ThenSpec;

@@ -22,6 +22,7 @@ pub mod rehearse;
 pub mod run;
 pub mod serve;
 pub mod source;
+pub mod strength;
 pub mod survey;
 pub mod terminal;
 pub mod token;

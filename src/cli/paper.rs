@@ -1,5 +1,7 @@
 //! `sinew paper`: repeats every experiment of the paper and writes a page with tables, plots and motion strips.
 
+mod rows;
+
 use super::args::short_name;
 use super::compare;
 use super::page::{Page, progress};
@@ -11,7 +13,7 @@ use crate::evaluate::experiments::fall::{
 use crate::evaluate::experiments::lift::{Lift, lift, scene, weak_arm};
 use crate::evaluate::experiments::push::{Push, push, recovered};
 use crate::evaluate::experiments::statics::{Hold, hold};
-use crate::evaluate::experiments::touching::{FRICTION, Prop, bump, hand_support};
+use crate::evaluate::experiments::touching::{FRICTION, Prop, Support, bump, hand_support};
 use crate::evaluate::experiments::{Pair, Sample};
 use crate::evaluate::plot::Plot;
 use crate::evaluate::strip::View;
@@ -45,6 +47,9 @@ pub struct PaperArgs {
     /// recording called sit-stand is given a stool to sit on.
     #[arg(long, value_name = "FILES", num_args = 1..)]
     pub recordings: Vec<String>,
+    /// Writes only the page of what the paper shows beyond its equations (rows.md).
+    #[arg(long, conflicts_with = "recordings")]
+    pub rows: bool,
 }
 
 /// Runs the command.
@@ -56,8 +61,11 @@ pub fn run(args: &PaperArgs) -> Result<()> {
     if !args.recordings.is_empty() {
         return recorded(args, page);
     }
-    let bar = progress("paper", STEPS);
     let body = Arc::new(Body::adult_man());
+    if args.rows {
+        return rows::write(page, &body);
+    }
+    let bar = progress("paper", STEPS);
     introduction(&mut page);
     let parts: [(&str, fn(&mut Page, &Arc<Body>) -> Result<()>); STEPS as usize] = [
         ("lifts", lifts),
@@ -77,7 +85,8 @@ pub fn run(args: &PaperArgs) -> Result<()> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    page.finish()
+    page.finish()?;
+    rows::write(Page::new(&args.out)?, &body)
 }
 
 /// The comparison on recordings: a separate page, because the recordings are not part of the repository.
@@ -604,10 +613,12 @@ fn step_size(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## Hand support on a table and a wall");
     page.say(&format!(
-        "The figure leans 9° forward from the ankles, further than its feet alone can balance, with the right hand on \
-         a table, on a desk with a slope of 20°, or against a wall (coefficient of friction {FRICTION}). It takes no \
-         steps. Forces are means over the last of four seconds; friction used is the largest of any tick, relative to \
-         the friction cone. *Weak*: 3 % of the strength in that arm."
+        "The figure leans further forward than its feet alone can balance, with the right hand on a table, on a desk \
+         with a slope of 20° (8° in the ankles and 9° in the hips), or against a wall (9° in the ankles; coefficient \
+         of friction {FRICTION}). It takes no steps. *Ratio*: support ratio (2) of the hand, its mean over the half \
+         of the time with the centre of mass far from the hand's side and over the other half. Forces are means over \
+         the last of four seconds; friction used is the largest of any tick, relative to the friction cone. *Weak*: \
+         3 % of the strength in that arm."
     ));
     let props = [
         (Prop::None, "none"),
@@ -634,6 +645,7 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
                     s.record.result(),
                     format!("{:.0}", s.pressed),
                     format!("{:.0} + {:.0}", s.floor, s.rest),
+                    ratio(&s),
                     if s.cone > 0.0 {
                         format!("{:.0} %", 100.0 * s.cone.min(1.0))
                     } else {
@@ -664,11 +676,22 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
             "result",
             "normal force of the hand, N",
             "floor + other vertical force, N",
+            "ratio",
             "friction used",
         ],
         &rows,
     );
     page.strips(body, &strips)
+}
+
+/// Support ratio of the hand at both ends of the way of the centre of mass.
+fn ratio(s: &Support) -> String {
+    let [(from, low), (to, high)] = s.ratio;
+    if from >= to {
+        "–".into()
+    } else {
+        format!("{low:.3} … {high:.3}")
+    }
 }
 
 fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {

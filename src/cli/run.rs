@@ -8,7 +8,7 @@ mod summary;
 
 use super::args::{
     BodyArgs, ConstraintSpec, ControllerArg, FileArgs, LoadSpec, ObstacleSpec, PaperOptions,
-    PresetArg, PushSpec, StepperArg, ThenSpec,
+    PresetArg, PushSpec, StepperArg, StrengthFile, ThenSpec,
 };
 use super::exit::{Outcome, Usage, usage};
 use super::output::{extension, for_clip, write};
@@ -64,6 +64,10 @@ pub struct RunArgs {
     /// Fraction of its strength that the figure may use, 0 to 1.
     #[arg(long, value_name = "E", default_value_t = 1.0)]
     pub effort: f64,
+    /// Strength of the person as `sinew strength` writes it (`sinew.v1.StrengthScale` as JSON), instead of the three
+    /// options above.
+    #[arg(long, value_name = "FILE.json", conflicts_with_all = ["strength", "percentile", "effort"])]
+    pub strength_file: Option<PathBuf>,
     /// Time scale of muscle fatigue: seconds of fatigue per simulated second, 0 to 1000; 0: no fatigue.
     #[arg(long, value_name = "X", default_value_t = 0.0)]
     pub fatigue: f64,
@@ -195,6 +199,19 @@ impl RunArgs {
         if self.standing { -clip.lead_in() } else { 0.0 }
     }
 
+    /// Strength by the options, or by the file.
+    fn strength_scale(&self) -> Result<StrengthScale> {
+        match &self.strength_file {
+            Some(path) => StrengthFile::read(path),
+            None => Ok(StrengthScale {
+                all: self.strength,
+                percentile: self.percentile,
+                effort: self.effort,
+                ..StrengthScale::default()
+            }),
+        }
+    }
+
     /// The body; the preset removes the armature of its joints.
     fn build_body(&self) -> Result<Body> {
         let mut body = self.body.build()?;
@@ -210,6 +227,7 @@ struct Scenario<'a> {
     args: &'a RunArgs,
     body: Arc<Body>,
     params: WorldParams,
+    strength: StrengthScale,
     /// Clips of `--then`, and when they begin, s.
     then: Vec<(f64, Arc<Clip>)>,
 }
@@ -223,6 +241,7 @@ pub fn run(args: &RunArgs) -> Result<Outcome> {
     check(args)?;
     let mut scenario = Scenario {
         body: Arc::new(args.build_body()?),
+        strength: args.strength_scale()?,
         then: Vec::new(),
         params: WorldParams {
             rate_hz: args.rate_hz(),
@@ -486,12 +505,7 @@ fn scene(
     let first = args.first(clip);
     let key = world
         .add_figure(FigureSetup {
-            strength: StrengthScale {
-                all: args.strength,
-                percentile: args.percentile,
-                effort: args.effort,
-                ..StrengthScale::default()
-            },
+            strength: scenario.strength.clone(),
             stepper: args.stepper_kind().into(),
             params: ControlParams {
                 protective_steps: args.protective_steps,

@@ -290,6 +290,36 @@ fn spoken(dof: &str) -> String {
     }
 }
 
+/// What muscles give at one moment of a motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Needed {
+    /// Joint angles, rad.
+    pub angle: [f64; DOF_COUNT],
+    /// Their rates, rad/s.
+    pub rate: [f64; DOF_COUNT],
+    /// Torques of the muscles, N·m.
+    pub torque: [f64; DOF_COUNT],
+}
+
+/// What muscles give in a clip, way in and way out included, every 1/30 s; means over 0.1 s.
+///
+/// The floor pushes as in the forecast; what it lacks is nobody's torque.
+pub fn needed(body: &Body, links: &Links, strength: &Strength, clip: &Clip) -> Vec<Needed> {
+    let all = demands(body, links, strength, &MuscleScale::default(), clip);
+    let width = ((MEAN * RATE).round() as usize).clamp(1, all.len().max(1));
+    let mean = |w: &[Demand], of: &dyn Fn(&Needed) -> &[f64; DOF_COUNT]| {
+        let sum = |d: usize| w.iter().map(|x| of(&x.needed)[d]).sum::<f64>();
+        std::array::from_fn(|d| sum(d) / w.len() as f64)
+    };
+    (all.windows(width))
+        .map(|w| Needed {
+            angle: mean(w, &|n| &n.angle),
+            rate: mean(w, &|n| &n.rate),
+            torque: mean(w, &|n| &n.torque),
+        })
+        .collect()
+}
+
 /// What one sample asks for.
 #[derive(Clone, Debug)]
 struct Demand {
@@ -300,6 +330,7 @@ struct Demand {
     height: f64,
     /// Torque over strength.
     torque: [f64; DOF_COUNT],
+    needed: Box<Needed>,
     feet: bool,
     others: bool,
     inverted: bool,
@@ -313,18 +344,28 @@ pub fn difficulty(
     scale: &MuscleScale,
     clip: &Clip,
 ) -> Difficulty {
+    summary(&demands(body, links, strength, scale, clip))
+}
+
+/// Looks at every sample of a clip.
+fn demands(
+    body: &Body,
+    links: &Links,
+    strength: &Strength,
+    scale: &MuscleScale,
+    clip: &Clip,
+) -> Vec<Demand> {
     let from = -clip.lead_in();
     let length = (clip.lead_in() + clip.duration() + clip.lead_out()).min(LONGEST);
     // The ends of a clip have one-sided differences, and it stands still beyond them.
     let count = (length * RATE).floor() as usize;
     let mut looker = Looker::new(body, links, strength, scale);
-    let demands: Vec<Demand> = (1..count.max(2))
+    (1..count.max(2))
         .map(|i| {
             let time = from + i as f64 / RATE;
             looker.look(&clip.sample(time.min(from + length)), time)
         })
-        .collect();
-    summary(&demands)
+        .collect()
 }
 
 /// Everything that a sample is looked at with.
@@ -399,8 +440,9 @@ impl<'a> Looker<'a> {
                 *r -= a * x;
             }
         }
+        let muscles: [f64; DOF_COUNT] = std::array::from_fn(|d| b[6 + d] / per_limit[d]);
         let torque = std::array::from_fn(|d| {
-            let t = b[6 + d] / per_limit[d];
+            let t = muscles[d];
             t / if t < 0.0 { lower[d] } else { upper[d] }
         });
         let up = target.posture.root_rotation.rotate(Vec3::Z).z;
@@ -409,6 +451,11 @@ impl<'a> Looker<'a> {
             lacking: (vector(&b[..3]), vector(&b[3..6])),
             height: (root.z + com.z).max(0.2),
             torque,
+            needed: Box::new(Needed {
+                angle: angles,
+                rate: rates,
+                torque: muscles,
+            }),
             feet,
             others,
             inverted: up < INVERTED,

@@ -4,10 +4,11 @@
 //! body alone, without any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`table`] writes it
 //! as CSV; [`survival`] what was survived; [`noise`] asks whether that was luck; [`experiments`] are those of
 //! `sinew paper` and `sinew walking`; [`survey`] judges a whole corpus by published rules against references that are
-//! fixed in the world, and compares surveys; [`forecast`] says what will come of a motion before it is run; [`follow`]
-//! chooses how it is followed. Nothing here reads a clock or a file.
+//! fixed in the world, and compares surveys; [`forecast`] says what will come of a motion before it is run,
+//! [`envelope`] what strength it needs; [`follow`] chooses how it is followed. Nothing here reads a clock or a file.
 
 pub mod audit;
+pub mod envelope;
 pub mod experiments;
 pub mod follow;
 pub mod forecast;

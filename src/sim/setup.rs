@@ -56,14 +56,26 @@ pub enum ControllerKind {
     Motors,
 }
 
+impl StepperKind {
+    /// True if accelerations are applied as they are.
+    pub fn prescribes(self) -> bool {
+        self != Self::Torque
+    }
+}
+
 /// What moves the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StepperKind {
     /// Torques drive full rigid-body dynamics with contact (docs/equations.md).
     Torque,
     /// The controller's accelerations are applied as they are; the support holds, tips about an edge or a vertex, or
-    /// flies. For the paper's controller. Motors alone need torques: with them this is `Torque`.
+    /// flies. For the paper's controller. Motors alone need torques: with them this is `Torque`. Near something that
+    /// can be met torques take over.
     Kinematic,
+    /// The same, but collisions are those of §3 of the paper: an impact changes velocities, then angles are corrected
+    /// until nothing overlaps, and the reaction counts in the inverse dynamics of the next tick. Between figures that
+    /// are all moved so, and with things that do not move freely.
+    Staged,
 }
 
 /// Norm in which the change of acceleration is least (10).

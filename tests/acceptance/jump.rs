@@ -137,7 +137,7 @@ fn leaps(kind: ControllerKind, stepper: StepperKind, allowed: f64) -> bool {
     scene.figure_mut().set_drive(play(&clip));
     // Semi-implicit steps: one per tick, or two substeps.
     let step = match stepper {
-        StepperKind::Kinematic => 1.0 / rate_hz,
+        StepperKind::Kinematic | StepperKind::Staged => 1.0 / rate_hz,
         StepperKind::Torque => 0.5 / rate_hz,
     };
     let (mut start, mut air, mut path, mut spun) = (None, 0.0, 0.0f64, 0.0f64);

@@ -3,12 +3,14 @@
 //! needs when it is held still.
 
 use crate::common::{Scene, figure, man, play};
+use sinew::evaluate::experiments::Pair;
 use sinew::evaluate::experiments::lift::{is_arm, weak_arm};
-use sinew::sim::body::DOF_COUNT;
+use sinew::evaluate::experiments::person::{Candidate, trial};
 use sinew::sim::body::topology::{DOF_NAMES, R_HAND};
+use sinew::sim::body::{DOF_COUNT, Profile, Sex};
 use sinew::sim::figure::tasks::grip;
 use sinew::sim::figure::{ControllerKind, Perturbation, StepperKind};
-use sinew::sim::motion::builtin::{LIFT_GRASP, builtin};
+use sinew::sim::motion::builtin::{LIFT_GRASP, LiftEnd, builtin};
 use sinew::sim::world::WorldParams;
 use std::sync::Arc;
 
@@ -195,4 +197,34 @@ fn modern_keeps_its_balance_under_every_load() {
             }
         }
     }
+}
+
+/// Nobody's arm is cut to size: the person that the search of `sinew paper` finds, by the strength of the tables.
+#[test]
+fn a_named_person_lifts_as_the_paper_shows() {
+    let candidate = Candidate {
+        profile: Profile::ordinary(Sex::Female, 18.0),
+        percentile: 5.0,
+        end: LiftEnd {
+            squat: 0.5,
+            reach: 0.45,
+        },
+    };
+    let t = trial(&candidate, &Pair::paper_kinematic(), 0).expect("worth a run");
+    for r in &t.results {
+        println!(
+            "{} kg: {}, {:.2}° rms, knees, hips, back {:.1?}°, bends {:.1}°, at the fall {:.0}°, jerk {:.1}",
+            r.mass,
+            r.record.result(),
+            r.rms,
+            r.helps,
+            r.bends,
+            r.folds,
+            r.jerk
+        );
+        assert!(r.record.over_limit < 1e-9);
+    }
+    assert_eq!(t.shows(), [true; 4]);
+    // 3 kg is where the arm's strength ends: what follows is a jerk that 1 kg does not have.
+    assert!(t.need[0] < 0.5 && t.need[2] > 1.0 && t.results[1].jerk > 10.0 * t.results[0].jerk);
 }

@@ -36,6 +36,9 @@ pub enum StepperArg {
     Torque,
     /// The accelerations of the controller are integrated directly (for the paper's controller).
     Kinematic,
+    /// As kinematic; what a figure meets is met by an impact and a correction of angles, as in section 3 of the paper,
+    /// where kinematic hands over to torques.
+    Staged,
 }
 
 impl From<StepperArg> for StepperKind {
@@ -43,6 +46,7 @@ impl From<StepperArg> for StepperKind {
         match arg {
             StepperArg::Torque => Self::Torque,
             StepperArg::Kinematic => Self::Kinematic,
+            StepperArg::Staged => Self::Staged,
         }
     }
 }

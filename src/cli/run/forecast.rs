@@ -3,7 +3,6 @@
 use super::Scenario;
 use crate::evaluate::forecast::{Forecast, forecast};
 use crate::sim::body::Links;
-use crate::sim::figure::StrengthScale;
 use crate::sim::motion::Clip;
 use crate::sim::strength::Strength;
 
@@ -17,14 +16,9 @@ pub(super) fn of(scenario: &Scenario<'_>, clip: &Clip) -> Forecast {
             links.add_load(segment, point, mass);
         }
     }
-    let scale = StrengthScale {
-        all: args.strength,
-        percentile: args.percentile,
-        effort: args.effort,
-        ..StrengthScale::default()
-    };
-    let strength = Strength::at_percentile(body, args.percentile);
-    forecast(body, &links, &strength, &scale, clip)
+    let scale = &scenario.strength;
+    let strength = Strength::at_percentile(body, scale.percentile);
+    forecast(body, &links, &strength, scale, clip)
 }
 
 /// The forecast in a line.

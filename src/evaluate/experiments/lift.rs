@@ -35,7 +35,12 @@ fn is_helper(dof: usize) -> bool {
 /// Factor on the strength of the right arm at which it has 98 % of what `mass` (kg) needs, held still in the clip's
 /// worst posture.
 pub fn weak_arm(body: &Arc<Body>, clip: &Clip, mass: f64) -> f64 {
-    let strength = Strength::for_body(body);
+    SHARE * arm_use(body, &Strength::for_body(body), clip, mass)
+}
+
+/// Largest share of its strength that a joint of the right arm uses to hold `mass` (kg) still, in the clip's worst
+/// posture from the grasp on.
+pub fn arm_use(body: &Arc<Body>, strength: &Strength, clip: &Clip, mass: f64) -> f64 {
     let mut links = Links::new(body);
     links.add_load(R_HAND, grip(body, R_HAND), mass);
     let mut terms = Terms::default();
@@ -53,7 +58,7 @@ pub fn weak_arm(body: &Arc<Body>, clip: &Clip, mass: f64) -> f64 {
             need = need.max(tau / upper[j]).max(tau / lower[j]);
         }
     }
-    SHARE * need
+    need
 }
 
 /// One lift.
@@ -77,11 +82,22 @@ pub struct Lift {
 /// The scene, before its first tick; `arm` is the factor on the strength of the right arm.
 pub fn scene(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64) -> (World, FigureKey) {
     let clip = Arc::new(builtin(body, "lift").expect("there is a lift"));
-    let first = clip.sample(0.0);
     let mut strength = StrengthScale::default();
     for j in (0..DOF_COUNT).filter(|j| is_arm(*j)) {
         strength.dof[j] = arm;
     }
+    scene_of(body, pair, mass, strength, clip)
+}
+
+/// The scene of `clip`, before its first tick.
+pub(super) fn scene_of(
+    body: &Arc<Body>,
+    pair: &Pair,
+    mass: f64,
+    strength: StrengthScale,
+    clip: Arc<Clip>,
+) -> (World, FigureKey) {
+    let first = clip.sample(0.0);
     let state = first.state();
     let (mut world, key) = pair.world(body, state, strength);
     let load = Perturbation::Load {

@@ -1,9 +1,11 @@
 //! Experiments as functions: build the scene, run it, return what was measured. `sinew paper` and `sinew walking` print
 //! them; nothing here reads a clock or a file.
 
+pub mod again;
 pub mod compare;
 pub mod fall;
 pub mod lift;
+pub mod person;
 pub mod push;
 pub mod statics;
 pub mod touching;
@@ -61,6 +63,11 @@ impl Pair {
     /// The paper's controller driving full dynamics.
     pub fn paper_torque() -> Self {
         Self::of("paper, torque", ControllerKind::Paper, StepperKind::Torque)
+    }
+
+    /// The paper's controller and stepper, with collisions as in §3 of the paper.
+    pub fn paper_staged() -> Self {
+        Self::of("paper, staged", ControllerKind::Paper, StepperKind::Staged)
     }
 
     /// The default.

@@ -7,9 +7,12 @@ use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
 use crate::sim::body::topology::{DOF_NAMES, L_FOOT, R_HAND};
 use crate::sim::body::{Body, Posture, State};
 use crate::sim::collide::{Mobility, ObstacleSetup, Other, Shape};
-use crate::sim::figure::StrengthScale;
+use crate::sim::figure::{Flags, StrengthScale};
+use crate::sim::math::curve::ramp;
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::Clip;
 use crate::sim::motion::builtin::at_ease;
+use crate::sim::world::{ClipPlayback, Drive};
 use std::sync::Arc;
 
 /// What the hand leans on.
@@ -29,12 +32,32 @@ pub enum Prop {
 pub const FRICTION: f64 = 0.6;
 /// Slope of the desk, rad.
 const SLOPE: f64 = 0.35;
-/// How far the body leans forward from the ankles, rad, and for how long it is watched, s.
-const LEAN: f64 = 0.16;
+/// How long it is watched, s.
 const DURATION: f64 = 4.0;
-/// Right arm: shoulder and elbow flexion, rad.
-const TO_TABLE: (f64, f64) = (0.75, 0.35);
-const TO_WALL: (f64, f64) = (1.55, 0.15);
+
+/// A posture that leans: forward from the ankles and in the hips, rad; right shoulder and elbow flexion, rad.
+#[derive(Clone, Copy, Debug)]
+struct Lean {
+    ankles: f64,
+    hips: f64,
+    shoulder: f64,
+    elbow: f64,
+}
+
+/// Bent over the table, the arm slanting down to it: the centre of mass is in front of the toes.
+const TO_TABLE: Lean = Lean {
+    ankles: 0.14,
+    hips: 0.15,
+    shoulder: 0.75,
+    elbow: 0.05,
+};
+/// Straight towards the wall, the arm stretched to it.
+const TO_WALL: Lean = Lean {
+    ankles: 0.16,
+    hips: 0.0,
+    shoulder: 1.55,
+    elbow: 0.15,
+};
 
 /// A figure that leans on its right hand.
 #[derive(Clone, Debug)]
@@ -55,6 +78,10 @@ pub struct Support {
     pub rest: f64,
     /// Mean force into the face over the last second, N.
     pub pressed: f64,
+    /// Support ratio (2) of the hand with the centre of mass far from the hand's side and near to it: means of the
+    /// centre of mass towards that side, m, and of the ratio, over the farther and the nearer half of the ticks in
+    /// which feet and hand support.
+    pub ratio: [(f64, f64); 2],
 }
 
 fn dof(name: &str) -> usize {
@@ -64,18 +91,20 @@ fn dof(name: &str) -> usize {
         .expect("the DOF exists")
 }
 
-/// Standing at ease, leaning from the ankles, the right arm put forward; feet flat where they were.
-fn leaning(body: &Body, (shoulder, elbow): (f64, f64)) -> Posture {
+/// Standing at ease, leaning, the right arm put forward; feet flat where they were.
+fn leaning(body: &Body, lean: Lean) -> Posture {
     let ease = at_ease(body);
     let mut angles = anatomical_angles(&ease);
     for side in ["l", "r"] {
-        angles[dof(&format!("{side}_ankle_flexion"))] += LEAN;
+        angles[dof(&format!("{side}_ankle_flexion"))] += lean.ankles;
+        angles[dof(&format!("{side}_hip_flexion"))] += lean.hips;
     }
-    angles[dof("r_shoulder_flexion")] = shoulder;
-    angles[dof("r_elbow_flexion")] = elbow;
+    angles[dof("r_shoulder_flexion")] = lean.shoulder;
+    angles[dof("r_elbow_flexion")] = lean.elbow;
     let mut out = ease;
     set_anatomical_angles(&mut out, &angles);
-    out.root_rotation = Quat::from_axis_angle(Vec3::Y, LEAN) * out.root_rotation;
+    let pitch = lean.ankles + lean.hips;
+    out.root_rotation = Quat::from_axis_angle(Vec3::Y, pitch) * out.root_rotation;
     let foot = |p: &Posture| segment_poses(&body.joint_offset, p)[L_FOOT.index()].position;
     out.root_position += foot(&ease) - foot(&out);
     out
@@ -113,16 +142,21 @@ fn prop(body: &Body, posture: &Posture, what: Prop) -> Option<ObstacleSetup> {
         // The hand lies near the edge, so that the body has room.
         position += Quat::from_axis_angle(Vec3::Y, slope).rotate(Vec3::X) * (half.x - 0.12);
     }
-    Some(ObstacleSetup {
+    Some(fixed(half, position, Quat::from_axis_angle(Vec3::Y, slope)))
+}
+
+/// A box that nothing moves.
+fn fixed(half: Vec3, position: Vec3, rotation: Quat) -> ObstacleSetup {
+    ObstacleSetup {
         name: "prop".into(),
         shape: Shape::Box { half },
         mobility: Mobility::Fixed,
         friction: FRICTION,
         position,
-        rotation: Quat::from_axis_angle(Vec3::Y, slope),
+        rotation,
         velocity: Vec3::zero(),
         angular_velocity: Vec3::zero(),
-    })
+    }
 }
 
 /// Leans on a table or a wall with the right hand, with `arm` times the strength in that arm. The feet stay where they
@@ -154,10 +188,15 @@ pub fn hand_support(body: &Arc<Body>, pair: &Pair, what: Prop, arm: f64, panels:
     let last = DURATION - 1.0;
     let (mut force, mut floor, mut ticks, mut touching) = (Vec3::zero(), 0.0, 0.0, 0.0);
     let (mut cone, mut weight, mut rest) = (0.0f64, 0.0, 0.0);
+    let mut ratios: Vec<(f64, f64)> = Vec::new();
     let record = record(&mut world, key, DURATION, panels, |w, time| {
         let f = w.figure(key).expect("nobody removes the figure");
         let r = f.report().expect("a stepped figure has a report");
         weight = f.links().total_mass() * w.params().gravity;
+        let (at, share) = (r.balance.com.x, r.balance.support_ratio[R_HAND.index()]);
+        if share > 0.0 && r.balance.main_support.is_some() && !f.is_fallen() {
+            ratios.push((at, share));
+        }
         let (mut on, mut pressed) = (Vec3::zero(), 0.0);
         for t in r
             .touches
@@ -195,7 +234,19 @@ pub fn hand_support(body: &Arc<Body>, pair: &Pair, what: Prop, arm: f64, panels:
         touching: touching / ticks,
         rest: rest / ticks,
         pressed: force.dot(normal) / ticks,
+        ratio: halves(ratios),
     }
+}
+
+/// Means of the half with the smaller and of that with the larger first number; zeros without any.
+fn halves(mut all: Vec<(f64, f64)>) -> [(f64, f64); 2] {
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (low, high) = all.split_at(all.len() / 2);
+    [low, high].map(|half| {
+        let sum = half.iter().fold((0.0, 0.0), |s, x| (s.0 + x.0, s.1 + x.1));
+        let n = half.len().max(1) as f64;
+        (sum.0 / n, sum.1 / n)
+    })
 }
 
 /// Two figures of which one is pushed into the other.
@@ -280,5 +331,160 @@ pub fn bump(body: &Arc<Body>, pair: &Pair, impulse: f64, panels: usize) -> Bump 
         overlap,
         touched_s: touched,
         other_fell_s: fell,
+    }
+}
+
+/// An arm that is raised against something.
+#[derive(Clone, Debug)]
+pub struct Reach {
+    /// The run of the one who raises the arm.
+    pub record: Record,
+    /// Time of the first touch, s; the share of the time after it in which the arm touches.
+    pub met: Option<(f64, f64)>,
+    /// Mean force on the arm over the last second, N, and the largest of any tick.
+    pub force: (f64, f64),
+    /// Largest overlap after a tick, m.
+    pub overlap: f64,
+    /// Largest difference of the forces on both figures, relative to the largest force; 0 with a wall.
+    pub unequal: f64,
+    /// Share of the ticks in which torques moved the figure.
+    pub handed_over: f64,
+    /// Largest violation of strength.
+    pub over_limit: f64,
+}
+
+/// What the arm is raised against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Against {
+    /// A wall, nearer than the arm is long.
+    Wall,
+    /// Somebody who stands there.
+    Other,
+}
+
+/// Time over which the arm is raised, s, and how long it is watched.
+const RAISE: f64 = 1.0;
+const WATCHED: f64 = 3.0;
+/// How much nearer than the hand reaches the thing is, m.
+const TOO_NEAR: f64 = 0.06;
+
+/// Stands and raises the right arm against something, with `arm` times its strength.
+pub fn reach(body: &Arc<Body>, pair: &Pair, against: Against, arm: f64, panels: usize) -> Reach {
+    const RATE: f64 = 60.0;
+    let ease = at_ease(body);
+    let raised = |share: f64| {
+        let mut angles = anatomical_angles(&ease);
+        let mut turn = |name: &str, to: f64| {
+            let d = dof(name);
+            angles[d] += share * (to - angles[d]);
+        };
+        turn("r_shoulder_flexion", 1.2);
+        turn("r_elbow_flexion", 0.5);
+        let mut out = ease;
+        set_anatomical_angles(&mut out, &angles);
+        out
+    };
+    let postures: Vec<Posture> = (0..=(WATCHED * RATE) as usize)
+        .map(|i| raised(ramp(i as f64 / RATE, 0.2, 0.2 + RAISE)))
+        .collect();
+    let planted = vec![[true; 2]; postures.len()];
+    let clip = Clip::from_postures("reach", RATE, postures, planted).expect("a valid clip");
+    let mut strength = StrengthScale::default();
+    for (factor, name) in strength.dof.iter_mut().zip(DOF_NAMES) {
+        if name.starts_with("r_shoulder") || name.starts_with("r_elbow") {
+            *factor = arm;
+        }
+    }
+    let mut pair = pair.clone();
+    pair.params.protective_steps = false;
+    let (mut world, key) = pair.world(body, State::at_rest(ease), strength);
+    let figure = world.figure_mut(key).expect("it was just added");
+    figure.set_drive(Drive::Clip(ClipPlayback::new(Arc::new(clip), 0.0)));
+    // How far the hand would come.
+    let hand = segment_poses(&body.joint_offset, &raised(1.0))[R_HAND.index()];
+    let mesh = &body.segment(R_HAND).mesh;
+    let tip = (mesh.vertices.iter().map(|p| hand.point(*p).x)).fold(f64::NEG_INFINITY, f64::max);
+    let mut other = None;
+    match against {
+        Against::Wall => {
+            let half = Vec3 {
+                x: 0.05,
+                y: 0.6,
+                z: 1.0,
+            };
+            let position = Vec3 {
+                x: tip - TOO_NEAR + half.x,
+                y: 0.0,
+                z: half.z,
+            };
+            let wall = fixed(half, position, Quat::identity());
+            world.add_obstacle(wall).expect("walls are valid");
+        }
+        Against::Other => {
+            // Face to face, a little to the side, so that the hand meets the middle of the chest.
+            let mut posture = ease;
+            let turn = Quat::from_axis_angle(Vec3::Z, std::f64::consts::PI);
+            posture.root_position = turn.rotate(posture.root_position);
+            posture.root_rotation = turn * posture.root_rotation;
+            posture.root_position += Vec3 {
+                x: tip - TOO_NEAR + 0.12,
+                y: hand.position.y,
+                z: 0.0,
+            };
+            let second = crate::sim::world::FigureSetup {
+                name: "other".to_owned(),
+                ..pair.setup(body, State::at_rest(posture), StrengthScale::default())
+            };
+            other = Some(world.add_figure(second).expect("experiments are valid"));
+        }
+    }
+    let (mut met, mut touching, mut after) = (None, 0.0, 0.0);
+    let (mut last, mut ticks, mut most, mut overlap) = (0.0, 0.0, 0.0f64, 0.0f64);
+    let (mut unequal, mut handed, mut all) = (0.0f64, 0.0, 0.0);
+    let record = record(&mut world, key, WATCHED, panels, |w, time| {
+        let sum = |k| {
+            let r = w.figure(k).and_then(|f| f.report());
+            let touches = r.into_iter().flat_map(|r| r.touches.iter());
+            touches.fold((Vec3::zero(), 0.0f64), |(f, d), t| {
+                (f + t.force, d.max(t.depth))
+            })
+        };
+        let (force, depth) = sum(key);
+        let f = force.norm();
+        if f > 0.0 {
+            met.get_or_insert(time);
+        }
+        if met.is_some() {
+            after += 1.0;
+            touching += f64::from(u8::from(f > 0.0));
+        }
+        if time > WATCHED - 1.0 {
+            last += f;
+            ticks += 1.0;
+        }
+        most = most.max(f);
+        overlap = overlap.max(depth);
+        let flags = w.figure(key).and_then(|f| f.report()).map(|r| r.flags);
+        handed += f64::from(u8::from(flags.is_some_and(|f| f.has(Flags::HANDED_OVER))));
+        all += 1.0;
+        let mut things: Vec<Thing> = w
+            .obstacles()
+            .map(|(_, o)| Thing::obstacle(o.setup()))
+            .collect();
+        if let Some(k) = other {
+            unequal = unequal.max((force + sum(k).0).norm());
+            let second = w.figure(k).expect("nobody removes figures");
+            things.extend(Thing::figure(second.body(), &second.state().posture));
+        }
+        (Vec::new(), things)
+    });
+    Reach {
+        met: met.map(|t| (t, touching / f64::max(after, 1.0))),
+        force: (last / ticks, most),
+        overlap,
+        unequal: if most > 0.0 { unequal / most } else { 0.0 },
+        handed_over: handed / all,
+        over_limit: record.over_limit,
+        record,
     }
 }

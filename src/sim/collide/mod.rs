@@ -4,9 +4,11 @@
 //! * [`obstacle`]: bodies that are no figures: fixed, led, or free.
 //! * [`broad`]: which bodies may meet within a tick.
 //! * [`narrow`]: where two shapes are nearest.
+//! * [`impact`]: the linear system of a collision as in §3 of the paper.
 //! * [`island`]: one convex problem for all bodies that touch each other.
 
 pub mod broad;
+pub mod impact;
 pub mod island;
 pub mod narrow;
 pub mod obstacle;

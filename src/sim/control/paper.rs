@@ -23,7 +23,10 @@ use crate::sim::report::Flags;
 use crate::sim::report::MAX_CONTACTS;
 use crate::sim::setup::Metric;
 use crate::sim::support::zmp::LEAST_NORMAL_FORCE;
-use crate::sim::support::{Pivot, Polygon, Sharing, pivot, unblocked_pivot, zmp};
+use crate::sim::support::{
+    Pivot, Polygon, Sharing, is_stopped, pivot, tipping_acceleration, unblocked_pivot, zmp,
+};
+use crate::sim::touch::MAX_TOUCHES;
 use serde::{Deserialize, Serialize};
 use supports::Planned;
 
@@ -77,8 +80,8 @@ impl Default for Paper {
             com_task: Task::default(),
             hand_task: Task::default(),
             led_task: Task::default(),
-            polygon: Polygon::with_capacity(MAX_CONTACTS),
-            inset: Polygon::with_capacity(2 * MAX_CONTACTS),
+            polygon: Polygon::with_capacity(MAX_CONTACTS + MAX_TOUCHES),
+            inset: Polygon::with_capacity(2 * (MAX_CONTACTS + MAX_TOUCHES)),
             held: Box::new([[0.0; ROW]; 12]),
             held_count: 0,
             held_qr: RowQr::default(),
@@ -189,6 +192,12 @@ impl Paper {
                 pivot(support.polygon(), z)
             }
         });
+        let stopped = |p: &Pivot| {
+            let spin = terms.kin.omega[main.index()]
+                + tipping_acceleration(terms, p, force, moment) * input.dt;
+            is_stopped(p, spin, support.rests().iter())
+        };
+        stand.pivot = stand.pivot.filter(|p| !stopped(p));
         let Some(p) = stand.pivot else {
             return (first, stand);
         };

@@ -23,7 +23,8 @@ use crate::sim::figure::params::kinematic::{
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::report::{ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
-use crate::sim::support::{Pivot, Sharing, Support, SupportPoint, tipping_acceleration};
+use crate::sim::support::{NO_VERTEX, Pivot, Sharing, Support, SupportPoint, tipping_acceleration};
+use crate::sim::touch::MAX_TOUCHES;
 
 /// What this stepper reads beside the common input.
 #[derive(Clone, Copy, Debug)]
@@ -83,7 +84,10 @@ impl KinematicStepper {
             hessian: MassMatrix::default(),
             sharing: Sharing::default(),
             penetration: 0.0,
-            forces: TickForces::new(2 * MAX_CONTACTS, super::loads::MAX_PERTURBATIONS),
+            forces: TickForces::new(
+                2 * MAX_CONTACTS,
+                super::loads::MAX_PERTURBATIONS + MAX_TOUCHES,
+            ),
         }
     }
 
@@ -378,7 +382,7 @@ impl KinematicStepper {
         for (r, m) in r.iter_mut().zip(ma) {
             *r += m;
         }
-        let points = decision.support.points();
+        let points = decision.support.carriers();
         let holds = |p: &SupportPoint| match p.segment {
             L_FOOT | L_TOES => decision.planted[0],
             R_FOOT | R_TOES => decision.planted[1],
@@ -401,6 +405,12 @@ impl KinematicStepper {
             .map_or([0.0; DOF_COUNT], |t| t.at(&command.acceleration[6..]));
         let f = &mut self.forces;
         f.audit.contacts.clear();
+        f.audit.applied.clear();
+        for (s, p, force) in input.forces.applied {
+            f.audit
+                .applied
+                .push((*s, t.point_world(s.index(), *p), *force));
+        }
         let root = t.state.posture.root_position;
         let wrench: [f64; 6] = std::array::from_fn(|k| r[k]);
         let total = |about: Vec3| shift(&wrench, about - root);
@@ -415,13 +425,23 @@ impl KinematicStepper {
             let y = self.sharing.multiplier(&total(self.sharing.reference));
             for (p, _) in points.iter().zip(out).filter(|(_, out)| !out) {
                 let force = self.sharing.point_force(p, ratio, &y);
-                let local = input.body.segment(p.segment).contact_points[p.vertex];
+                let s = p.segment.index();
+                let local = match p.vertex {
+                    NO_VERTEX => t
+                        .segment_rotation(s)
+                        .transpose_mul(p.position - t.segment_position(s)),
+                    vertex => input.body.segment(p.segment).contact_points[vertex],
+                };
                 let mut jacobian = [[0.0; WIDTH]; 3];
-                t.point_jacobian(p.segment.index(), local, &mut jacobian);
+                t.point_jacobian(s, local, &mut jacobian);
                 for (row, f) in jacobian.iter().zip(force.to_array()) {
                     for (r, j) in r[6..].iter_mut().zip(&row[6..NV]) {
                         *r -= j * f;
                     }
+                }
+                if p.vertex == NO_VERTEX {
+                    f.audit.applied.push((p.segment, p.position, force));
+                    continue;
                 }
                 let contact = ContactPoint {
                     segment: p.segment,
@@ -445,12 +465,6 @@ impl KinematicStepper {
         f.audit.torque = f.torque;
         f.audit.state = *state;
         f.audit.acceleration = command.acceleration;
-        f.audit.applied.clear();
-        for (s, p, force) in input.forces.applied {
-            f.audit
-                .applied
-                .push((*s, t.point_world(s.index(), *p), *force));
-        }
         f.over_limit = 0.0;
         for j in 0..DOF_COUNT {
             f.over_limit = f

@@ -19,6 +19,18 @@ pub mod support {
     }
 }
 
+/// Collisions in stages, as in §3 of the paper.
+pub mod staged {
+    crate::sim::params::params! {
+        /// Overlap that is left: parts that touch go on touching.
+        OVERLAP: f64 = 1e-3, "m", 1e-4..=5e-3, "docs/equations.md";
+        /// Largest correction of one overlap in a round.
+        CORRECTION: f64 = 0.02, "m", 5e-3..=0.1, "numerical";
+        /// Rounds of correction in a tick.
+        CORRECTIONS: usize = 2, "rounds", 1..=5, "numerical";
+    }
+}
+
 /// Whether balance is lost for good.
 pub mod balance {
     crate::sim::params::params! {

@@ -40,6 +40,7 @@ use super::loads::MAX_APPLIED;
 use super::plan_task::{LatePlans, Planning};
 use super::tasks::TaskPoints;
 use super::torque_step::{Accuracy, ExternalForces, StepInput, Stepper, TorqueStepper};
+use super::touches::Chosen;
 use crate::sim::body::State;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::contact::Tissue;
@@ -139,6 +140,7 @@ impl Figure {
             },
             neighbours: Neighbours {
                 cluster: 0,
+                moved_alone: false,
                 is_new: true,
             },
             setup,
@@ -147,6 +149,7 @@ impl Figure {
 
     /// Stages 1–5 of a tick: everything before the body moves. False for a frozen figure, whose tick ends here.
     pub(crate) fn prepare(&mut self, world: &TickContext) -> bool {
+        self.neighbours.moved_alone = false;
         self.outcome.watcher.begin();
         self.outcome.late = LatePlans::default();
         self.commands(world);
@@ -231,6 +234,7 @@ impl Figure {
     fn update_support(&mut self, world: &TickContext) {
         let bar = self.steppers.torque.forces.bar;
         let least = self.least_rest(world);
+        let at_once = self.active_controller() == ControllerKind::Paper;
         let terms = &self.scratch.terms;
         let Surroundings {
             disturbances,
@@ -242,7 +246,7 @@ impl Figure {
         let acceleration = self.physical.com_acceleration;
         support.update(terms, &self.setup.body, acceleration, world.gravity);
         let pull = acceleration + Vec3::Z * world.gravity;
-        support.rest_on(touches.rests(terms, least), terms.com, pull);
+        support.rest_on(touches.rests(terms, least, at_once), terms.com, pull);
         self.watch_balance(world);
     }
 
@@ -278,11 +282,14 @@ impl Figure {
     fn solve_control(&mut self, world: &TickContext) {
         let bias = self.scratch.terms.h;
         let least = self.least_rest(world);
-        let modern = self.active_controller() == ControllerKind::Modern;
+        let stands = self.surroundings.support.main().is_some();
+        let chosen = match self.active_controller() {
+            ControllerKind::Modern => Chosen::Level(least),
+            ControllerKind::Paper if stands => Chosen::All(least),
+            _ => Chosen::None,
+        };
         let Scratch { terms, results, .. } = &mut self.scratch;
-        self.surroundings
-            .touches
-            .add_reactions(terms, modern.then_some(least));
+        self.surroundings.touches.add_reactions(terms, chosen);
         let inertia = results.tissue.as_ref().map(|t| t.add_to(terms));
         let (tasks, steps) = self.plan_tasks(world);
         self.stepping.prescribed = self.prescribes();

@@ -15,6 +15,17 @@ use serde::{Deserialize, Serialize};
 /// Places by which one part rests on one thing: buttocks and thighs do not turn on a stool as on a point.
 const SPOTS: usize = 4;
 
+/// Rests whose reaction a controller chooses itself: those that carry more than so many N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Chosen {
+    /// None.
+    None,
+    /// Seats and tables.
+    Level(f64),
+    /// Walls, too.
+    All(f64),
+}
+
 /// One contact of a substep, as one figure sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Contacting {
@@ -145,9 +156,14 @@ impl Entry {
         }
     }
 
-    /// True if it carries more than `least` N.
-    fn carries(&self, least: f64) -> bool {
-        self.firm && self.expected.dot(self.touch.normal) > least
+    /// True if it carries more than `least` N: as far as is known, or `at_once` if it did in the last tick.
+    fn carries(&self, least: f64, at_once: bool) -> bool {
+        let now = if at_once {
+            self.touch.force.dot(self.touch.normal)
+        } else {
+            0.0
+        };
+        self.firm && self.expected.dot(self.touch.normal).max(now) > least
     }
 }
 
@@ -258,8 +274,15 @@ impl Touches {
     }
 
     /// What carries it: firm things that push with more than `least` N, with their places in the state of `terms`.
-    pub fn rests<'a>(&'a self, terms: &'a Terms, least: f64) -> impl Iterator<Item = Rest> + 'a {
-        let carrying = self.now.iter().filter(move |e| e.carries(least));
+    ///
+    /// * `at_once`: a touch of one tick counts, for a controller that learns nothing about how much it gives.
+    pub fn rests<'a>(
+        &'a self,
+        terms: &'a Terms,
+        least: f64,
+        at_once: bool,
+    ) -> impl Iterator<Item = Rest> + 'a {
+        let carrying = self.now.iter().filter(move |e| e.carries(least, at_once));
         carrying.flat_map(move |e| {
             e.spots().iter().map(move |spot| Rest {
                 segment: e.touch.segment,
@@ -271,12 +294,15 @@ impl Touches {
         })
     }
 
-    /// Counts the expected reactions among the forces in `terms.h`; those of level rests that carry more than `least`
-    /// N, if given, are left to a controller that chooses them.
-    pub fn add_reactions(&self, terms: &mut Terms, least: Option<f64>) {
+    /// Counts the expected reactions among the forces in `terms.h`, but for those that the controller chooses.
+    pub fn add_reactions(&self, terms: &mut Terms, chosen: Chosen) {
         for e in &self.now {
-            let chosen = least.is_some_and(|l| Rest::level(e.touch.normal) && e.carries(l));
-            if chosen || e.expected == Vec3::zero() {
+            let left = match chosen {
+                Chosen::None => false,
+                Chosen::Level(least) => Rest::level(e.touch.normal) && e.carries(least, false),
+                Chosen::All(least) => e.carries(least, true),
+            };
+            if left || e.expected == Vec3::zero() {
                 continue;
             }
             let s = e.touch.segment.index();

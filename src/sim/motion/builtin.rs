@@ -18,6 +18,8 @@ pub const BUILTIN_NAMES: [&str; 7] = ["idle", "lift", "crate", "squat", "wave", 
 /// Samples per second of every built-in motion.
 pub const RATE: f64 = 120.0;
 
+pub use standing::LiftEnd;
+
 /// Time at which the hand of `lift` is at rest on the object and starts to raise it, s.
 pub const LIFT_GRASP: f64 = standing::LIFT_GRASP;
 
@@ -36,7 +38,7 @@ pub const LIFT_GRASP: f64 = standing::LIFT_GRASP;
 pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
     let (postures, planted): (Vec<Posture>, Vec<[bool; 2]>) = match name {
         "idle" => standing::idle(body),
-        "lift" => standing::lift(body),
+        "lift" => standing::lift(body, LiftEnd::default()),
         "crate" => standing::lift_crate(body),
         "squat" => standing::squat(body),
         "wave" => standing::wave(body),
@@ -44,12 +46,18 @@ pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
         "walk" => gait::walk(body),
         _ => return None,
     };
-    let clip = Clip::from_postures(name, RATE, postures, planted);
-    Some(
-        clip.expect(
-            "plans are finite, of bounded length, and their rotations are unit quaternions",
-        ),
-    )
+    Some(clip(name, postures, planted))
+}
+
+/// The built-in lift with another end.
+pub fn lift_to(body: &Body, end: LiftEnd) -> Clip {
+    let (postures, planted) = standing::lift(body, end);
+    clip("lift", postures, planted)
+}
+
+fn clip(name: &str, postures: Vec<Posture>, planted: Vec<[bool; 2]>) -> Clip {
+    Clip::from_postures(name, RATE, postures, planted)
+        .expect("plans are finite, of bounded length, and their rotations are unit quaternions")
 }
 
 /// Standing at ease at the origin, feet side by side under the hips.

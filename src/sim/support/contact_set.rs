@@ -25,6 +25,13 @@ pub struct SupportPoint {
     pub support: SegmentId,
     /// World position, m.
     pub position: Vec3,
+    /// Unit vector out of the surface, world axes: up, on the floor.
+    #[serde(skip, default = "up")]
+    pub normal: Vec3,
+}
+
+fn up() -> Vec3 {
+    Vec3::Z
 }
 
 /// Touching points of one figure; remembers the last tick.
@@ -82,6 +89,7 @@ impl ContactSet {
                         vertex,
                         support: segment,
                         position,
+                        normal: Vec3::Z,
                     });
                 }
             }

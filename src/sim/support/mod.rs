@@ -15,9 +15,9 @@ mod tests;
 
 pub use crate::sim::math::polygon::{Closest, Feature, Polygon};
 pub use contact_set::{ContactSet, SupportPoint};
-pub use rest::Rest;
+pub use rest::{NO_VERTEX, Rest};
 pub use sharing::Sharing;
-pub use tipping::{Pivot, pivot, tipping_acceleration, unblocked_pivot};
+pub use tipping::{Pivot, is_stopped, pivot, tipping_acceleration, unblocked_pivot};
 pub use zmp::zmp;
 
 use crate::sim::body::topology::PELVIS;
@@ -40,6 +40,9 @@ pub struct Support {
     main: Option<SegmentId>,
     polygon: Polygon,
     rests: Vec<Rest>,
+    /// Points on the floor, then those of the rests, at most [`MAX_CONTACTS`].
+    #[serde(skip)]
+    carriers: Vec<SupportPoint>,
 }
 
 impl Default for Support {
@@ -52,6 +55,7 @@ impl Default for Support {
             main: None,
             polygon: Polygon::with_capacity(MAX_CONTACTS + MAX_TOUCHES),
             rests: Vec::with_capacity(MAX_TOUCHES),
+            carriers: Vec::with_capacity(MAX_CONTACTS),
         }
     }
 }
@@ -90,6 +94,8 @@ impl Support {
         }
         self.main = ratio::main_support(points, &self.load, self.main);
         self.rests.clear();
+        self.carriers.clear();
+        self.carriers.extend_from_slice(points);
         self.polygon
             .set_hull(points.iter().map(|p| [p.position.x, p.position.y]));
         self.polygon.reduce_thin();
@@ -103,8 +109,10 @@ impl Support {
     pub fn rest_on(&mut self, rests: impl Iterator<Item = Rest>, com: Vec3, pull: Vec3) {
         self.rests.extend(rests.take(MAX_TOUCHES));
         if !self.rests.is_empty() {
-            let floor = self.contacts.points().iter().map(Into::into);
-            let all = floor.chain(self.rests.iter().map(Into::into));
+            let room = MAX_CONTACTS - self.carriers.len().min(MAX_CONTACTS);
+            let more = self.rests.iter().map(Rest::as_point).take(room);
+            self.carriers.extend(more);
+            let all = self.carriers.iter().map(Into::into);
             self.ratio = ratio::support_ratios(all, com, pull);
         }
         if self.rests.iter().any(Rest::is_level) {
@@ -119,6 +127,12 @@ impl Support {
     /// What carries it besides the floor.
     pub fn rests(&self) -> &[Rest] {
         &self.rests
+    }
+
+    /// Everything that can carry: touching points of the floor as in [`Self::points`], then places by which parts rest
+    /// on other things.
+    pub fn carriers(&self) -> &[SupportPoint] {
+        &self.carriers
     }
 
     /// Finds out which parts the motion takes off what they rest on.

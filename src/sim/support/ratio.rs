@@ -1,7 +1,6 @@
 //! Support ratios, Eq. (2): which support carries most, and which one is taken as the root.
 
 use super::contact_set::SupportPoint;
-use super::rest::Rest;
 use crate::sim::body::{SEGMENT_COUNT, SegmentId};
 use crate::sim::math::Vec3;
 
@@ -23,22 +22,11 @@ pub struct Touching {
 }
 
 impl From<&SupportPoint> for Touching {
-    /// On the floor.
     fn from(point: &SupportPoint) -> Self {
         Self {
             support: point.support,
             position: point.position,
-            normal: Vec3::Z,
-        }
-    }
-}
-
-impl From<&Rest> for Touching {
-    fn from(rest: &Rest) -> Self {
-        Self {
-            support: rest.segment,
-            position: rest.position,
-            normal: rest.normal,
+            normal: point.normal,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What carries a figure besides the floor: parts that lean on things that do not give way.
 
+use super::contact_set::SupportPoint;
 use crate::sim::body::SegmentId;
 use crate::sim::math::{Mat3, Vec3};
 use serde::{Deserialize, Serialize};
@@ -20,6 +21,9 @@ pub struct Rest {
     pub lift: f64,
 }
 
+/// Vertex of a support point that is no contact point of its segment.
+pub const NO_VERTEX: usize = usize::MAX;
+
 /// Least height of the normal of a surface that weight can be put on (60° of slope).
 const LEVEL: f64 = 0.5;
 
@@ -27,6 +31,17 @@ impl Rest {
     /// True if weight can be put there: a seat or a table, not a wall.
     pub fn is_level(&self) -> bool {
         Self::level(self.normal)
+    }
+
+    /// The same as a point of a support that the reaction can be shared with.
+    pub fn as_point(&self) -> SupportPoint {
+        SupportPoint {
+            segment: self.segment,
+            vertex: NO_VERTEX,
+            support: self.segment,
+            position: self.position,
+            normal: self.normal,
+        }
     }
 
     /// Two tangents and the normal as columns, if the surface with this normal is not horizontal.

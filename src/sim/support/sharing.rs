@@ -7,6 +7,7 @@
 //! the world the figure stands.
 
 use super::contact_set::SupportPoint;
+use super::rest::NO_VERTEX;
 use crate::sim::body::SEGMENT_COUNT;
 use crate::sim::body::topology::{L_TOES, R_TOES};
 use crate::sim::math::{Vec3, vec3::vec3};
@@ -20,6 +21,9 @@ const MOMENT_LENGTH: f64 = 0.3;
 const CUT_OFF: f64 = 1e-6;
 /// Weight of toe points relative to points of the foot.
 const TOE_WEIGHT: f64 = 0.2;
+/// Weight of forces along the surface of what a part rests on, relative to the force into it: a hand pushes on a table,
+/// and friction does not carry what soles could.
+const ALONG_REST: f64 = 0.1;
 /// Least weight of a support, so that a ratio of zero does not remove it.
 const LEAST_WEIGHT: f64 = 0.02;
 /// Most solutions on the way to forces that only push.
@@ -55,6 +59,15 @@ impl Default for Sharing {
 pub fn point_weight(p: &SupportPoint, ratio: &[f64; SEGMENT_COUNT]) -> f64 {
     let toes = p.segment == L_TOES || p.segment == R_TOES;
     ratio[p.support.index()].max(LEAST_WEIGHT) * if toes { TOE_WEIGHT } else { 1.0 }
+}
+
+/// Weight of forces along the surface relative to that of the force into it.
+fn along(p: &SupportPoint) -> f64 {
+    if p.vertex == NO_VERTEX {
+        ALONG_REST
+    } else {
+        1.0
+    }
 }
 
 impl Sharing {
@@ -101,10 +114,18 @@ impl Sharing {
                 [-z, 0.0, x, 0.0, 1.0, 0.0],
                 [y, -x, 0.0, 0.0, 0.0, 1.0],
             ];
+            let along = along(p);
+            let n = p.normal;
+            let m = r.cross(n);
+            let into = [m.x, m.y, m.z, n.x, n.y, n.z];
             for i in 0..6 {
                 for j in 0..6 {
-                    self.gram[s][i][j] += d * a[i][j];
-                    total[i][j] += d * a[i][j];
+                    let mut x = d * a[i][j];
+                    if along < 1.0 {
+                        x = along * x + (1.0 - along) * d * into[i] * into[j];
+                    }
+                    self.gram[s][i][j] += x;
+                    total[i][j] += x;
                 }
             }
         }
@@ -123,7 +144,7 @@ impl Sharing {
         true
     }
 
-    /// Balanced sharing in which points that would have to pull on the floor carry nothing.
+    /// Balanced sharing in which points that would have to pull on what they touch carry nothing.
     ///
     /// The least forces may be negative where the load is near an edge; a foot that is asked for such a wrench rolls
     /// over its edge. So the worst puller is left out and the rest solved again, as long as the others can still give
@@ -150,7 +171,7 @@ impl Sharing {
             let y = self.multiplier(&w);
             let (mut worst, mut least) = (None, -PULL_TOLERANCE * w[5].abs());
             for (k, p) in points.iter().enumerate().filter(|(k, _)| !excluded[*k]) {
-                let normal = self.point_force(p, ratio, &y).z;
+                let normal = self.point_force(p, ratio, &y).dot(p.normal);
                 if normal < least {
                     (worst, least) = (Some(k), normal);
                 }
@@ -200,7 +221,11 @@ impl Sharing {
     ) -> Vec3 {
         let y = multiplier;
         let (m, f) = (vec3(y[0], y[1], y[2]), vec3(y[3], y[4], y[5]));
-        (f + m.cross(p.position - self.reference)) * point_weight(p, ratio)
+        let g = (f + m.cross(p.position - self.reference)) * point_weight(p, ratio);
+        match along(p) {
+            1.0 => g,
+            along => g * along + p.normal * ((1.0 - along) * p.normal.dot(g)),
+        }
     }
 }
 
@@ -288,6 +313,7 @@ mod tests {
                     vertex,
                     support: segment,
                     position: at + vec3(dx, y + dy, 0.0),
+                    normal: Vec3::Z,
                 });
             }
         }

@@ -4,7 +4,7 @@ use super::ratio::{Touching, support_ratios};
 use super::testing::{GRAVITY, Rng, mannequin, random_stance, random_state, standing, terms};
 use super::zmp::{FootLoad, foot_ground_wrench, foot_zmp};
 use super::*;
-use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_HAND, R_SHANK};
+use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_HAND, R_SHANK, R_TOES};
 use crate::sim::body::{Links, State};
 use crate::sim::math::Quat;
 use crate::sim::math::vec3::vec3;
@@ -109,6 +109,68 @@ fn who_moves_towards_a_wall_leans_more_on_the_hand_on_it() {
     s.rest_on(std::iter::once(behind), t.com, Vec3::Z * GRAVITY);
     assert_eq!(s.ratio()[R_HAND.index()], 0.0);
     assert!((s.ratio()[L_FOOT.index()] - 0.5).abs() < 1e-12);
+}
+
+/// Figure 3 of the paper: the hand stops the rotation about the foot's edge.
+#[test]
+fn a_hand_stops_the_rotation_that_would_push_it_into_what_it_rests_on() {
+    let edge = Pivot::edge(vec3(0.2, 0.0, 0.0), Vec3::Y);
+    let rest = |position: Vec3, normal: Vec3| Rest {
+        segment: R_HAND,
+        position,
+        normal,
+        force: normal * 50.0,
+        lift: 0.0,
+    };
+    let wall = rest(vec3(0.7, -0.2, 1.3), -Vec3::X);
+    let table = rest(vec3(0.6, -0.2, 0.8), Vec3::Z);
+    let behind = rest(vec3(-0.4, 0.0, 0.5), Vec3::Z);
+    let stopped = |spin: f64, r: &Rest| is_stopped(&edge, Vec3::Y * spin, std::iter::once(r));
+    for front in [&wall, &table] {
+        assert!(stopped(0.3, front), "forward, into it");
+        assert!(!stopped(-0.3, front), "backward, away from it");
+    }
+    assert!(!stopped(0.3, &behind) && stopped(-0.3, &behind));
+    // Only what turns about the edge counts, and nothing that stays.
+    assert!(!is_stopped(
+        &edge,
+        vec3(0.3, 0.0, 0.5),
+        std::iter::once(&wall)
+    ));
+    assert!(!stopped(0.0, &wall));
+    assert!(!is_stopped(&edge, Vec3::Y, std::iter::empty()));
+}
+
+/// Equation (2) of the paper: a rest is a support like any other, to share and to be reported.
+#[test]
+fn what_it_rests_on_shares_the_reaction() {
+    let (t, mut s) = supported(&standing(&mannequin()));
+    assert_eq!(s.carriers(), s.points());
+    let hand = Rest {
+        segment: R_HAND,
+        position: t.com + vec3(0.45, -0.2, -0.2),
+        normal: Vec3::Z,
+        force: Vec3::Z * 50.0,
+        lift: 0.0,
+    };
+    s.rest_on(std::iter::once(hand), t.com, Vec3::Z * GRAVITY);
+    assert_eq!(s.carriers().len(), s.points().len() + 1);
+    let total = |about: Vec3| {
+        let (f, at) = (Vec3::Z * (GRAVITY * t.mass), t.com + Vec3::X * 0.15);
+        let n = (at - about).cross(f);
+        [n.x, n.y, n.z, f.x, f.y, f.z]
+    };
+    let mut out = [false; MAX_CONTACTS];
+    let mut sharing = Sharing::default();
+    assert!(sharing.set_unilateral(s.carriers(), s.ratio(), &mut out, total));
+    let y = sharing.multiplier(&total(sharing.reference));
+    let on_hand = sharing.segment_wrench(R_HAND.index(), &y)[5];
+    assert!(on_hand > 5.0, "{on_hand}");
+    let all: f64 = [L_FOOT, R_FOOT, L_TOES, R_TOES, R_HAND]
+        .map(|g| sharing.segment_wrench(g.index(), &y)[5])
+        .iter()
+        .sum();
+    assert!((all - GRAVITY * t.mass).abs() < 1e-6 * all);
 }
 
 #[test]

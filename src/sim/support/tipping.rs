@@ -1,6 +1,6 @@
 //! Minimum-moment point and the axes about which a support tips (`docs/equations.md#repairs`).
 
-use super::{Feature, Polygon};
+use super::{Feature, Polygon, Rest};
 use crate::sim::body::SegmentId;
 use crate::sim::dynamics::Terms;
 use crate::sim::math::dense::solve_up_to_2;
@@ -105,6 +105,19 @@ pub fn unblocked_pivot(
         }
     }
     Some(out)
+}
+
+/// True if a rotation about the pivot would push a part into something that it rests on: a hand on a wall or a table
+/// stops the rotation about the foot's edge (figure 3 of the paper).
+///
+/// * `spin`: angular velocity that the support is about to have, rad/s. Only its part along the free axes counts.
+pub fn is_stopped<'a>(
+    pivot: &Pivot,
+    spin: Vec3,
+    mut rests: impl Iterator<Item = &'a Rest>,
+) -> bool {
+    let spin = pivot.project(spin);
+    rests.any(|r| spin.cross(r.position - pivot.point).dot(r.normal) < -BLOCKED)
 }
 
 /// Rotational acceleration of a tipping support, rad/s² (world axes): ω̇ = −U (Uᵀ I_p U)⁻¹ Uᵀ n_p.

@@ -277,7 +277,8 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         .into(),
         stepper: match s.stepper {
             StepperKind::Torque => pb::Stepper::Torque,
-            StepperKind::Kinematic => pb::Stepper::Kinematic,
+            // The contract knows one stepper of accelerations; clients cannot ask for the other.
+            StepperKind::Kinematic | StepperKind::Staged => pb::Stepper::Kinematic,
         }
         .into(),
         placement: Some(place_out(s.place)),

@@ -12,7 +12,7 @@ use crate::sim::math::dense::cholesky_solve;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::report::MAX_CONTACTS;
 use crate::sim::setup::Share;
-use crate::sim::support::zmp;
+use crate::sim::support::{NO_VERTEX, zmp};
 
 /// While tilting, only points this close to the pivot line carry load, m.
 const PIVOT_REACH: f64 = 0.012;
@@ -78,7 +78,7 @@ impl Paper {
             Mode::Tilt(s, p) => (s, Some(p)),
             Mode::Flight => return,
         };
-        let points = support.points();
+        let points = support.carriers();
         let planned = self.planned;
         if only_main(points, main) {
             return;
@@ -117,10 +117,14 @@ impl Paper {
                     {
                         continue;
                     }
+                    let f = force * support.ratio()[s.index()];
+                    if p.vertex == NO_VERTEX {
+                        self.map.add_force(terms, s, p.position, f);
+                        continue;
+                    }
                     support.support_polygon(s, &mut self.polygon);
                     if let Some(c) = self.polygon.closest([z.x, z.y]) {
                         let at = Vec3::from_array([c.point[0], c.point[1], 0.0]);
-                        let f = force * support.ratio()[s.index()];
                         self.map.add_force(terms, s, at, f);
                     }
                 }

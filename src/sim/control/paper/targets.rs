@@ -102,8 +102,10 @@ impl Paper {
         if input.params.zmp_feasible {
             let (points, planned) = (input.support.points(), self.planned);
             let planned = points.iter().filter(|p| planned.holds(p.segment));
-            self.polygon
-                .set_hull(planned.map(|p| [p.position.x, p.position.y]));
+            // A wall or a table stops the body that comes over it: what lies between it and the feet is carried.
+            let rests = input.support.rests().iter().map(|r| r.position);
+            let all = planned.map(|p| p.position).chain(rests);
+            self.polygon.set_hull(all.map(|p| [p.x, p.y]));
             self.polygon.reduce_thin();
             self.inset.set_inset(&self.polygon, INSET);
             g = feasible(terms.com, g, &self.inset, input.gravity);

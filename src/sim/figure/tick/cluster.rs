@@ -2,11 +2,15 @@
 //! (`world::collisions`).
 
 use super::{Figure, Integration, TickContext};
-use crate::sim::body::topology::NV;
+use crate::sim::body::SegmentId;
+use crate::sim::body::topology::{L_FOOT, NV, R_FOOT};
 use crate::sim::collide::island::{Articulated, Parts};
 use crate::sim::contact::Outcome;
 use crate::sim::figure::FigureKey;
 use crate::sim::figure::touches::Contacting;
+use crate::sim::math::Vec3;
+use crate::sim::report::Flags;
+use crate::sim::setup::{ControllerKind, StepperKind};
 
 impl Articulated for (FigureKey, Box<Figure>) {
     fn parts(&mut self) -> Parts<'_> {
@@ -19,6 +23,73 @@ impl Figure {
     pub(crate) fn is_prescribed(&self) -> bool {
         self.stepping.prescribed
     }
+    /// True if what it meets in this tick is met in the two stages of §3 of the paper.
+    pub(crate) fn meets_in_stages(&self) -> bool {
+        self.stepping.prescribed && self.setup.stepper == StepperKind::Staged
+    }
+    /// Moves on as if it were alone; [`Self::moved_alone`] says so until the end of the tick.
+    pub(crate) fn integrate_alone(&mut self, world: &TickContext) {
+        self.integrate(world);
+        self.neighbours.moved_alone = true;
+    }
+    /// True if it has moved in this tick: its accelerations did it, or torques that had to take over.
+    pub(crate) fn moved_alone(&self) -> bool {
+        self.neighbours.moved_alone
+    }
+    /// Shows where the segments are now that it has moved.
+    pub(crate) fn show_moved(&mut self, world: &TickContext) {
+        let applied = self.surroundings.disturbances.applied();
+        self.steppers.torque.terms.compute(
+            &self.physical.links,
+            &self.physical.state,
+            applied,
+            world.gravity,
+        );
+    }
+    /// What holds still in an impact: feet that lie flat and that the motion does not lift, as a whole, or the point
+    /// about which the support tips.
+    pub(crate) fn held_still(&self) -> [Option<(SegmentId, Option<Vec3>)>; 2] {
+        let support = &self.surroundings.support;
+        let command = match self.setup.controller {
+            ControllerKind::Paper => self.controllers.paper.command(),
+            _ => self.controllers.modern.command(),
+        };
+        let Some(main) = support.main().filter(|_| !command.flags.has(Flags::FLIGHT)) else {
+            return [None; 2];
+        };
+        if let Some(pivot) = command.pivot {
+            return [Some((main, Some(pivot.point))), None];
+        }
+        let planted = self.desired.target.next.planted;
+        let mut out = [Some((main, None)), None];
+        for (foot, stays) in [(L_FOOT, planted[0]), (R_FOOT, planted[1])] {
+            let flat = support
+                .points()
+                .iter()
+                .filter(|p| p.support == foot)
+                .count()
+                >= 3;
+            if foot != main && flat && stays {
+                out[1] = Some((foot, None));
+            }
+        }
+        out
+    }
+    /// Velocity that an impact leaves.
+    pub(crate) fn set_velocity(&mut self, velocity: &[f64; NV]) {
+        self.physical.state.velocity = *velocity;
+    }
+    /// Moves the posture by `change`, in the components of a velocity.
+    pub(crate) fn correct(&mut self, change: &[f64; NV]) {
+        self.physical.state.posture.integrate(change, 1.0);
+    }
+    /// One contact of an impact, with its impulse on this figure.
+    pub(crate) fn record_impact(&mut self, what: &Contacting, dt: f64) {
+        self.surroundings
+            .touches
+            .add(&self.steppers.torque.terms, what, dt);
+    }
+
     /// Something will be met, and contact acts by forces: torques take over before the tick begins.
     pub(crate) fn hand_over(&mut self) {
         self.stepping.prescribed = false;

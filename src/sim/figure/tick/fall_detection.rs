@@ -10,7 +10,7 @@ use crate::sim::figure::kinematic_step::other_part_arrives;
 use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
 use crate::sim::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
 use crate::sim::report::Flags;
-use crate::sim::setup::{ControllerKind, StepperKind};
+use crate::sim::setup::ControllerKind;
 
 /// Parts that a figure stands on.
 pub(super) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
@@ -20,7 +20,7 @@ impl Figure {
     /// themselves.
     pub(super) fn watch_balance(&mut self, world: &TickContext) {
         let s = &self.setup;
-        let falls = s.stepper == StepperKind::Kinematic && self.stepping.handed_over.is_none();
+        let falls = s.stepper.prescribes() && self.stepping.handed_over.is_none();
         let motors = s.controller == ControllerKind::Motors;
         let knows = self.motion.gets_up() || self.motion.rehearsed().is_some();
         if knows || falls || motors || !s.params.hand_over || s.options.assist > 0.0 {
@@ -71,7 +71,7 @@ impl Figure {
     /// True if accelerations are to be applied as they are. A load held in two hands and the assist act by forces,
     /// which need torques.
     pub(super) fn prescribes(&self) -> bool {
-        self.setup.stepper == StepperKind::Kinematic
+        self.setup.stepper.prescribes()
             && self.setup.options.assist == 0.0
             && self.surroundings.disturbances.bar().is_none()
             && self.active_controller() != ControllerKind::Motors

@@ -74,7 +74,12 @@ impl Figure {
             steppers: Steppers { torque, kinematic },
             scratch,
             outcome,
-            neighbours: Neighbours { cluster: _, is_new },
+            neighbours:
+                Neighbours {
+                    cluster: _,
+                    moved_alone: _,
+                    is_new,
+                },
         } = self;
         let (bar_impulse, bar_force) = torque.memory();
         SavedFigure {
@@ -187,7 +192,11 @@ impl Figure {
             steppers: Steppers { torque, kinematic },
             scratch,
             outcome,
-            neighbours: Neighbours { cluster: 0, is_new },
+            neighbours: Neighbours {
+                cluster: 0,
+                moved_alone: false,
+                is_new,
+            },
             setup,
         })
     }

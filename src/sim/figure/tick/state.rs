@@ -256,6 +256,8 @@ pub(super) struct Outcome {
 pub(crate) struct Neighbours {
     /// The cluster of figures and obstacles that it is near in this tick.
     pub cluster: usize,
+    /// It has moved in this tick, before those who are moved together.
+    pub moved_alone: bool,
     /// Put where it is since the last tick.
     pub is_new: bool,
 }

@@ -84,7 +84,26 @@ pub fn idle(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
     })
 }
 
-pub fn lift(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
+/// How the built-in lift ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LiftEnd {
+    /// Share of the semi-squat that legs and trunk keep, 0…1.
+    pub squat: f64,
+    /// How far in front of the ankles the hand is, reference body, m.
+    pub reach: f64,
+}
+
+impl Default for LiftEnd {
+    /// Upright, the arm nearly straight.
+    fn default() -> Self {
+        Self {
+            squat: 0.0,
+            reach: 0.58,
+        }
+    }
+}
+
+pub fn lift(body: &Body, end: LiftEnd) -> (Vec<Posture>, Vec<[bool; 2]>) {
     const REACHED: f64 = LIFT_GRASP - 0.3;
     const RAISED: f64 = LIFT_GRASP + 0.8;
     let scale = Measures::of(body).scale;
@@ -111,11 +130,16 @@ pub fn lift(body: &Body) -> (Vec<Posture>, Vec<[bool; 2]>) {
         elbow_axis,
     );
 
-    let mut high = stand;
+    let mut high = if end.squat > 0.0 {
+        stand.mix(&low, end.squat)
+    } else {
+        stand
+    };
+    let height = 1.28 - end.squat * (stand.height - low.height);
     reach_right(
         body,
         &mut high,
-        Vec3::from_array([0.58, -0.20, 1.28]) * scale,
+        Vec3::from_array([end.reach, -0.20, height]) * scale,
         elbow_axis,
     );
 

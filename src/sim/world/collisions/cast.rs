@@ -21,7 +21,7 @@ impl Cast<'_> {
     /// Figures that torques move in this tick.
     pub fn moved_by_torques(&mut self) -> impl Iterator<Item = &mut Figure> {
         let all = self.figures.iter_mut().map(|(_, f)| &mut **f);
-        all.filter(|f| !f.is_prescribed())
+        all.filter(|f| !f.moved_alone())
     }
 
     /// Velocity of a world point of a part.

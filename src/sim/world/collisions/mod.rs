@@ -5,12 +5,15 @@
 //! * [`cast`]: the bodies of one cluster and where they are.
 //! * [`contacts`]: the points at which parts are nearest.
 //! * [`islands`]: the solve, and its impulses on everyone.
+//! * [`staged`]: the paper's collisions instead, for figures that are moved by accelerations.
 
 mod cast;
 mod contacts;
 mod islands;
 mod neighbourhood;
+mod staged;
 
+use crate::sim::collide::impact::Impact;
 use crate::sim::collide::island::Island;
 use crate::sim::collide::narrow::Near;
 use crate::sim::collide::{Mobility, Obstacle, ObstacleKey};
@@ -87,6 +90,11 @@ struct Cluster {
     block: Vec<Option<usize>>,
     before: Vec<f64>,
     island: Island,
+    /// Pairs that meet in stages.
+    staged: Vec<[Participant; 2]>,
+    /// Candidates that have a row.
+    rows: Vec<usize>,
+    impact: Impact,
     report: CollisionReport,
 }
 
@@ -148,20 +156,37 @@ impl Cluster {
         }
         self.find_contacts(cast, 2.0 * world.dt, 0.0);
         self.report.depth = 0.0; // found again, at the start of the first substep
-        for participant in self.candidates.iter().flat_map(|c| c.participant) {
-            if let Participant::Figure(i) = participant
-                && cast.figures[i].1.is_prescribed()
-            {
-                cast.figures[i].1.hand_over();
+        // Who meets somebody that torques move is moved by torques, too.
+        let mut settled = false;
+        while !settled {
+            settled = true;
+            for c in &self.candidates {
+                if Self::in_stages(cast, c.participant) {
+                    continue;
+                }
+                for participant in c.participant {
+                    if let Participant::Figure(i) = participant
+                        && cast.figures[i].1.is_prescribed()
+                    {
+                        cast.figures[i].1.hand_over();
+                        settled = false;
+                    }
+                }
             }
         }
+        self.staged.clear();
+        let meeting = self.pairs.iter().filter(|p| Self::in_stages(cast, **p));
+        self.staged.extend(meeting);
         let apart = |participant: &Participant| match participant {
             Participant::Figure(i) => cast.figures[*i].1.is_prescribed(),
             _ => false,
         };
         self.pairs.retain(|pair| !pair.iter().any(apart));
         for (_, f) in cast.figures.iter_mut().filter(|(_, f)| f.is_prescribed()) {
-            f.integrate(world);
+            f.integrate_alone(world);
+        }
+        self.meet(world, cast);
+        for (_, f) in cast.figures.iter_mut().filter(|(_, f)| f.moved_alone()) {
             f.finish(world);
         }
     }

@@ -1,0 +1,88 @@
+//! Strength from motion: somebody too weak for a motion, by the tables, is given the strength that it needs, and does
+//! it again in simulation.
+
+use super::{Pair, Record, carried, record};
+use crate::evaluate::envelope::Envelope;
+use crate::sim::body::topology::DOF_NAMES;
+use crate::sim::body::{Body, Links};
+use crate::sim::figure::{Perturbation, StrengthScale};
+use crate::sim::motion::Clip;
+use crate::sim::strength::Strength;
+use crate::sim::world::{ClipPlayback, Drive};
+use std::sync::Arc;
+
+/// Quantile of the needed torque that counts, and what is given beyond it: defaults of `sinew strength`.
+pub const QUANTILE: f64 = 0.98;
+/// See [`QUANTILE`].
+pub const MARGIN: f64 = 1.1;
+
+/// A motion that somebody did, with a load in the right hand.
+#[derive(Clone, Debug)]
+pub struct Did {
+    /// The motion.
+    pub clip: Arc<Clip>,
+    /// kg; 0 for none.
+    pub mass: f64,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct Again {
+    /// DOF that needs the largest share of its strength, and the share.
+    pub hardest: (&'static str, f64),
+    /// Muscles that were scaled up: number of DOFs and the largest factor.
+    pub raised: (usize, f64),
+    /// With the strength of the tables, and with that of the motion.
+    pub runs: [Record; 2],
+}
+
+/// Takes the strength from the motion, and does it with both.
+pub fn again(body: &Arc<Body>, percentile: f64, did: &Did, panels: usize) -> Again {
+    let mut links = Links::new(body);
+    let held = if did.mass > 0.0 {
+        carried(body, did.mass, false)
+    } else {
+        Vec::new()
+    };
+    for p in &held {
+        if let Perturbation::Load {
+            segment,
+            point,
+            mass,
+            ..
+        } = p
+        {
+            links.add_load(*segment, *point, *mass);
+        }
+    }
+    let strength = Strength::at_percentile(body, percentile);
+    let envelope = Envelope::of(body, &links, &strength, &[&did.clip], QUANTILE);
+    let merged = envelope.merged(percentile, MARGIN);
+    let most = envelope.ratio.map(|[a, b]| a.max(b));
+    let hardest = (0..most.len()).fold(0, |m, d| if most[d] > most[m] { d } else { m });
+    let tables = StrengthScale {
+        percentile,
+        ..StrengthScale::default()
+    };
+    let runs = [&tables, &merged].map(|scale| {
+        let first = did.clip.sample(0.0).state();
+        let (mut world, key) = Pair::modern().world(body, first, scale.clone());
+        for p in &held {
+            world.perturb(key, *p).expect("loads are valid");
+        }
+        let figure = world.figure_mut(key).expect("it was just added");
+        figure.set_drive(Drive::Clip(ClipPlayback::new(Arc::clone(&did.clip), 0.0)));
+        let seconds = did.clip.duration() + 1.0;
+        record(&mut world, key, seconds, panels, |_, _| {
+            (Vec::new(), Vec::new())
+        })
+    });
+    Again {
+        hardest: (DOF_NAMES[hardest], most[hardest]),
+        raised: (
+            merged.dof.iter().filter(|f| **f > 1.0).count(),
+            merged.dof.iter().copied().fold(1.0, f64::max),
+        ),
+        runs,
+    }
+}

@@ -1,0 +1,377 @@
+//! The linear system of a collision as in §3 of the paper: what velocities change by when parts meet, and what angles
+//! change by so that they do not overlap.
+//!
+//! Unknown are impulses p along rows J of both bodies. Feet that stand hold still (`J v⁺ = 0`), and parts that touch do
+//! not go on into each other (`J v⁺ ≥ w`, `p ≥ 0`). With `v⁺ = v + M⁻¹ Jᵀ p` the active rows are one linear system, `J
+//! M⁻¹ Jᵀ p = w − J v`. Rows that would pull are left out, rows that would be broken are taken in. What one body gets
+//! the other one loses. Without led things `v⁺` is a projection of `v` in the metric of M: kinetic energy cannot rise.
+//! The correction of angles is the same system with `v = 0` and w = the overlap: inverse kinematics of least change,
+//! weighted by inertia.
+
+use crate::sim::body::topology::NV;
+use crate::sim::dynamics::MassMatrix;
+use crate::sim::dynamics::factor::{factor, solve};
+use crate::sim::math::dense::cholesky_solve;
+
+/// Most rows of one system.
+pub const MOST_ROWS: usize = 64;
+/// Most changes of the set of active rows.
+const ROUNDS: usize = 32;
+/// Added to the diagonal, relative to its largest element: rows of one face depend on each other.
+const RIDGE: f64 = 1e-10;
+/// A row is broken by more than this, m/s; an impulse pulls below minus this, N·s.
+const TOLERANCE: f64 = 1e-9;
+
+#[derive(Clone, Debug)]
+struct Body {
+    factor: MassMatrix<f64>,
+    velocity: [f64; NV],
+}
+
+/// One condition on the velocity after the impact.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Bodies of both sides; `None` is something that nothing moves.
+    pub bodies: [Option<usize>; 2],
+    /// `J` of both sides, signs included.
+    pub jacobian: [[f64; NV]; 2],
+    /// Least value of `J v⁺`; held rows have exactly this.
+    pub wanted: f64,
+    /// Rows of one group are left out together.
+    pub group: usize,
+    /// Impulse below which the group is left out, N·s: 0 for what touches, −∞ for what holds in any case.
+    pub least: f64,
+    /// True if it may be taken in again, and need not be active: what touches. False: what holds.
+    pub one_sided: bool,
+}
+
+impl Row {
+    /// A row that says nothing yet.
+    pub fn new(bodies: [Option<usize>; 2], group: usize) -> Self {
+        Self {
+            bodies,
+            jacobian: [[0.0; NV]; 2],
+            wanted: 0.0,
+            group,
+            least: f64::NEG_INFINITY,
+            one_sided: false,
+        }
+    }
+}
+
+/// The system with its buffers; nothing is allocated once they have grown.
+#[derive(Clone, Debug)]
+pub struct Impact {
+    bodies: Vec<Body>,
+    rows: Vec<Row>,
+    /// `M⁻¹ Jᵀ` of both sides.
+    response: Vec<[[f64; NV]; 2]>,
+    active: Vec<bool>,
+    impulse: Vec<f64>,
+    gram: Box<[[f64; MOST_ROWS]; MOST_ROWS]>,
+    work: Box<[[f64; MOST_ROWS]; MOST_ROWS]>,
+}
+
+impl Default for Impact {
+    fn default() -> Self {
+        Self {
+            bodies: Vec::new(),
+            rows: Vec::with_capacity(MOST_ROWS),
+            response: Vec::with_capacity(MOST_ROWS),
+            active: Vec::with_capacity(MOST_ROWS),
+            impulse: Vec::with_capacity(MOST_ROWS),
+            gram: Box::new([[0.0; MOST_ROWS]; MOST_ROWS]),
+            work: Box::new([[0.0; MOST_ROWS]; MOST_ROWS]),
+        }
+    }
+}
+
+impl Impact {
+    /// Forgets bodies and rows.
+    pub fn clear(&mut self) {
+        self.bodies.clear();
+        self.rows.clear();
+        self.response.clear();
+    }
+
+    /// Adds a body with its velocity; its index.
+    pub fn add_body(&mut self, mass: &MassMatrix<f64>, velocity: &[f64; NV]) -> usize {
+        let mut l = mass.clone();
+        factor(&mut l);
+        self.bodies.push(Body {
+            factor: l,
+            velocity: *velocity,
+        });
+        self.bodies.len() - 1
+    }
+
+    /// Adds a condition. False if there is no room.
+    pub fn add_row(&mut self, row: Row) -> bool {
+        if self.rows.len() == MOST_ROWS {
+            return false;
+        }
+        let mut response = row.jacobian;
+        for (r, body) in response.iter_mut().zip(row.bodies) {
+            match body {
+                Some(b) => solve(&self.bodies[b].factor, r),
+                None => *r = [0.0; NV],
+            }
+        }
+        self.response.push(response);
+        self.rows.push(row);
+        true
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// `J v` of a row.
+    fn value(&self, k: usize) -> f64 {
+        let row = &self.rows[k];
+        let sides = row.bodies.iter().zip(&row.jacobian);
+        sides
+            .filter_map(|(b, j)| Some(dot(j, &self.bodies[(*b)?].velocity)))
+            .sum()
+    }
+
+    /// `J_i M⁻¹ J_kᵀ`.
+    fn product(&self, i: usize, k: usize) -> f64 {
+        let (a, b) = (&self.rows[i], &self.rows[k]);
+        let mut sum = 0.0;
+        for (x, j) in a.bodies.iter().zip(&a.jacobian) {
+            for (y, r) in b.bodies.iter().zip(&self.response[k]) {
+                if x.is_some() && x == y {
+                    sum += dot(j, r);
+                }
+            }
+        }
+        sum
+    }
+
+    /// Finds the impulses and applies them to the velocities. Rounds taken.
+    ///
+    /// Section 3 of the paper.
+    pub fn solve(&mut self) -> usize {
+        let n = self.rows.len();
+        let mut largest = 0.0f64;
+        for i in 0..n {
+            for k in 0..=i {
+                let g = self.product(i, k);
+                (self.gram[i][k], self.gram[k][i]) = (g, g);
+            }
+            largest = largest.max(self.gram[i][i]);
+        }
+        let ridge = RIDGE * largest;
+        self.active.clear();
+        self.impulse.clear();
+        self.impulse.resize(n, 0.0);
+        for k in 0..n {
+            let breaks = self.value(k) < self.rows[k].wanted;
+            self.active.push(breaks || !self.rows[k].one_sided);
+        }
+        let mut rounds = 0;
+        while rounds < ROUNDS {
+            rounds += 1;
+            self.solve_active(ridge);
+            let pulls = (0..n)
+                .filter(|k| self.active[*k] && self.impulse[*k] < self.rows[*k].least - TOLERANCE)
+                .min_by(|a, b| self.impulse[*a].total_cmp(&self.impulse[*b]));
+            if let Some(k) = pulls {
+                let group = self.rows[k].group;
+                for (a, row) in self.active.iter_mut().zip(&self.rows) {
+                    *a &= row.group != group;
+                }
+                continue;
+            }
+            let missing = |k: usize| {
+                let gain: f64 = (0..n).map(|i| self.gram[k][i] * self.impulse[i]).sum();
+                self.rows[k].wanted - self.value(k) - gain
+            };
+            let broken = (0..n)
+                .filter(|k| !self.active[*k] && self.rows[*k].one_sided)
+                .map(|k| (k, missing(k)))
+                .filter(|(_, m)| *m > TOLERANCE)
+                .max_by(|a, b| a.1.total_cmp(&b.1));
+            match broken {
+                Some((k, _)) => self.active[k] = true,
+                None => break,
+            }
+        }
+        // Whatever round it stopped in: nothing pulls, and what is given is taken.
+        for k in 0..n {
+            if self.rows[k].one_sided {
+                self.impulse[k] = self.impulse[k].max(0.0);
+            }
+            let (p, row) = (self.impulse[k], &self.rows[k]);
+            for (b, r) in row.bodies.iter().zip(&self.response[k]) {
+                if let Some(b) = b {
+                    for (v, r) in self.bodies[*b].velocity.iter_mut().zip(r) {
+                        *v += r * p;
+                    }
+                }
+            }
+        }
+        rounds
+    }
+
+    /// Impulses of the active rows, zero for the others.
+    fn solve_active(&mut self, ridge: f64) {
+        let n = self.rows.len();
+        let mut index = [0; MOST_ROWS];
+        let mut count = 0;
+        for k in (0..n).filter(|k| self.active[*k]) {
+            index[count] = k;
+            count += 1;
+        }
+        let mut x = [0.0; MOST_ROWS];
+        for (i, &k) in index[..count].iter().enumerate() {
+            x[i] = self.rows[k].wanted - self.value(k);
+            for (j, &l) in index[..=i].iter().enumerate() {
+                self.work[i][j] = self.gram[k][l];
+            }
+            self.work[i][i] += ridge;
+        }
+        cholesky_solve(&mut self.work[..], count, &mut x[..count]);
+        self.impulse.fill(0.0);
+        for (i, &k) in index[..count].iter().enumerate() {
+            self.impulse[k] = x[i];
+        }
+    }
+
+    /// Velocity of a body: after [`Self::solve`] the one that the impact leaves.
+    pub fn velocity(&self, body: usize) -> &[f64; NV] {
+        &self.bodies[body].velocity
+    }
+
+    /// Impulse of a row, N·s.
+    pub fn impulse(&self, row: usize) -> f64 {
+        self.impulse[row]
+    }
+}
+
+fn dot(a: &[f64; NV], b: &[f64; NV]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::topology::{CHEST, L_FOOT, R_FOOT, R_HAND};
+    use crate::sim::body::{Links, State};
+    use crate::sim::dynamics::jacobian::for_each_column;
+    use crate::sim::dynamics::{Kinematics, Terms, kinetic_energy, momentum};
+    use crate::sim::math::Vec3;
+    use crate::sim::support::testing::{GRAVITY, Rng, mannequin, random_stance, terms};
+
+    fn row_of(t: &Terms, s: usize, at: Vec3, n: Vec3, row: &mut [f64; NV]) {
+        let r = at - t.state.posture.root_position;
+        for_each_column(&t.kin, s, r, |k, _, v| row[k] = n.dot(v));
+    }
+
+    /// What both bodies have of linear momentum, and of angular momentum about the world origin.
+    fn total(links: &Links, states: &[State]) -> (Vec3, Vec3, f64) {
+        let (mut p, mut l, mut e) = (Vec3::zero(), Vec3::zero(), 0.0);
+        for s in states {
+            let mut kin = Kinematics::default();
+            kin.set_state(links, s);
+            let m = momentum(links, &kin);
+            let mut t = Terms::default();
+            t.compute(links, s, &[], GRAVITY);
+            p += m.linear;
+            l += m.angular + t.com.cross(m.linear);
+            e += kinetic_energy(links, &kin);
+        }
+        (p, l, e)
+    }
+
+    /// Section 3 of the paper: two figures that stand and run into each other. Momentum closes, and no energy is made.
+    #[test]
+    fn what_one_figure_gets_the_other_loses_and_the_floor_takes_the_rest() {
+        let body = {
+            let mut b = mannequin();
+            b.armature = [0.0; crate::sim::body::DOF_COUNT];
+            b
+        };
+        let links = Links::new(&body);
+        let mut rng = Rng::new(31);
+        let mut met = 0;
+        for round in 0..100 {
+            let states = [0, 1].map(|_| random_stance(&body, &mut rng, 0.3, 1.0));
+            let t = states.map(|s| terms(&body, &s));
+            let at = (t[0].com + t[1].com) * 0.5 + Vec3::Z * 0.2;
+            let mut impact = Impact::default();
+            for (t, s) in t.iter().zip(&states) {
+                impact.add_body(&t.mass_matrix, &s.velocity);
+            }
+            // Every other round they fly: nothing but each other.
+            let mut held = Vec::new();
+            for (b, t) in t.iter().enumerate().filter(|_| round % 2 == 0) {
+                for (g, foot) in [L_FOOT, R_FOOT].into_iter().enumerate() {
+                    let mut jacobian = [[0.0; crate::sim::dynamics::terms::WIDTH]; 6];
+                    t.segment_jacobian(foot.index(), &mut jacobian);
+                    for (k, j) in jacobian.iter().enumerate() {
+                        let mut row = Row::new([Some(b), None], 2 * b + g);
+                        row.jacobian[0].copy_from_slice(&j[..NV]);
+                        assert!(impact.add_row(row));
+                        held.push((b, foot.index(), k));
+                    }
+                }
+            }
+            let mut touching = Vec::new();
+            for k in 0..3 {
+                let n = Vec3 {
+                    x: rng.unit(),
+                    y: rng.unit(),
+                    z: rng.unit(),
+                }
+                .normalized_or(Vec3::X);
+                let p = at + n * (0.05 * f64::from(k));
+                let mut row = Row::new([Some(0), Some(1)], 10 + k as usize);
+                let (a, b) = (CHEST.index(), R_HAND.index());
+                row_of(&t[0], a, p, n, &mut row.jacobian[0]);
+                row_of(&t[1], b, p, n * -1.0, &mut row.jacobian[1]);
+                (row.least, row.one_sided) = (0.0, true);
+                assert!(impact.add_row(row));
+                touching.push((p, n));
+            }
+            impact.solve();
+            let mut after = states;
+            for (b, s) in after.iter_mut().enumerate() {
+                s.velocity = *impact.velocity(b);
+            }
+            let (p0, l0, e0) = total(&links, &states);
+            let (p1, l1, e1) = total(&links, &after);
+            // What the floor gave: a wrench about the origin of each foot.
+            let (mut p, mut l) = (Vec3::zero(), Vec3::zero());
+            for (i, (b, foot, k)) in held.iter().enumerate() {
+                let mut part = [0.0; 3];
+                part[k % 3] = impact.impulse(i);
+                let part = Vec3::from_array(part);
+                if *k < 3 {
+                    l += part;
+                } else {
+                    p += part;
+                    l += t[*b].segment_position(*foot).cross(part);
+                }
+            }
+            assert!((p1 - p0 - p).norm() < 1e-9, "{round}: {:?}", p1 - p0 - p);
+            assert!((l1 - l0 - l).norm() < 1e-9, "{round}: {:?}", l1 - l0 - l);
+            assert!(e1 <= e0 * (1.0 + 1e-12), "{round}: {e0} {e1}");
+            for (k, (at, n)) in touching.iter().enumerate() {
+                let i = held.len() + k;
+                assert!(impact.impulse(i) >= 0.0);
+                met += u32::from(impact.impulse(i) > 0.0);
+                let [a, b] = [(0, CHEST), (1, R_HAND)].map(|(f, s)| {
+                    let mut t = Terms::default();
+                    t.compute(&links, &after[f], &[], GRAVITY);
+                    let s = s.index();
+                    t.kin.velocity[s] + t.kin.omega[s].cross(*at - t.segment_position(s))
+                });
+                assert!((a - b).dot(*n) > -1e-6, "{round}: they go on");
+            }
+        }
+        assert!(met > 50, "{met} contacts pushed");
+    }
+}
