@@ -130,7 +130,8 @@ fn the_page_about_the_paper_is_written_by_this_build() {
         .arg(&folder)
         .output()
         .expect("the binary runs");
-    let page = std::fs::read_to_string(folder.join("README.md"));
+    let page = |name: &str| std::fs::read_to_string(folder.join(name));
+    let pages = ["README.md", "rows.md"].map(|name| (name, page(name)));
     let made = std::fs::read_dir(&folder).map(|files| files.filter_map(Result::ok).count());
     let _ = std::fs::remove_dir_all(&folder);
     assert!(
@@ -139,13 +140,15 @@ fn the_page_about_the_paper_is_written_by_this_build() {
         String::from_utf8_lossy(&written.stderr)
     );
     let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/paper");
-    let text = std::fs::read_to_string(committed.join("README.md")).expect("the page is committed");
-    let found = differences(&text, &page.expect("a page was written"));
-    assert!(
-        found.is_empty(),
-        "docs/paper/README.md is not of this build; `sinew paper` writes it again:\n{}",
-        found.join("\n")
-    );
+    for (name, page) in pages {
+        let text = std::fs::read_to_string(committed.join(name)).expect("the page is committed");
+        let found = differences(&text, &page.expect("a page was written"));
+        assert!(
+            found.is_empty(),
+            "docs/paper/{name} is not of this build; `sinew paper` writes it again:\n{}",
+            found.join("\n")
+        );
+    }
     // Pictures are not compared, but there are as many: `recorded.md` comes from `sinew paper --recordings`.
     let kept = std::fs::read_dir(&committed).expect("the folder").count();
     assert_eq!(made.expect("a folder was written") + 1, kept);

@@ -559,6 +559,26 @@ fn who_did_a_motion_does_it_again_by_the_strength_that_it_took() {
     let motion = run(&["--strength-file", &file], "motion.json");
     println!("by the tables {tables:.2}°, by the motion {motion:.2}°");
     assert!(motion < 0.5 && tables > 3.0 * motion);
+    // Recordings: a weak old man, seen walking, lifting and jumping.
+    for clip in ["walk-normal.cmu", "lift.vrm", "jump.vrm"] {
+        let clip = format!("{}/tests/corpus/{clip}.bvh", env!("CARGO_MANIFEST_DIR"));
+        let person = [clip.as_str(), "--body", "older-man"];
+        let mut args = vec!["strength"];
+        args.extend(person);
+        args.extend(["--percentile", "5", "--out", &file]);
+        succeed(&args);
+        let fell = |more: [&str; 2]| {
+            let report = scratch.file("recording.json");
+            let mut args = vec!["run"];
+            args.extend(person);
+            args.extend(["--standing", "--report", &report]);
+            args.extend(more);
+            succeed(&args);
+            json(&report)["fell_at_s"].clone()
+        };
+        assert!(!fell(["--percentile", "5"]).is_null(), "{clip}");
+        assert!(fell(["--strength-file", &file]).is_null(), "{clip}");
+    }
     let text = fail(&[
         "run",
         "builtin:idle",

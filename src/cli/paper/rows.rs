@@ -156,10 +156,11 @@ fn lifting(page: &mut Page) -> Result<()> {
         "A search over {} people and postures: both sexes, 11 ages from 7 to 80 years, five percentiles of strength \
          from 5 to 95, four ends of the lift (share of the semi-squat that is kept, reach of the hand on the \
          reference body). Strength is that of the tables. Run are those whose arm needs 0.9 to 1.8 times its \
-         strength to hold 3 kg still, and less than 0.95 times to hold 1 kg. What the paper shows: 1 kg is tracked \
-         (error below {TRACKED}° rms); with 3 kg knees, hips and back help (at least {HELPS}° each) and it stands; 4 \
-         or 5 kg bends the back by at least {BENDS}° before balance is lost; what falls folds (hips, knees and back \
-         together bent by at least {FOLDS}°).",
+         strength to hold 3 kg still, and less than 0.95 times to hold 1 kg; who does not show one of the first two \
+         things is not given heavier loads. What the paper shows: 1 kg is tracked (error below {TRACKED}° rms); with \
+         3 kg knees, hips and back help (at least {HELPS}° each) and it stands; 4 or 5 kg bends the back by at least \
+         {BENDS}° before balance is lost; what falls folds (hips, knees and back together bent by at least \
+         {FOLDS}°).",
         candidates().count()
     ));
     let pair = Pair::paper_kinematic();

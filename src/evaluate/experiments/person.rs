@@ -91,8 +91,20 @@ pub struct Trial {
     pub candidate: Candidate,
     /// Share of the arm's strength that holding each of [`LOADS`] takes.
     pub need: [f64; 4],
-    /// In the order of [`LOADS`].
+    /// In the order of [`LOADS`]; of a search only as far as they show what the paper does.
     pub results: Vec<LoadResult>,
+}
+
+impl LoadResult {
+    /// True if the motion was followed.
+    fn is_tracked(&self) -> bool {
+        self.fell_s.is_none() && self.rms < TRACKED
+    }
+
+    /// True if it stands, and knees, hips and back have helped.
+    fn is_helped(&self) -> bool {
+        self.fell_s.is_none() && self.helps.iter().all(|h| *h >= HELPS)
+    }
 }
 
 impl Trial {
@@ -104,8 +116,8 @@ impl Trial {
         };
         let heaviest = heavy.iter().find(|r| r.fell_s.is_some());
         [
-            one.fell_s.is_none() && one.rms < TRACKED,
-            three.fell_s.is_none() && three.helps.iter().all(|h| *h >= HELPS),
+            one.is_tracked(),
+            three.is_helped(),
             heaviest.is_some_and(|r| r.bends >= BENDS),
             heaviest.is_some_and(|r| r.folds >= FOLDS),
         ]
@@ -205,20 +217,39 @@ pub fn attempt(
     out
 }
 
-/// Runs all loads of a candidate.
+/// Runs all loads of a candidate; `None` for one who is not worth a run.
 pub fn trial(candidate: &Candidate, pair: &Pair, panels: usize) -> Option<Trial> {
+    run(candidate, pair, panels, |_, _| true)
+}
+
+/// The same as long as `goes_on` says so after a load, by its index.
+fn run(
+    candidate: &Candidate,
+    pair: &Pair,
+    panels: usize,
+    goes_on: impl Fn(usize, &LoadResult) -> bool,
+) -> Option<Trial> {
     let body = Arc::new(Body::humanoid(candidate.profile).ok()?);
     let clip = Arc::new(lift_to(&body, candidate.end));
     let strength = Strength::at_percentile(&body, candidate.percentile);
     let need = LOADS.map(|mass| arm_use(&body, &strength, &clip, mass));
     let worth = (NEED[0]..=NEED[1]).contains(&need[1]) && need[0] < LIGHT;
-    worth.then(|| Trial {
+    if !worth {
+        return None;
+    }
+    let mut results = Vec::new();
+    for (k, mass) in LOADS.into_iter().enumerate() {
+        let result = attempt(&body, pair, &clip, (candidate.percentile, mass), panels);
+        let more = goes_on(k, &result);
+        results.push(result);
+        if !more {
+            break;
+        }
+    }
+    Some(Trial {
         candidate: candidate.clone(),
         need,
-        results: LOADS
-            .iter()
-            .map(|mass| attempt(&body, pair, &clip, (candidate.percentile, *mass), panels))
-            .collect(),
+        results,
     })
 }
 
@@ -237,9 +268,26 @@ pub fn candidates() -> impl Iterator<Item = Candidate> {
     })
 }
 
-/// The candidates who are worth a run, the best first.
+/// The candidates who are worth a run, the best first. Who does not track the light load, or does not stand and help
+/// with the middle one, is not given the next. On as many threads as there are cores; the result does not depend on it.
 pub fn search(pair: &Pair) -> Vec<Trial> {
-    let mut all: Vec<Trial> = candidates().filter_map(|c| trial(&c, pair, 0)).collect();
-    all.sort_by(|a, b| b.score().total_cmp(&a.score()));
-    all
+    let all: Vec<Candidate> = candidates().collect();
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let goes_on = |k: usize, r: &LoadResult| match k {
+        0 => r.is_tracked(),
+        1 => r.is_helped(),
+        _ => true,
+    };
+    let one = |c: &Candidate| run(c, pair, 0, goes_on);
+    let mut found: Vec<Trial> = std::thread::scope(|scope| {
+        let parts: Vec<_> = (all.chunks(all.len().div_ceil(threads)))
+            .map(|part| scope.spawn(move || part.iter().filter_map(one).collect::<Vec<_>>()))
+            .collect();
+        let ends = parts
+            .into_iter()
+            .map(|p| p.join().expect("runs do not panic"));
+        ends.flatten().collect()
+    });
+    found.sort_by(|a, b| b.score().total_cmp(&a.score()));
+    found
 }

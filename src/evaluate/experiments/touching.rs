@@ -364,7 +364,7 @@ pub enum Against {
 
 /// Time over which the arm is raised, s, and how long it is watched.
 const RAISE: f64 = 1.0;
-const WATCHED: f64 = 3.0;
+const WATCHED: f64 = 4.0;
 /// How much nearer than the hand reaches the thing is, m.
 const TOO_NEAR: f64 = 0.06;
 

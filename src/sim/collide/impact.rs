@@ -11,7 +11,7 @@
 use crate::sim::body::topology::NV;
 use crate::sim::dynamics::MassMatrix;
 use crate::sim::dynamics::factor::{factor, solve};
-use crate::sim::math::dense::cholesky_solve;
+use crate::sim::math::dense::{factor_rows, solve_rows};
 
 /// Most rows of one system.
 pub const MOST_ROWS: usize = 64;
@@ -233,10 +233,20 @@ impl Impact {
             }
             self.work[i][i] += ridge;
         }
-        cholesky_solve(&mut self.work[..], count, &mut x[..count]);
+        factor_rows(&mut self.work[..], count);
+        solve_rows(&self.work[..], count, &mut x[..count]);
+        // Once more for what the ridge leaves.
+        let mut rest = [0.0; MOST_ROWS];
+        for (i, &k) in index[..count].iter().enumerate() {
+            let given: f64 = (index[..count].iter().zip(&x))
+                .map(|(&l, p)| self.gram[k][l] * p)
+                .sum();
+            rest[i] = self.rows[k].wanted - self.value(k) - given;
+        }
+        solve_rows(&self.work[..], count, &mut rest[..count]);
         self.impulse.fill(0.0);
         for (i, &k) in index[..count].iter().enumerate() {
-            self.impulse[k] = x[i];
+            self.impulse[k] = x[i] + rest[i];
         }
     }
 

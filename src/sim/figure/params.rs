@@ -299,9 +299,10 @@ pub mod kinematic {
 }
 
 /// All groups with their names.
-pub fn groups() -> [(&'static str, &'static [Param]); 12] {
+pub fn groups() -> [(&'static str, &'static [Param]); 13] {
     [
         ("support", support::ALL),
+        ("staged", staged::ALL),
         ("balance", balance::ALL),
         ("fall", fall::ALL),
         ("get_up", get_up::ALL),
