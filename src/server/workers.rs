@@ -327,7 +327,12 @@ impl Pool {
                 drop(turn);
                 let _ = done.send(out); // the client may be gone
             })
-            .map_err(|e| Fault::Internal(format!("no thread for the work: {e}")))?;
+            .map_err(|e| Fault::Exhausted {
+                limit: self.0.limit,
+                value: self.0.most as u64,
+                message: format!("the system gives no thread for the work: {e}"),
+                retry: Some(Duration::from_secs_f64(RETRY.0)),
+            })?;
         match result.await {
             Ok(Err(gone)) if gone == Turn::gone() => Err(Fault::Draining), // it was not the client who went
             Ok(out) => out,

@@ -1,5 +1,6 @@
 //! A server under attack: starts the binary with bounded memory, asks for its health all the time, and judges.
 
+use crate::witness;
 use std::future::Future;
 use std::io::{BufRead, BufReader};
 use std::net::SocketAddr;
@@ -154,8 +155,8 @@ async fn watch(
     }
 }
 
-/// Attacks a server with these settings. Afterwards, and all the time, it must live, be small and be healthy. Returns
-/// the server for what else the attack wants to look at.
+/// Attacks a server with these settings. Afterwards, and all the time, it must live, be small and be healthy, and a world
+/// beside must not be disturbed. Returns the server for what else the attack wants to look at.
 pub fn survives<F>(settings: &[(&str, &str)], attack: impl FnOnce(SocketAddr) -> F) -> Server
 where
     F: Future<Output = ()>,
@@ -174,8 +175,10 @@ where
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .build();
+    let runtime = runtime.unwrap();
+    let quiet_us = runtime.block_on(witness::begin(address));
     let calm_kib = server.resident_kib();
-    runtime.unwrap().block_on(attack(address));
+    runtime.block_on(attack(address));
     let _ = stop.send(());
     let (checks, slowest, refused) = watching.join().unwrap();
     assert!(server.lives(), "the server died: {}", server.end());
@@ -196,5 +199,6 @@ where
         "the server took {} MB",
         peak_kib / 1024
     );
+    runtime.block_on(witness::judge(address, quiet_us));
     server
 }

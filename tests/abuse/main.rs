@@ -1,5 +1,5 @@
 //! Attacks on the real binary in a process with little memory. During each one the server lives, stays small and
-//! answers health checks.
+//! answers health checks, and a world that nobody attacks has the states that it has alone.
 //!
 //! One file per kind of attack: `net_…` sends bytes, connections and requests that are meant to exhaust; `tick_…`
 //! takes what others share: ticks, workers, places. `cargo test --test abuse` runs the short form,
@@ -16,3 +16,4 @@ mod net_silent;
 mod raw;
 mod tick_floods;
 mod tick_greed;
+mod witness;

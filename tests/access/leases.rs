@@ -497,7 +497,7 @@ async fn a_driver_without_a_lease_has_its_figure_for_itself_all_the_same() {
 /// A walk in the middle of its way, as one who captures it at another place sends it: frames of 120 per second.
 struct Walker<'a> {
     header: pb::DriveHeader,
-    posture: &'a dyn Fn(f64) -> Posture,
+    posture: &'a (dyn Fn(f64) -> Posture + Sync),
     /// Where his stage lies.
     place: PlanarTransform,
     /// What his clock shows at the start, s.
@@ -542,14 +542,40 @@ impl Walker<'_> {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_figure_is_handed_over_in_mid_walk_without_a_fall_and_without_a_stop() {
-    // At different phases of the gait.
-    for offered in [4.0, 4.2, 4.4, 4.6] {
-        hand_over(offered).await;
+    // At different phases of the gait, to somebody in the same phase, and to those who are in any other one.
+    let cases = [
+        (4.0, 0.0),
+        (4.2, 0.01),
+        (4.4, -0.02),
+        (4.6, 0.04),
+        (4.8, 0.15),
+        (4.1, 0.55),
+        (4.3, 0.35),
+        (4.5, 0.75),
+        (4.7, -0.15),
+    ];
+    for slowest in beside_each_other(cases).await {
+        // It has walked all the time: a stand would be close to 0.
+        assert!(slowest > 0.4, "slowest {slowest:.2} m/s");
     }
 }
 
-/// Two walk the same way, each on his own stage; one hands the figure over to the other at `offered` s.
-async fn hand_over(offered: f64) {
+/// [`hand_over`] at these times and phases, all at the same time.
+async fn beside_each_other(cases: impl IntoIterator<Item = (f64, f64)>) -> Vec<f64> {
+    let runs = cases
+        .into_iter()
+        .map(|(offered, phase)| hand_over(offered, phase));
+    let runs: Vec<_> = runs.map(tokio::spawn).collect();
+    let mut slowest = Vec::new();
+    for run in runs {
+        slowest.push(run.await.unwrap());
+    }
+    slowest
+}
+
+/// Two walk the same way, each on his own stage, the second one `phase` s ahead; one hands the figure over to the other
+/// at `offered` s. Nobody falls, and the figure walks again at the end. Returns how slow it was meanwhile, m/s.
+async fn hand_over(offered: f64, phase: f64) -> f64 {
     let scene = Scene::new(true).await;
     let (alice, bob) = (scene.someone("alice").await, scene.someone("bob").await);
     let body = Body::adult_man();
@@ -559,6 +585,7 @@ async fn hand_over(offered: f64) {
         .clip;
     let walk = cycle(&body, &clip).unwrap();
     let posture = |t: f64| walk.sample_looped(t).posture;
+    let ahead = |t: f64| posture(t + phase);
     let lease = scene.acquire(&alice, "", 0).await.unwrap();
     let window = |header| pb::DriveHeader {
         preparation_window_ms: Some(500.0),
@@ -578,7 +605,7 @@ async fn hand_over(offered: f64) {
     };
     let mut second = Walker {
         header: window(scene.header("bob", &[])),
-        posture: &posture,
+        posture: &ahead,
         // On his own stage, seven metres away and turned by a third of a circle.
         place: PlanarTransform {
             x: 7.0,
@@ -591,8 +618,8 @@ async fn hand_over(offered: f64) {
     let mut events = scene.events().await;
     let begins = offered + 0.4;
     let mut fenced = None;
-    let mut slowest = f64::INFINITY;
-    for tick in (0..600).step_by(3) {
+    let (mut slowest, mut last) = (f64::INFINITY, 0.0);
+    for tick in (0..720).step_by(3) {
         let now = f64::from(tick) / 60.0;
         if fenced.is_none()
             && let Err(e) = first.send(&scene, &alice, 0.0, now).await
@@ -658,19 +685,20 @@ async fn hand_over(offered: f64) {
         assert_eq!(
             f.status.as_ref().unwrap().flags & FALLEN,
             0,
-            "fell at {now} s"
+            "handed over at {offered} s, {phase} s ahead: fell at {now} s"
         );
         let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
+        last = v[3].hypot(v[4]);
         if now > 2.0 {
-            slowest = slowest.min(v[3].hypot(v[4]));
+            slowest = slowest.min(last);
         }
     }
     let (at, reason) = fenced.expect("the one before is fenced");
     assert_eq!(reason, "CONTROL_FENCED");
     assert!(
-        at >= begins && at < begins + 0.5,
+        at >= begins && at < begins + 1.7,
         "until the new motion was there: {at} s"
     );
-    // It has walked all the time: a stand would be close to 0.
-    assert!(slowest > 0.4, "slowest {slowest:.2} m/s");
+    assert!(last > 0.5, "it walks at the end: {last:.2} m/s");
+    slowest
 }

@@ -8,6 +8,7 @@
 mod bytes;
 mod edit;
 mod messages;
+mod records;
 mod services;
 mod store;
 

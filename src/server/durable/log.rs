@@ -851,3 +851,63 @@ impl Log {
             .expect("a setting");
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn row(id: i64, kind: u8, (session, seq): (i64, i64), bytes: Vec<u8>) -> Record {
+        Record {
+            id,
+            world: WorldKey(1),
+            session,
+            seq,
+            kind,
+            tick: id as u64,
+            bytes: bytes.into(),
+        }
+    }
+
+    /// What a group of frames is written as.
+    fn group(frames: &[(u8, u64, Vec<u8>)]) -> Vec<u8> {
+        let mut out = Vec::new();
+        for (kind, tick, bytes) in frames {
+            frame(&mut out, *kind, *tick, bytes);
+        }
+        out
+    }
+
+    proptest! {
+        /// `PROPTEST_CASES` says how many of them.
+        #[test]
+        fn rows_of_any_bytes_are_read_or_lost(
+            rows in proptest::collection::vec(
+                (
+                    0u8..4,
+                    (0i64..3, 0i64..4),
+                    proptest::collection::vec((0u8..4, any::<u64>(), proptest::collection::vec(any::<u8>(), 0..20)), 0..4),
+                    proptest::option::of((any::<usize>(), any::<u8>())),
+                ),
+                0..8,
+            ),
+            at in proptest::option::of(0u64..8),
+        ) {
+            let mut reading = Reading::new(0, at);
+            for (i, (kind, place, frames, damage)) in rows.into_iter().enumerate() {
+                let mut bytes = group(&frames);
+                if let (Some((at, to)), false) = (damage, bytes.is_empty()) {
+                    let n = bytes.len();
+                    bytes[at % n] = to;
+                } else if kind == GROUP {
+                    let known = |f: &(u8, u64, Vec<u8>)| f.0 == INPUT || f.0 == HASH && f.2.len() == 8;
+                    let read = row(0, kind, place, bytes.clone()).frames();
+                    prop_assert_eq!(read.is_some(), frames.iter().all(known));
+                }
+                reading.take(&row(i as i64, kind, place, bytes));
+            }
+            let history = reading.history;
+            prop_assert!(history.checkpoint.is_some() || history.entries.is_empty());
+        }
+    }
+}

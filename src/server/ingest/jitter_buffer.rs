@@ -16,6 +16,7 @@ use crate::sim::math::Quat;
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::plan::stream::is_same;
 use crate::wire::types::{Delay, DriveSettings, Supply};
+pub use seam::Seam;
 use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -803,14 +804,12 @@ impl JitterBuffer {
         Some((p, self.grid.next))
     }
 
-    /// True if there is motion for the tick that begins `now`.
-    pub fn is_due(&mut self, now: Now) -> bool {
-        let Some(p) = self.playout(now) else {
-            return false;
-        };
+    /// Playout time of the tick that begins `now`, s, if there is motion for it.
+    pub fn due(&mut self, now: Now) -> Option<f64> {
+        let p = self.playout(now)?;
         // Two frames at least, so that it is known how it moves, and none that would have to be guessed.
-        let newest = self.frames.back().map(|f| self.seconds(f));
-        p >= 0.0 && self.frames.len() >= 2 && newest.is_some_and(|t| t >= p + self.tick)
+        let newest = self.seconds(self.frames.back()?);
+        (p >= 0.0 && self.frames.len() >= 2 && newest >= p + self.tick).then_some(p)
     }
 
     /// Begins from what is asked of the figure now, and goes over to its own motion in `blend` seconds.
@@ -826,5 +825,6 @@ impl JitterBuffer {
     }
 }
 
+mod seam;
 #[cfg(test)]
 mod tests;

@@ -53,7 +53,8 @@ pub(super) struct Playout {
     jitter: Option<f64>,
     /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
     delay: Option<f64>,
-    /// Time that the world had lost at the last tick, s, and how far the stream is behind for it, s.
+    /// Time that the world had lost at the last tick, s, and how far the stream is behind, s: for that, or as it took up
+    /// another one; negative: ahead.
     lost: Option<f64>,
     behind: f64,
     /// Playout time of the last answer, s since the first frame.
@@ -155,9 +156,24 @@ impl Playout {
         self.lost
     }
 
-    /// How far the stream is behind because its world leaves ticks out, s; contained in the delay.
+    /// How far the stream is behind because its world leaves ticks out, or as it took up another one, s; contained in
+    /// the delay.
     pub(super) fn behind(&self) -> f64 {
-        self.behind
+        self.behind.max(0.0)
+    }
+
+    /// Plays what is at `later` (s) from where it would, and calls that `renamed` seconds more than it is called now.
+    pub(super) fn shift(&mut self, later: f64, renamed: f64, settings: &DriveSettings) {
+        self.behind -= later + renamed;
+        if let Some((first, _)) = &mut self.origin {
+            *first = first.saturating_sub((renamed * 1e9).round() as i64);
+        }
+        // Times of arrival count from the first frame.
+        self.transit.iter_mut().for_each(|t| *t -= renamed);
+        if let (Delay::Adaptive { .. }, Some(delay)) = (settings.delay, &mut self.delay) {
+            *delay -= renamed;
+            self.behind += renamed;
+        }
     }
 
     /// What is played in the tick of `tick` seconds that begins `now`; moves the adaptive delay on.
@@ -166,7 +182,8 @@ impl Playout {
             return Due::Nothing;
         };
         let left_out = self.lost.replace(now.lost).map_or(0.0, |l| now.lost - l);
-        self.behind = (self.behind + left_out - CATCH_UP * tick).max(0.0);
+        let made_up = self.behind.clamp(-CATCH_UP * tick, CATCH_UP * tick);
+        self.behind += left_out - made_up;
         if self.behind > MOST_BEHIND {
             return Due::TooFarBehind;
         }

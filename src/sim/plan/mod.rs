@@ -7,6 +7,7 @@ pub mod envelope;
 pub mod feasibility;
 pub(crate) mod flight_phases;
 pub mod foot_lock;
+pub mod likeness;
 pub mod motion_transition;
 pub mod params;
 pub mod pelvis_shift;

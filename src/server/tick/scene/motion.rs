@@ -3,7 +3,7 @@
 use super::player::{Player, Window};
 use super::{Done, PlayerKey, Scene};
 use crate::server::engine::{self, Clip, Drive as Motion, FigureKey};
-use crate::server::ingest::jitter_buffer::{JitterBuffer, Now};
+use crate::server::ingest::jitter_buffer::{JitterBuffer, Now, Seam};
 use crate::wire::status::Fault;
 use crate::wire::types::{DriveSettings, Place, Playback};
 use std::sync::Arc;
@@ -45,20 +45,20 @@ impl Scene {
         takeover: Option<f64>,
     ) -> Result<Done, Fault> {
         // What it does goes on until there is motion to go over to.
+        let (dt, time, key) = (self.world.dt(), self.world.time(), self.next_player);
         if takeover.is_none() {
             self.member_mut(figure)?.clip = None;
-            let time = self.world.time();
             self.figure_mut(figure)?.stop(time);
         }
-        let (dt, key) = (self.world.dt(), self.next_player);
         let f = self.figure_mut(figure)?;
-        let mut window = (length > 0.0).then(|| Window::new(f.body(), length));
-        if let Some(window) = window
-            .as_mut()
-            .filter(|_| !settings.reset && takeover.is_none())
-        {
-            window.lead_in(&f.target().next.posture);
-        }
+        // Who takes over decides when its motion is there.
+        let window = (length > 0.0).then(|| {
+            if settings.reset || takeover.is_some() {
+                Window::new(f.body(), length)
+            } else {
+                Window::after_stop(f.body(), length, time)
+            }
+        });
         let stand = engine::standing(f.body(), Place::default());
         let player = Player {
             key,
@@ -84,13 +84,11 @@ impl Scene {
         let mut ended = Vec::new();
         let mut i = 0;
         while i < self.players.len() {
-            let player = &mut self.players[i];
-            let blend = player.takeover;
-            let due = blend.filter(|_| player.buffer.is_due(now));
-            let Some(blend) = due else {
+            let Some((blend, seam)) = self.seam(i, now) else {
                 i += 1;
                 continue;
             };
+            let player = &mut self.players[i];
             player.takeover = None;
             let (key, figure) = (player.key, player.figure);
             // Who was there before ends here.
@@ -103,12 +101,28 @@ impl Scene {
             });
             let player = self.players.iter_mut().find(|p| p.key == key);
             if let (Some(p), Some(f)) = (player, self.world.figure_mut(figure)) {
-                p.join(f, now, blend);
+                p.join(f, now, blend, seam);
             }
             // Others have moved up.
             i = 0;
         }
         ended
+    }
+
+    /// How the `i`-th player takes its figure over in the tick that begins `now`, over so many seconds, if it does.
+    fn seam(&mut self, i: usize, now: Now) -> Option<(f64, Seam)> {
+        let blend = self.players[i].takeover?;
+        let key = self.players[i].figure;
+        let plays = |p: &Player| p.figure == key && p.takeover.is_none();
+        let figure = self.world.figure_mut(key)?;
+        let seam = match self.players.iter().position(plays) {
+            None => self.players[i].seam(figure, None, now),
+            Some(j) => {
+                let [player, before] = self.players.get_disjoint_mut([i, j]).ok()?;
+                player.seam(figure, Some(before), now)
+            }
+        };
+        seam.filter(|s| *s != Seam::Later).map(|s| (blend, s))
     }
 
     pub(super) fn play_live(&mut self, now: Now) {

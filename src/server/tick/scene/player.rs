@@ -5,7 +5,7 @@
 
 use super::input::PlayerKey;
 use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
-use crate::server::ingest::jitter_buffer::{Due, JitterBuffer, Now};
+use crate::server::ingest::jitter_buffer::{Due, JitterBuffer, Now, Seam};
 use crate::sim::body::{Body, Posture, State};
 use crate::sim::motion::TargetPair;
 use crate::sim::plan::StreamPlan;
@@ -16,6 +16,8 @@ use std::sync::Arc;
 
 /// Samples of standing before a stream begins, for a figure that is not put into it.
 const LEAD_IN: usize = 6;
+/// A stream waits so long at most for its figure to stand, s: a step or two, and some sway.
+const MOST_STOPPING: f64 = 5.0;
 
 /// What plays live motion to one figure.
 #[derive(Debug, Serialize, Deserialize)]
@@ -43,6 +45,8 @@ pub struct Window {
     waiting: Option<Box<LivePlayback>>,
     /// The figure comes into the stream from what it does, whatever the driver asked for.
     begun: bool,
+    /// It comes to a stand before that; from this world time on it is not waited for any more, s.
+    stands: Option<f64>,
 }
 
 impl Window {
@@ -56,12 +60,34 @@ impl Window {
                 offset: 0.0,
             })),
             begun: false,
+            stands: None,
         }
     }
 
+    /// A window that begins once its figure stands, which has been told to stop at world time `time`, s.
+    pub fn after_stop(body: &Arc<Body>, length: f64, time: f64) -> Self {
+        Self {
+            begun: true,
+            stands: Some(time + MOST_STOPPING),
+            ..Self::new(body, length)
+        }
+    }
+
+    /// True while it waits for its figure to stand.
+    fn waits_for_stand(&mut self, figure: &Figure, time: f64) -> bool {
+        let Some(until) = self.stands else {
+            return false;
+        };
+        if time < until && figure.comes_to_stand(time) {
+            return true;
+        }
+        self.stands = None;
+        self.lead_in(&figure.target().next.posture);
+        false
+    }
+
     /// Continues from what is asked of the figure now: a stream that begins elsewhere is moved there.
-    pub fn lead_in(&mut self, posture: &Posture) {
-        self.begun = true;
+    fn lead_in(&mut self, posture: &Posture) {
         if let Some(live) = &mut self.waiting {
             for _ in 0..LEAD_IN {
                 live.motion.push(posture, Some([true; 2]));
@@ -78,29 +104,48 @@ impl Player {
         let waits = waiting.is_none_or(|live| live.offset.is_finite() && live.motion.complete());
         let window = self.window.as_ref();
         waits
-            && window.is_none_or(|w| (0.0..=2.0).contains(&w.length))
+            && window.is_none_or(|w| {
+                (0.0..=2.0).contains(&w.length) && w.stands.is_none_or(f64::is_finite)
+            })
             && self.takeover.is_none_or(|t| (0.0..=1e3).contains(&t))
             && self.buffer.complete(figure.body(), dt)
     }
 
-    /// Takes a figure over from another drive, in the middle of what it does, over `blend` seconds.
-    pub fn join(&mut self, figure: &mut Figure, now: Now, blend: f64) {
+    /// How it takes its figure over from the one that plays to it now, if it can in the tick that begins `now`; `None`
+    /// while there is no motion.
+    pub fn seam(&mut self, figure: &mut Figure, before: Option<&Self>, now: Now) -> Option<Seam> {
+        let p = self.buffer.due(now)?;
+        let Some(window) = &self.window else {
+            return Some(Seam::Nowhere);
+        };
+        // The stream that the figure follows goes on with another motion: its window stays.
+        let length = window.length;
+        let before = before.filter(|b| b.window.as_ref().is_some_and(|w| w.length == length));
+        Some(match before {
+            Some(before) if figure.stream_mut().is_some() => {
+                self.buffer.seam(p, &before.buffer, RATE)
+            }
+            _ => Seam::Nowhere,
+        })
+    }
+
+    /// Takes a figure over from another player, in the middle of what it does, over `blend` seconds.
+    pub fn join(&mut self, figure: &mut Figure, now: Now, blend: f64, seam: Seam) {
         self.buffer.begin_from(figure.target().next.clone(), blend);
         let Some(window) = &mut self.window else {
             return; // the buffer goes over by itself
         };
-        // The stream that the figure follows goes on with what comes now.
-        let length = window.length;
-        match figure.stream_mut().filter(|l| l.motion.window() == length) {
-            Some(live) => {
+        match (seam, figure.stream_mut()) {
+            (Seam::Here(entry), Some(live)) => {
+                self.buffer.enter(entry);
                 live.motion.join(blend);
                 window.waiting = None;
                 window.begun = true;
             }
-            None => {
-                // There is none like it: it finishes its step, and is led in from a stand.
+            _ => {
+                // It finishes its step, and is led in from a stand.
                 figure.stop(now.time);
-                window.lead_in(&figure.target().next.posture);
+                *window = Window::after_stop(figure.body(), window.length, now.time);
             }
         }
     }
@@ -116,12 +161,10 @@ impl Player {
             // What the window holds has no continuation.
             if window.waiting.is_none() {
                 figure.stop(time);
+            } else if window.begun {
+                *window = Window::after_stop(figure.body(), length, time);
             } else {
-                let begun = window.begun;
                 *window = Window::new(figure.body(), length);
-                if begun {
-                    window.lead_in(&figure.target().next.posture);
-                }
             }
             return None;
         }
@@ -131,8 +174,11 @@ impl Player {
                 self.buffer.feed(now, (RATE, length), |_| ());
                 return None;
             }
-            *window = Window::new(figure.body(), length);
-            window.lead_in(&figure.target().next.posture);
+            *window = Window::after_stop(figure.body(), length, time);
+        }
+        if window.waits_for_stand(figure, time) {
+            self.buffer.feed(now, (RATE, length), |_| ());
+            return None;
         }
         let waits = window.waiting.is_some();
         let live = match &mut window.waiting {

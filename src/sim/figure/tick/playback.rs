@@ -194,6 +194,12 @@ impl Figure {
         plays || self.motion.exit().is_some() || self.desired.tracker.recovery_step().is_some()
     }
 
+    /// True while it is in the middle of a clip or a step, or on its way to a stand. One that has fallen is not.
+    pub fn comes_to_stand(&self, time: f64) -> bool {
+        let ends = || self.desired.tracker.comes_to_stand(&self.scratch.terms);
+        self.steps() && !self.motion.has_fallen() && (self.is_busy(time) || ends())
+    }
+
     /// Begins the clip that waits, once the figure stands.
     pub(super) fn begin_next_if_ready(&mut self, world: &TickContext) {
         let time = world.time();

@@ -1,12 +1,13 @@
 //! Where a motion is like the beginning of another one.
 
-use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT, L_THIGH, L_UPPER_ARM, R_FOOT};
+use crate::sim::body::topology::{L_FOOT, R_FOOT};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::clip::PlanarTransform;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::plan::foot_lock::{FootPlacement, Sole};
+use crate::sim::plan::likeness::unlike;
 use crate::sim::plan::params::{balance, likeness, stop, transition};
 use crate::sim::plan::splice::Sample;
 use crate::sim::plan::turned_on_floor;
@@ -62,12 +63,6 @@ impl<'a> Features<'a> {
         (p != [false; 2] && same(i - 1) && same(i + 1)).then_some(p)
     }
 
-    /// Joint rates, rad/s.
-    fn rates(&self, i: usize) -> [f64; DOF_COUNT] {
-        let way = self.posture(i - 1).joint_difference(self.posture(i + 1));
-        way.map(|w| 0.5 * stop::RATE * w)
-    }
-
     /// What the turn between two motions is found from, seen from foot `side`: centre of mass, what its velocity adds
     /// to the capture point, the other foot, and the headings of pelvis and foot.
     fn points(&self, i: usize, side: usize, omega: f64) -> [[f64; 2]; 5] {
@@ -104,30 +99,6 @@ fn nearest_turn(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
 pub(super) fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
     let (x, y) = (a[0] - b[0], a[1] - b[1]);
     (x * x + y * y).sqrt()
-}
-
-/// Unlikeness of the postures and their rates, whatever place and heading, rad rms.
-fn unlike((a, i): (&Features<'_>, usize), (b, j): (&Features<'_>, usize)) -> f64 {
-    let (p, q) = (a.posture(i), b.posture(j));
-    let angles = p.joint_difference(q);
-    let (before, after) = (a.rates(i), b.rates(j));
-    let arms = DOF_START[L_UPPER_ARM.index()]..DOF_START[L_THIGH.index()];
-    let mut sum = 0.0;
-    for k in 0..DOF_COUNT {
-        let rate = likeness::RATE_SHARE * (before[k] - after[k]);
-        let share = if arms.contains(&k) {
-            likeness::ARM_WEIGHT
-        } else {
-            1.0
-        };
-        sum += share * (angles[k] * angles[k] + rate * rate);
-    }
-    // Tilt: where the vertical is in the pelvis.
-    let up = |p: &Posture| p.root_rotation.conjugate().rotate(Vec3::Z);
-    let tilt = up(p) - up(q);
-    let height = p.root_position.z - q.root_position.z;
-    sum += likeness::TILT_WEIGHT * tilt.dot(tilt) + likeness::HEIGHT_WEIGHT * height * height;
-    (sum / (DOF_COUNT - arms.len()) as f64).sqrt()
 }
 
 /// Compares sample `i` of one motion with sample `j` of another: how they are like, and how much; `None` if they are
@@ -168,7 +139,8 @@ fn compare(
     {
         return None;
     }
-    let unlike = unlike((left, i), (entered, j));
+    let around = |f: &Features<'_>, k: usize| [k - 1, k, k + 1].map(|k| *f.posture(k));
+    let unlike = unlike(&around(left, i), &around(entered, j));
     if unlike > likeness::TRANSITION {
         return None;
     }

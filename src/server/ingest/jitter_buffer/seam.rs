@@ -1,0 +1,317 @@
+//! Where one stream goes on as another one would.
+//!
+//! Two drivers of the same walk are never quite in phase: their clocks, networks and delays differ. A figure that is
+//! handed over is in mid-step, and a jump in the phase of its step would cost it its balance. So the second stream is
+//! searched for the moment that is most like the one at which the first one is left, in their postures and their rates.
+//! It is taken up there, a little older or newer than its delay has it, and makes up for that slowly.
+
+use super::{JitterBuffer, Supply};
+use crate::sim::body::Posture;
+use crate::sim::math::Quat;
+use crate::sim::motion::GRAVITY;
+use crate::sim::plan::likeness::unlike;
+use crate::sim::plan::params::{likeness, transition};
+
+/// Most that is played older than its delay has it, s: a stride, so that there is a like moment in every walk. Two
+/// hundredths of time make up for it.
+const MOST_OLDER: f64 = 1.2;
+/// Share of what has come ahead of its time that may be used up.
+const MOST_NEWER: f64 = 0.75;
+/// A like moment is waited for so long after the second stream has begun, s: a stride and its neighbours.
+const PATIENCE: f64 = 1.5;
+/// Moments that are compared for each sample of the grid: between them the best is interpolated.
+const MOMENTS: i64 = 1;
+/// What a second of delay costs: it matters where all moments are alike, as of somebody who stands.
+const DELAY_COST: f64 = 0.3;
+
+/// How a stream goes on from another one in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Seam {
+    /// Not yet: what is more like it may still come.
+    Later,
+    /// Here.
+    Here(Entry),
+    /// There is nothing like it.
+    Nowhere,
+}
+
+/// Where a stream is taken up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// How much later than what would be due, s.
+    later: f64,
+    /// Newest playout time that the window has, s, and its next sample: of the other stream, as this one counts.
+    head: f64,
+    next: i64,
+    /// What this one adds to its times, so that its grid is that of the other one, s.
+    renamed: f64,
+}
+
+impl JitterBuffer {
+    /// Where this stream, of which playout time `p` (s) is due, goes on as `before` would, whose samples on a grid of
+    /// `rate` per second a window holds.
+    pub fn seam(&self, p: f64, before: &Self, rate: f64) -> Seam {
+        let (Some(head), Some(newest)) = (before.grid.head, self.frames.back()) else {
+            return Seam::Nowhere;
+        };
+        let next = before.grid.next;
+        let last = [3, 2, 1].map(|k| before.at((next - k) as f64 / rate));
+        let comes = |s: Supply| {
+            matches!(
+                s,
+                Supply::Present | Supply::Interpolated | Supply::Extrapolated
+            )
+        };
+        if !last.iter().all(|a| comes(a.supply)) {
+            return Seam::Nowhere;
+        }
+        let last = last.map(|a| a.target.posture);
+        // The next sample of the grid is so far ahead of what is due.
+        let ahead = next as f64 / rate - (head + self.tick);
+        let stride = 1.0 / (rate * MOMENTS as f64);
+        let room = (self.seconds(newest) - p - ahead).max(0.0);
+        let first = ((3.0 / rate - p - ahead).max(-MOST_OLDER) / stride).ceil() as i64;
+        let newest = (MOST_NEWER * room).min(MOST_OLDER);
+        let end = (newest / stride).floor() as i64;
+        let waits = p < PATIENCE;
+        let otherwise = if waits { Seam::Later } else { Seam::Nowhere };
+        let at = |k: i64| self.at(p + ahead + k as f64 * stride).target.posture;
+        let postures: Vec<Posture> = (first - 3 * MOMENTS..=end - MOMENTS).map(at).collect();
+        let most_speed = transition::MOST_CAPTURE * (GRAVITY / self.stand.root_position.z).sqrt();
+        let like = |k: i64| {
+            let around = [0, 1, 2].map(|n| postures[(k - first + n * MOMENTS) as usize]);
+            let unlike = unlike(&last, &around) / likeness::CLOSED_CYCLE;
+            let speed = drift(&last, &around, rate) / most_speed;
+            let delay = k as f64 * stride;
+            let cost = unlike * unlike + speed * speed + DELAY_COST * delay * delay;
+            (cost, unlike <= 1.0 && speed <= 1.0)
+        };
+        let costs: Vec<(f64, bool)> = (first..=end).map(like).collect();
+        let best = (0..costs.len()).min_by(|a, b| costs[*a].0.total_cmp(&costs[*b].0));
+        let Some(i) = best.filter(|i| costs[*i].1) else {
+            return otherwise;
+        };
+        // At an end of what is there, a better one may come.
+        let between = match (
+            i.checked_sub(1).and_then(|b| costs.get(b)),
+            costs.get(i + 1),
+        ) {
+            (Some((before, _)), Some((after, _))) => {
+                let bend = before - 2.0 * costs[i].0 + after;
+                if bend > 0.0 {
+                    0.5 * (before - after) / bend
+                } else {
+                    0.0
+                }
+            }
+            _ if waits => return Seam::Later,
+            _ => 0.0,
+        };
+        let later = ((first + i as i64) as f64 + between) * stride;
+        let due = p + later;
+        // The grids have one phase after this.
+        let samples = ((due - head - self.tick) * rate).round();
+        let named = head + self.tick + samples / rate;
+        Seam::Here(Entry {
+            later,
+            head: named - self.tick,
+            next: next + samples as i64,
+            renamed: named - due,
+        })
+    }
+
+    /// Goes on from another stream at a seam of this tick.
+    pub fn enter(&mut self, entry: Entry) {
+        self.pace.shift(entry.later, entry.renamed, &self.settings);
+        self.grid.head = Some(entry.head);
+        self.grid.next = entry.next;
+        self.grid.joins = false;
+    }
+}
+
+/// Difference of the velocities over the floor, seen from the pelvis, m/s.
+fn drift(a: &[Posture; 3], b: &[Posture; 3], rate: f64) -> f64 {
+    let speed = |m: &[Posture; 3]| {
+        let v = (m[2].root_position - m[0].root_position) * (0.5 * rate);
+        let turn = Quat::exp(crate::sim::math::Vec3::Z * -m[1].root_rotation.heading());
+        turn.rotate(v)
+    };
+    let d = speed(a) - speed(b);
+    (d.x * d.x + d.y * d.y).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Due, Frame, Now};
+    use super::*;
+    use crate::sim::body::Body;
+    use crate::sim::motion::Target;
+    use crate::wire::types::{Delay, DriveSettings};
+    use std::cell::Cell;
+    use std::sync::Arc;
+    use std::time::Instant;
+
+    const RATE: f64 = 60.0;
+    /// Ticks that are no multiple of samples.
+    const TICK: f64 = 1.0 / 75.0;
+
+    /// Somebody whose knees and hips swing while he moves on, at time `t` (s) of his motion.
+    fn motion(t: f64) -> Posture {
+        let mut p = Posture::default();
+        p.root_position.x = 1.2 * t;
+        p.root_position.z = 0.9;
+        for (k, angle) in p.hinge.iter_mut().enumerate() {
+            *angle = 1.0 + 0.9 * (8.0 * t + k as f64).sin();
+        }
+        p
+    }
+
+    fn buffer(delay: Delay) -> JitterBuffer {
+        let settings = DriveSettings {
+            rate_hz: RATE,
+            delay,
+            extrapolation: 0.1,
+            hold: 0.5,
+            grace: 5.0,
+            reset: false,
+            window: Some(0.5),
+        };
+        let stand = motion(0.0);
+        let body = Arc::new(Body::adult_man());
+        JitterBuffer::new(settings, TICK, body, Target::still(stand), stand)
+    }
+
+    /// A driver with a clock of his own, who began to send at `began` (s) and is `ahead` (s) in the motion.
+    struct Driver {
+        buffer: JitterBuffer,
+        began: f64,
+        ahead: f64,
+        motion: fn(f64) -> Posture,
+        sent: i64,
+    }
+
+    impl Driver {
+        fn send(&mut self, now: f64) {
+            while self.began + self.sent as f64 / RATE <= now {
+                let t = self.began + self.sent as f64 / RATE;
+                let frame = Frame {
+                    sequence: self.sent,
+                    source_ns: (t * 1e9) as i64 + 77_000_000_123,
+                    posture: (self.motion)(t + self.ahead),
+                    velocity: None,
+                    planted: None,
+                    guess: Cell::new(Some([true; 2])),
+                    arrival: Instant::now(),
+                };
+                self.buffer.push(frame, t);
+                self.sent += 1;
+            }
+        }
+    }
+
+    /// What a window holds: the time of the motion (s) of each sample, as its pelvis says, and how time runs there.
+    #[derive(Default)]
+    struct Held {
+        samples: Vec<f64>,
+        lead: Vec<f64>,
+    }
+
+    impl Held {
+        fn feed(&mut self, buffer: &mut JitterBuffer, time: f64) {
+            let now = Now { time, lost: 0.0 };
+            let samples = &mut self.samples;
+            let fed = buffer.feed(now, (RATE, 0.5), |due| {
+                if let Due::Sample(p, _) = due {
+                    samples.push(p.root_position.x / 1.2);
+                }
+            });
+            if let Some((head, next)) = fed {
+                let fed = self.samples.len() as f64 - next as f64;
+                self.lead.push(head + fed / RATE - time);
+            }
+        }
+    }
+
+    /// One goes over to the other; returns when, s after the second one began, and what the window held.
+    fn go_over(ahead: f64, delay: Delay, other: fn(f64) -> Posture) -> (Option<f64>, Held) {
+        let mut first = Driver {
+            buffer: buffer(delay),
+            began: 0.0,
+            ahead: 0.0,
+            motion,
+            sent: 0,
+        };
+        let mut second = Driver {
+            buffer: buffer(delay),
+            began: 2.0071,
+            ahead,
+            motion: other,
+            sent: 0,
+        };
+        let mut held = Held::default();
+        let mut entered = None;
+        for tick in 0..600 {
+            let time = f64::from(tick) * TICK;
+            first.send(time);
+            second.send(time);
+            let now = Now { time, lost: 0.0 };
+            if entered.is_none()
+                && let Some(p) = second.buffer.due(now)
+                && let Seam::Here(entry) = second.buffer.seam(p, &first.buffer, RATE)
+            {
+                second.buffer.enter(entry);
+                entered = Some(time - second.began);
+            }
+            match entered {
+                Some(_) => held.feed(&mut second.buffer, time),
+                None => held.feed(&mut first.buffer, time),
+            }
+        }
+        (entered, held)
+    }
+
+    #[test]
+    fn one_stream_goes_on_where_the_other_is_left_whatever_their_phase() {
+        for delay in [Delay::Fixed(0.08), Delay::Adaptive { most: 0.2 }] {
+            let newest = if delay == Delay::Fixed(0.08) {
+                -0.02
+            } else {
+                -0.001
+            };
+            for ahead in [0.0, 0.004, 0.05, 0.15, 0.7, newest] {
+                let (entered, held) = go_over(ahead, delay, motion);
+                let entered = entered.unwrap_or_else(|| panic!("{ahead} s ahead: never"));
+                assert!(
+                    entered < 0.1 + ahead.max(0.0) + 0.1,
+                    "{ahead} s: {entered} s"
+                );
+                // Samples are a grid of the motion that has no seam: what was off is made up for by two hundredths.
+                let steps = held.samples.windows(2).map(|w| (w[1] - w[0]) * RATE);
+                for (k, step) in steps.enumerate() {
+                    assert!(
+                        (step - 1.0).abs() < 0.12,
+                        "{ahead} s: step {k} of {step} samples"
+                    );
+                }
+                // Nor has the time that the window tells its figure.
+                for w in held.lead.windows(2).skip(10) {
+                    assert!(
+                        (w[1] - w[0]).abs() < 0.11 * TICK,
+                        "{ahead} s: {} s",
+                        w[1] - w[0]
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_nowhere_alike_is_not_gone_over_to() {
+        let slow = |t: f64| Posture {
+            root_position: motion(t).root_position,
+            ..motion(0.2 * t)
+        };
+        let (entered, _) = go_over(0.0, Delay::Fixed(0.08), slow);
+        assert_eq!(entered, None);
+    }
+}
