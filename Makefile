@@ -80,6 +80,7 @@ soak: ## a million figure-ticks of everything that can be asked for, about twent
 
 fuzz: ## a million cases of everything that reads bytes from outside; some hours
 	cd $(ROOT) && SINEW_FUZZ_CASES=1000000 $(CARGO) test --locked --test fuzz -- --nocapture
+	cd $(ROOT) && PROPTEST_CASES=1000000 $(CARGO) test --locked --lib rows_of_any_bytes
 
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
 	cd $(ROOT) && $(CARGO) build --locked --bins --examples

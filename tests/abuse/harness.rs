@@ -155,8 +155,8 @@ async fn watch(
     }
 }
 
-/// Attacks a server with these settings. Afterwards, and all the time, it must live, be small and be healthy, and a world
-/// beside must not be disturbed. Returns the server for what else the attack wants to look at.
+/// Attacks a server with these settings. Afterwards, and all the time, it must live, be small and be healthy, and a
+/// world beside the attack must not be disturbed. Returns the server for what else the attack wants to look at.
 pub fn survives<F>(settings: &[(&str, &str)], attack: impl FnOnce(SocketAddr) -> F) -> Server
 where
     F: Future<Output = ()>,

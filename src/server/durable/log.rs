@@ -886,7 +886,10 @@ mod tests {
                 (
                     0u8..4,
                     (0i64..3, 0i64..4),
-                    proptest::collection::vec((0u8..4, any::<u64>(), proptest::collection::vec(any::<u8>(), 0..20)), 0..4),
+                    proptest::collection::vec(
+                        (0u8..4, any::<u64>(), proptest::collection::vec(any::<u8>(), 0..20)),
+                        0..4,
+                    ),
                     proptest::option::of((any::<usize>(), any::<u8>())),
                 ),
                 0..8,

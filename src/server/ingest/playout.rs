@@ -53,8 +53,8 @@ pub(super) struct Playout {
     jitter: Option<f64>,
     /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
     delay: Option<f64>,
-    /// Time that the world had lost at the last tick, s, and how far the stream is behind, s: for that, or as it took up
-    /// another one; negative: ahead.
+    /// Time that the world had lost at the last tick, s, and how far the stream is behind, s: for that, or as it took
+    /// another one over; negative: ahead.
     lost: Option<f64>,
     behind: f64,
     /// Playout time of the last answer, s since the first frame.
