@@ -7518,8 +7518,8 @@ pub struct WatchWorldRequest {
     /// What is sent.
     #[prost(message, optional, tag = "2")]
     pub view: ::core::option::Option<View>,
-    /// Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
-    /// is no longer held. Absent: from now.
+    /// Continues after this tick: frames that are still held come first, those before them are simulated again as far back
+    /// as the past of the world goes (`GetHistory`). OUT_OF_RANGE (`RESUME_EXPIRED`) before that. Absent: from now.
     #[prost(int64, optional, tag = "3")]
     pub resume_tick: ::core::option::Option<i64>,
 }
@@ -9867,8 +9867,9 @@ pub struct FigureFeedback {
     /// behind. The figure stands until there is motion again. An event says why.
     #[prost(int64, tag = "17")]
     pub resync_count: i64,
-    /// How far the stream is behind because its world leaves ticks out, ms; contained in `playout_delay_ms`. It is played
-    /// in world time, never faster than the body moves, and begins anew when it is 2 s behind.
+    /// How far the stream is behind because its world leaves ticks out, or because it took another one over in the middle
+    /// of a walk, ms; contained in `playout_delay_ms`. It is played in world time, never faster than the body moves, and
+    /// begins anew when it is 2 s behind.
     #[prost(double, tag = "18")]
     pub behind_ms: f64,
 }
@@ -14705,8 +14706,8 @@ pub mod recording_service_client {
                 .insert(GrpcMethod::new("sinew.v1.RecordingService", "StartRecording"));
             self.inner.unary(req, path, codec).await
         }
-        /// Ends a recording, which is kept until it is deleted, its world is deleted, or the server ends. One that has ended
-        /// stays as it is.
+        /// Ends a recording, which is kept until it or its world is deleted; without a data directory, until the server ends.
+        /// One that has ended stays as it is.
         pub async fn stop_recording(
             &mut self,
             request: impl tonic::IntoRequest<super::StopRecordingRequest>,
@@ -14855,8 +14856,8 @@ pub mod recording_service_server {
             tonic::Response<super::StartRecordingResponse>,
             tonic::Status,
         >;
-        /// Ends a recording, which is kept until it is deleted, its world is deleted, or the server ends. One that has ended
-        /// stays as it is.
+        /// Ends a recording, which is kept until it or its world is deleted; without a data directory, until the server ends.
+        /// One that has ended stays as it is.
         async fn stop_recording(
             &self,
             request: tonic::Request<super::StopRecordingRequest>,

@@ -83,8 +83,8 @@ class RecordingServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def StopRecording(self, request, context):
-        """Ends a recording, which is kept until it is deleted, its world is deleted, or the server ends. One that has ended
-        stays as it is.
+        """Ends a recording, which is kept until it or its world is deleted; without a data directory, until the server ends.
+        One that has ended stays as it is.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

@@ -39,8 +39,8 @@ class RecordingServiceStub:
     StartRecording: _grpc.UnaryUnaryMultiCallable[_recording_pb2.StartRecordingRequest, _recording_pb2.StartRecordingResponse]
     """Begins a recording. RESOURCE_EXHAUSTED when there are as many as there may be."""
     StopRecording: _grpc.UnaryUnaryMultiCallable[_recording_pb2.StopRecordingRequest, _recording_pb2.StopRecordingResponse]
-    """Ends a recording, which is kept until it is deleted, its world is deleted, or the server ends. One that has ended
-    stays as it is.
+    """Ends a recording, which is kept until it or its world is deleted; without a data directory, until the server ends.
+    One that has ended stays as it is.
     """
     GetRecording: _grpc.UnaryUnaryMultiCallable[_recording_pb2.GetRecordingRequest, _recording_pb2.GetRecordingResponse]
     """One recording."""
@@ -64,8 +64,8 @@ class RecordingServiceAsyncStub(RecordingServiceStub):
     StartRecording: _aio.UnaryUnaryMultiCallable[_recording_pb2.StartRecordingRequest, _recording_pb2.StartRecordingResponse]  # type: ignore[assignment]
     """Begins a recording. RESOURCE_EXHAUSTED when there are as many as there may be."""
     StopRecording: _aio.UnaryUnaryMultiCallable[_recording_pb2.StopRecordingRequest, _recording_pb2.StopRecordingResponse]  # type: ignore[assignment]
-    """Ends a recording, which is kept until it is deleted, its world is deleted, or the server ends. One that has ended
-    stays as it is.
+    """Ends a recording, which is kept until it or its world is deleted; without a data directory, until the server ends.
+    One that has ended stays as it is.
     """
     GetRecording: _aio.UnaryUnaryMultiCallable[_recording_pb2.GetRecordingRequest, _recording_pb2.GetRecordingResponse]  # type: ignore[assignment]
     """One recording."""
@@ -98,8 +98,8 @@ class RecordingServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _recording_pb2.StopRecordingRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_recording_pb2.StopRecordingResponse, _abc.Awaitable[_recording_pb2.StopRecordingResponse]]:
-        """Ends a recording, which is kept until it is deleted, its world is deleted, or the server ends. One that has ended
-        stays as it is.
+        """Ends a recording, which is kept until it or its world is deleted; without a data directory, until the server ends.
+        One that has ended stays as it is.
         """
 
     @_abc_1.abstractmethod

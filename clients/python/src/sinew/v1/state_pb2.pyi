@@ -360,8 +360,8 @@ class WatchWorldRequest(_message.Message):
     world: _builtins.str
     """World: resource name `worlds/{world}`."""
     resume_tick: _builtins.int
-    """Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
-    is no longer held. Absent: from now.
+    """Continues after this tick: frames that are still held come first, those before them are simulated again as far back
+    as the past of the world goes (`GetHistory`). OUT_OF_RANGE (`RESUME_EXPIRED`) before that. Absent: from now.
     """
     @_builtins.property
     def view(self) -> Global___View:

@@ -1351,8 +1351,9 @@ export type FigureFeedback = Message<"sinew.v1.FigureFeedback"> & {
   resyncCount: bigint;
 
   /**
-   * How far the stream is behind because its world leaves ticks out, ms; contained in `playout_delay_ms`. It is played
-   * in world time, never faster than the body moves, and begins anew when it is 2 s behind.
+   * How far the stream is behind because its world leaves ticks out, or because it took another one over in the middle
+   * of a walk, ms; contained in `playout_delay_ms`. It is played in world time, never faster than the body moves, and
+   * begins anew when it is 2 s behind.
    *
    * @generated from field: double behind_ms = 18;
    */

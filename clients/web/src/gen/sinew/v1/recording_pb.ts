@@ -502,8 +502,8 @@ export const RecordingService: GenService<{
     output: typeof StartRecordingResponseSchema;
   },
   /**
-   * Ends a recording, which is kept until it is deleted, its world is deleted, or the server ends. One that has ended
-   * stays as it is.
+   * Ends a recording, which is kept until it or its world is deleted; without a data directory, until the server ends.
+   * One that has ended stays as it is.
    *
    * @generated from rpc sinew.v1.RecordingService.StopRecording
    */

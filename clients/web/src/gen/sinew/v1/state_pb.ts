@@ -225,8 +225,8 @@ export type WatchWorldRequest = Message<"sinew.v1.WatchWorldRequest"> & {
   view?: View | undefined;
 
   /**
-   * Continues after this tick: frames that are still held come first. OUT_OF_RANGE (`RESUME_EXPIRED`) when the next one
-   * is no longer held. Absent: from now.
+   * Continues after this tick: frames that are still held come first, those before them are simulated again as far back
+   * as the past of the world goes (`GetHistory`). OUT_OF_RANGE (`RESUME_EXPIRED`) before that. Absent: from now.
    *
    * @generated from field: optional int64 resume_tick = 3;
    */
