@@ -10,9 +10,10 @@ use sinew::sim::figure::{ControllerKind, Perturbation, StrengthScale};
 use sinew::sim::math::Vec3;
 use sinew::sim::motion::Clip;
 use sinew::sim::motion::builtin::builtin;
-use sinew::sim::rehearsal::{Problem, ProblemError, Rehearsal, Settings, rehearse};
+use sinew::sim::rehearsal::{Problem, ProblemError, Reference, Rehearsal, Settings, rehearse};
 use sinew::sim::world::{
-    Drive, FigureKey, FigureSetup, RehearsedMotion, RehearsedPlayback, World, WorldParams,
+    ClipPlayback, Drive, FigureKey, FigureSetup, RehearsedMotion, RehearsedPlayback, World,
+    WorldParams,
 };
 use std::sync::{Arc, OnceLock};
 
@@ -27,7 +28,8 @@ fn few() -> Settings {
     let mut settings = Settings::default();
     let trials = &mut settings.trials;
     (trials.samples, trials.batch, trials.survivors) = (24, 12, 6);
-    (trials.polish, trials.patience, trials.budget) = (2, 2, 120);
+    (trials.polish.rounds, trials.patience, trials.budget) = (2, 2, 120);
+    trials.least_budget = 0;
     settings
 }
 
@@ -235,6 +237,56 @@ fn it_plays_wherever_its_origin_lies() {
         let is = world.figure(key).unwrap().state().posture.root_position;
         let off = (is - origin.point(wanted.posture.root_position)).norm();
         assert!(off < 1e-3, "{off} m");
+    }
+}
+
+#[test]
+fn a_figure_that_stands_plays_a_clip_as_it_was_rehearsed() {
+    let p = problem();
+    let whole = builtin(&p.body, "squat").unwrap();
+    let postures = (0..=45).map(|i| whole.sample(i as f64 / 60.0).posture);
+    let clip = Clip::from_postures("down", 60.0, postures.collect(), vec![[true; 2]; 46]).unwrap();
+    let found = rehearse(&p, &clip, &few(), 2, &[], &mut |_| true).unwrap();
+    assert!(found.completed(), "{:?}", found.errors);
+    let (motion, clip) = (Arc::new(found.motion), Arc::new(clip));
+    let played = |off: f64| {
+        let mut play = ClipPlayback::new(Arc::clone(&clip), 0.0);
+        (play.origin.x, play.origin.y, play.origin.yaw) = (2.0, -1.0, 2.0);
+        let mut state = State::at_rest(play.sample(0.0).posture);
+        state.posture.hinge[0] += off;
+        let mut world = World::new(WorldParams::default()).unwrap();
+        let setup = FigureSetup::new(Arc::clone(&p.body), ControllerKind::Modern, state);
+        let key = world.add_figure(setup).unwrap();
+        let figure = world.figure_mut(key).unwrap();
+        let origin = play.origin;
+        figure.play(play, false, 0.0);
+        figure.rehearse(Arc::clone(&motion));
+        world.step();
+        let rehearsed = is_rehearsed(&world, key);
+        (1..motion.ticks()).for_each(|_| world.step());
+        let end = world.figure(key).unwrap().state().posture.root_position;
+        let wanted = found.states.last().unwrap().posture.root_position;
+        (rehearsed, (end - origin.point(wanted)).norm())
+    };
+    let (rehearsed, off) = played(0.0);
+    assert!(rehearsed && off < 0.01, "{off} m");
+    assert!(!played(1.0).0, "it does not stand as the motion begins");
+}
+
+#[test]
+fn what_ends_at_rest_ends_with_a_stand_and_what_does_not_does_not() {
+    let (p, settings) = (problem(), few());
+    let still = squat(&p.body).posture(0).to_owned();
+    let still = Clip::from_postures("still", 60.0, vec![still; 31], vec![[true; 2]; 31]).unwrap();
+    let of = |clip: &Clip| Reference::new(&p, clip, &settings.rest).unwrap();
+    let (stands, goes) = (of(&still), of(&slide(&p.body)));
+    let ticks = |s: f64| (s * 60.0f64).round() as usize;
+    let [before, after] = [settings.rest.settling, settings.rest.after].map(ticks);
+    assert_eq!(stands.recorded, [before, before + 30]);
+    assert_eq!(stands.ticks(), before + 30 + after);
+    assert_eq!((goes.recorded, goes.ticks()), ([0, 40], 40));
+    for end in [&stands.targets[0], stands.targets.last().unwrap()] {
+        assert!(end.velocity.iter().all(|v| v.abs() < 1e-9));
     }
 }
 

@@ -135,7 +135,7 @@ pub struct RehearseArgs {
 pub(super) struct Forms {
     /// What it is judged by: as recorded and as prepared.
     pub reference: Reference,
-    /// What is rehearsed: its feet locked, nothing else.
+    /// What is rehearsed.
     pub as_recorded: Arc<Clip>,
 }
 
@@ -282,7 +282,7 @@ fn read(args: &RehearseArgs, body: &Body) -> Result<(String, Forms)> {
         recorded: Arc::new(fitted(Preparation::NONE)?.clip),
         prepared: clip,
     };
-    let as_recorded = Arc::new(fitted(AS_RECORDED)?.clip);
+    let as_recorded = Arc::new(fitted(Preparation::REHEARSED)?.clip);
     Ok((
         prepared.name,
         Forms {
@@ -291,14 +291,6 @@ fn read(args: &RehearseArgs, body: &Body) -> Result<(String, Forms)> {
         },
     ))
 }
-
-/// What is rehearsed: feet that stand do not slide, and nothing else is changed.
-pub(super) const AS_RECORDED: Preparation = Preparation {
-    lock_feet: true,
-    balance: false,
-    ends: false,
-    walk_runs: false,
-};
 
 /// The forecast of plain tracking, with the loads that are carried.
 fn forecast_of(conditions: &Conditions, clip: &Clip) -> Forecast {
@@ -360,6 +352,9 @@ fn processor_time() -> Option<Duration> {
     None
 }
 
+/// How long a strip goes on after the recording, s.
+const AFTER: f64 = 1.0;
+
 /// A row of frames of one run.
 fn row(
     conditions: &Conditions,
@@ -368,7 +363,7 @@ fn row(
     frames: usize,
     title: String,
 ) -> Result<Drawing> {
-    let seconds = reference.recorded.duration();
+    let seconds = reference.recorded.duration() + AFTER;
     let ticks = (seconds * conditions.world.rate_hz).round().max(1.0) as u64;
     let shown = evenly_spaced(ticks, frames);
     let mut all = Vec::new();

@@ -85,7 +85,7 @@ pub struct RehearsalReport {
     pub completed: bool,
     /// When it did, s.
     pub lost_at_s: Option<f64>,
-    /// Length of the motion, s.
+    /// Length of the recording, s.
     pub duration_s: f64,
     /// Mean distance of the segment origins from the recording, mm, until it was lost.
     pub global_mm: f64,
@@ -105,7 +105,7 @@ pub struct RehearsalReport {
     pub hardest_dof: String,
     /// See `hardest_dof`.
     pub hardest_share: f64,
-    /// Ticks of the motion.
+    /// Ticks of the motion, with the ways in and out.
     pub motion_ticks: u64,
     /// Ticks that were simulated.
     pub ticks: u64,
@@ -132,7 +132,7 @@ impl From<&Rehearsal> for RehearsalReport {
         Self {
             completed: r.completed(),
             lost_at_s: r.errors.lost_at.map(short),
-            duration_s: short(r.motion.duration()),
+            duration_s: short(r.recorded),
             global_mm: short(1e3 * r.errors.global),
             root_relative_mm: short(1e3 * r.errors.from_root),
             help_ns: short(r.help.impulse),
@@ -249,7 +249,7 @@ pub fn problem(
 
 /// Follows a clip in the easiest way that keeps it: never more than 0.5 m from the recording (PHC's rule).
 ///
-/// * `as_recorded`: the recording with its feet locked and nothing else done to it.
+/// * `as_recorded`: the recording with its feet locked and with ways in and out, and nothing else done to it.
 /// * `go_on`: told how far a rehearsal is; `false` stops it.
 ///
 /// # Errors
@@ -283,7 +283,9 @@ pub fn follow(
             motion: None,
         });
     }
-    let problem = problem(conditions, options)?;
+    let mut problem = problem(conditions, options)?;
+    let ends = [f64::NEG_INFINITY, f64::INFINITY];
+    problem.stands = Some(ends.map(|t| reference.prepared.sample(t).posture));
     let (settings, threads) = (&options.settings, options.threads);
     let rehearsal = rehearse(&problem, as_recorded, settings, threads, &[], go_on)?;
     let report = RehearsalReport::from(&rehearsal);

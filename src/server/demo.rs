@@ -89,7 +89,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
         world
             .call(origin, move |s| {
                 s.create_figure(Some(name.to_owned()), settings, built)?;
-                s.play(name, MOTION, clip, playback, &who)?;
+                s.play(name, MOTION, (clip, &[]), playback, &who)?;
                 s.perturb(&crate_in_hands)
             })
             .await?;

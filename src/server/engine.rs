@@ -137,6 +137,27 @@ pub fn forecast(body: &Body, clip: &Clip) -> ForecastInfo {
     }
 }
 
+/// How a file is read, and how its motion is prepared.
+pub(super) fn options(
+    name: &str,
+    reading: &BvhReading,
+    preparation: Preparation,
+) -> RetargetOptions {
+    let defaults = RetargetOptions::default();
+    RetargetOptions {
+        name: name.to_owned(),
+        floor: reading.floor.unwrap_or(defaults.floor),
+        cutoff_hz: reading.cutoff_hz.unwrap_or(defaults.cutoff_hz),
+        file: FileFacts {
+            unit_m: reading.unit_m,
+            up: reading.z_up.map(|z| if z { UpAxis::Z } else { UpAxis::Y }),
+            rate_hz: reading.rate_hz,
+        },
+        preparation,
+        ..defaults
+    }
+}
+
 /// Retargets a file to a body. The clip keeps the place and heading of the recording.
 ///
 /// # Errors
@@ -149,24 +170,16 @@ pub fn retarget(
     tempo: f64,
     stop: &dyn Fn() -> bool,
 ) -> Result<(Clip, ReadingReport), RetargetError> {
-    let defaults = RetargetOptions::default();
-    let options = RetargetOptions {
-        name: name.to_owned(),
-        floor: reading.floor.unwrap_or(defaults.floor),
-        cutoff_hz: reading.cutoff_hz.unwrap_or(defaults.cutoff_hz),
-        tempo,
-        file: FileFacts {
-            unit_m: reading.unit_m,
-            up: reading.z_up.map(|z| if z { UpAxis::Z } else { UpAxis::Y }),
-            rate_hz: reading.rate_hz,
-        },
-        preparation: Preparation {
-            lock_feet: reading.lock_feet.unwrap_or(defaults.preparation.lock_feet),
-            // What is uploaded is simulated, and measured strength does not run.
-            walk_runs: reading.walk_runs.unwrap_or(true),
-            ..defaults.preparation
-        },
+    let defaults = Preparation::default();
+    let preparation = Preparation {
+        lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
+        // What is uploaded is simulated, and measured strength does not run.
+        walk_runs: reading.walk_runs.unwrap_or(true),
         ..defaults
+    };
+    let options = RetargetOptions {
+        tempo,
+        ..options(name, reading, preparation)
     };
     let out = retarget_unless(bvh, body, &options, stop)?;
     let r = out.report;
@@ -563,6 +576,7 @@ pub fn playback(
         looped,
         origin,
         way_in: None,
+        rehearsed: None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::config::Config;
 use super::engine::{self, BUILTIN_NAMES, Clip};
+use super::rehearsals::Rehearsed;
 use super::shares::check_part;
 use super::workers::Turn;
 use crate::sim::body::{Body, Posture};
@@ -10,7 +11,7 @@ use crate::sim::retarget::TEMPI;
 use crate::wire::convert::body::{NAMED, by_id};
 use crate::wire::pb;
 use crate::wire::status::Fault;
-use crate::wire::types::{BodyRef, ClipInfo, MotionSource};
+use crate::wire::types::{BodyRef, ClipInfo, FollowSettings, MotionSource};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
@@ -112,6 +113,8 @@ struct Stored {
     bytes: u64,
     /// Prepared for bodies by the last parts of their names.
     prepared: Mutex<HashMap<(String, Manner), Arc<Clip>>>,
+    /// Rehearsed for figures, the latest last.
+    rehearsed: Mutex<Vec<Arc<Rehearsed>>>,
 }
 
 /// A clip that is to be stored.
@@ -123,6 +126,8 @@ pub struct NewClip {
     pub display_name: String,
     /// Whose it is; `None`: everybody's.
     pub owner: Option<Arc<str>>,
+    /// How far it may go so that a figure keeps to it.
+    pub follow: FollowSettings,
 }
 
 /// Clips by the last parts of their names.
@@ -136,6 +141,8 @@ pub struct Clips {
 
 /// Bytes of a prepared frame: posture, velocity and acceleration.
 const FRAME_BYTES: u64 = (size_of::<Posture>() + 2 * 45 * 8 + 8) as u64;
+/// Figures that one clip is kept rehearsed for.
+const MAX_REHEARSED: usize = 16;
 /// Bodies and manners that one clip is kept prepared for.
 const MAX_PREPARED: usize = 16;
 
@@ -163,6 +170,7 @@ impl Clips {
                 report: None,
                 created: None,
                 forecast: None,
+                follow: FollowSettings::default(),
             };
             let key = (reference.id.clone(), Manner::recorded(false));
             let prepared = HashMap::from([(key, Arc::new(clip))]);
@@ -173,6 +181,7 @@ impl Clips {
                     source: None,
                     bytes: 0,
                     prepared: Mutex::new(prepared),
+                    rehearsed: Mutex::default(),
                 }),
             );
         }
@@ -286,6 +295,7 @@ impl Clips {
             report: report.map(Arc::new),
             created: Some(SystemTime::now()),
             forecast: Some(Arc::new(forecast)),
+            follow: new.follow,
         };
         Ok((info, clip))
     }
@@ -342,6 +352,7 @@ impl Clips {
                 (reference.id.clone(), Manner::recorded(false)),
                 Arc::new(clip),
             )])),
+            rehearsed: Mutex::default(),
         };
         held.insert(id, Arc::new(stored));
         metrics::gauge!("sinew_clips").set(held.len() as f64);
@@ -375,6 +386,7 @@ impl Clips {
             report: None,
             created,
             forecast: None,
+            follow: new.follow,
         };
         let mut held = locked(&self.held);
         self.room(&held, &new, bytes)?;
@@ -383,6 +395,7 @@ impl Clips {
             source: Some(source),
             bytes,
             prepared: Mutex::default(),
+            rehearsed: Mutex::default(),
         };
         held.insert(id, Arc::new(stored));
         metrics::gauge!("sinew_clips").set(held.len() as f64);
@@ -416,6 +429,7 @@ impl Clips {
                 source: Some(source),
                 bytes: stored.bytes,
                 prepared: Mutex::new(prepared),
+                rehearsed: Mutex::new(locked(&stored.rehearsed).clone()),
             };
             held.insert(id.to_owned(), Arc::new(stored));
         }
@@ -535,6 +549,37 @@ impl Clips {
         Ok(prepared.entry(key).or_insert(clip).clone())
     }
 
+    /// What a clip was made of; `None` for one that comes with the server.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn source(&self, id: &str) -> Result<Option<MotionSource>, Fault> {
+        Ok(self.stored(id)?.source.clone())
+    }
+
+    /// Keeps a rehearsal of a clip, in the place of one for the same figure.
+    ///
+    /// # Errors
+    /// There is no clip of that name any more, or no room.
+    pub fn keep_rehearsed(&self, id: &str, rehearsed: Rehearsed) -> Result<(), Fault> {
+        let stored = self.stored(id)?;
+        let held = locked(&self.held);
+        self.space(&held, rehearsed.bytes())?;
+        let mut all = locked(&stored.rehearsed);
+        all.retain(|r| !r.performer.is_like(&rehearsed.performer));
+        if all.len() >= MAX_REHEARSED {
+            all.remove(0);
+        }
+        all.push(Arc::new(rehearsed));
+        Ok(())
+    }
+
+    /// The rehearsals of a clip.
+    pub fn rehearsed(&self, id: &str) -> Vec<Arc<Rehearsed>> {
+        let stored = self.stored(id);
+        stored.map_or_else(|_| Vec::new(), |s| locked(&s.rehearsed).clone())
+    }
+
     /// A clip that is already prepared for a body and the manner of playing it.
     pub fn ready(&self, id: &str, body_id: &str, manner: Manner) -> Option<Arc<Clip>> {
         let stored = self.stored(id).ok()?;
@@ -549,7 +594,10 @@ impl Stored {
     /// same frames, is counted as often.
     fn used(&self) -> u64 {
         let prepared = locked(&self.prepared);
-        self.bytes + prepared.values().map(|c| clip_bytes(c)).sum::<u64>()
+        let rehearsed = locked(&self.rehearsed);
+        self.bytes
+            + prepared.values().map(|c| clip_bytes(c)).sum::<u64>()
+            + rehearsed.iter().map(|r| r.bytes()).sum::<u64>()
     }
 }
 
@@ -594,6 +642,7 @@ mod tests {
                     id: Some("w".into()),
                     display_name: String::new(),
                     owner: None,
+                    follow: FollowSettings::default(),
                 },
                 &man,
                 &body,

@@ -18,6 +18,7 @@ pub mod operations;
 pub mod persistence;
 pub mod progress;
 pub mod recordings;
+pub mod rehearsals;
 pub mod repeats;
 pub mod shares;
 pub mod simulate;

@@ -25,7 +25,7 @@ use super::worlds::WorldHandle;
 use crate::wire::convert::{body, figure, motion, new_id, obstacle, world};
 use crate::wire::pb;
 use crate::wire::status::Fault;
-use crate::wire::types::{ControlInfo, KeptLease, WorldUpdate};
+use crate::wire::types::{ControlInfo, FollowSettings, KeptLease, WorldUpdate};
 use prost::Message;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -781,6 +781,11 @@ fn restore_clip(app: &Arc<App>, clip: &ClipRecord) -> Result<(), Fault> {
         id: Some(clip.name.clone()),
         display_name: shown.display_name.clone(),
         owner: described.owner.map(Into::into),
+        follow: motion::follow_settings(
+            request.follow,
+            request.max_help_weights,
+            FollowSettings::default(),
+        )?,
     };
     app.clips.restore(new, &shown, &reference, source)
 }

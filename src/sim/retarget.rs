@@ -94,6 +94,15 @@ impl Preparation {
         walk_runs: false,
     };
 
+    /// What is rehearsed: feet that stand do not slide, it begins and ends standing if that can be, and nothing else is
+    /// changed.
+    pub const REHEARSED: Self = Self {
+        lock_feet: true,
+        balance: false,
+        ends: true,
+        walk_runs: false,
+    };
+
     /// Everything; runs are walked if `walk_runs` says so.
     pub const fn walking(walk_runs: bool) -> Self {
         Self {

@@ -46,6 +46,7 @@ repeatable! {
     DeleteWorldRequest,
     ForkWorldRequest,
     PlayClipRequest,
+    RehearseClipRequest,
     ReleaseControlRequest,
     ResetFigureRequest,
     RestoreWorldRequest,

@@ -869,6 +869,69 @@ pub struct ClipInfo {
     pub created: Option<std::time::SystemTime>,
     /// What will come of it.
     pub forecast: Option<Arc<ForecastInfo>>,
+    /// How far it may go so that a figure keeps to it.
+    pub follow: FollowSettings,
+}
+
+/// How far it may go so that a figure keeps to a clip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Follow {
+    /// As it is.
+    Strict,
+    /// A rehearsal, by strength alone.
+    Rehearsed,
+    /// A rehearsal with as little help as will do.
+    Assisted,
+}
+
+/// The same, with the bound of the help.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FollowSettings {
+    /// How far.
+    pub follow: Follow,
+    /// Largest force of the help over the weight.
+    pub most_help: f64,
+}
+
+impl Default for FollowSettings {
+    fn default() -> Self {
+        Self {
+            follow: Follow::Strict,
+            most_help: 0.3,
+        }
+    }
+}
+
+/// In which way a figure keeps to a clip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FollowWay {
+    /// As it is.
+    Tracked,
+    /// Rehearsed, by strength alone.
+    Rehearsed,
+    /// Rehearsed, with help.
+    Helped,
+    /// Not at all.
+    Lost,
+}
+
+/// What came of a rehearsal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RehearsalInfo {
+    /// In which way the figure keeps to the clip.
+    pub way: FollowWay,
+    /// Why not in an easier one.
+    pub reason: String,
+    /// When it is lost, s.
+    pub lost_at: Option<f64>,
+    /// Mean distance of the segments from the recording in the world, and with both pelvis origins in one place, m.
+    pub error: [f64; 2],
+    /// Impulse of the help, N·s; the same over weight × time; its largest force, N; share of the time with help.
+    pub help: [f64; 4],
+    /// The DOF that uses most of its strength, and that share.
+    pub hardest: (String, f64),
+    /// The budget stopped the search.
+    pub stopped: bool,
 }
 
 /// Verdict of a forecast.

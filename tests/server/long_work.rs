@@ -391,3 +391,101 @@ async fn events_tell_when_a_clip_begins_and_ends() {
     assert_eq!((told[0].0, told[0].2.as_str()), (ended, "clips/idle"));
     server.stop().await;
 }
+
+/// Stored as frames: a body that slides on its soles, faster than it could walk.
+fn slide(id: &str) -> pb::CreateClipRequest {
+    let mut clip = lift(id, 40);
+    if let Some(pb::create_clip_request::Source::Frames(source)) = &mut clip.source {
+        for (i, frame) in source.frames.iter_mut().enumerate() {
+            let root = frame.root.as_mut().unwrap();
+            root.position_m.as_mut().unwrap().x = 3.0 * i as f64 / 60.0;
+        }
+    }
+    clip.follow = pb::Follow::Assisted.into();
+    clip.max_help_weights = Some(0.2);
+    clip
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn clips_are_rehearsed_for_a_figure() {
+    let server = TestServer::start().await;
+    server.paused_world("studio").await;
+    server.figure("worlds/studio", "anna").await;
+    let rehearsal = |clip: &str, seconds: i64| pb::RehearseClipRequest {
+        clip: format!("clips/{clip}"),
+        figure: "worlds/studio/figures/anna".into(),
+        budget: Some(prost_types::Duration { seconds, nanos: 0 }),
+        ..Default::default()
+    };
+    // What is tracked as it is needs none.
+    let easy = server
+        .start_operation(Work::RehearseClip(rehearsal("wave", 60)))
+        .await;
+    let easy = server.wait_operation(&easy.name, 60).await;
+    let Some(Done::RehearseClip(done)) = &easy.result else {
+        panic!("{easy:?}");
+    };
+    let found = done.rehearsal.as_ref().unwrap();
+    assert_eq!(found.way(), pb::FollowWay::Tracked, "{found:?}");
+    assert!(found.lost_at_s.is_none() && found.help_newton_seconds == 0.0);
+
+    let clip = server.client.motions().create_clip(slide("slide")).await;
+    let clip = clip.unwrap().into_inner().clip.unwrap();
+    assert_eq!(clip.follow(), pb::Follow::Assisted);
+    assert_eq!(clip.max_help_weights, 0.2);
+    let hard = server
+        .client
+        .motions()
+        .rehearse_clip(rehearsal("slide", 2))
+        .await;
+    let hard = hard.unwrap().into_inner().rehearsal.unwrap();
+    assert!(hard.way() != pb::FollowWay::Tracked && !hard.reason.is_empty());
+    let weight = 9.81 * 90.0;
+    assert!(hard.help_peak_newtons <= 0.2 * weight, "{hard:?}");
+    let kept = matches!(hard.way(), pb::FollowWay::Helped | pb::FollowWay::Rehearsed);
+    assert_eq!(kept, hard.lost_at_s.is_none());
+
+    // Each wrong field is named, and who is not there is not found.
+    let wrong = |change: fn(&mut pb::RehearseClipRequest)| {
+        let mut request = rehearsal("wave", 60);
+        change(&mut request);
+        let motion = server.client.motions();
+        async move { motion.clone().rehearse_clip(request).await.unwrap_err() }
+    };
+    for (refused, field) in [
+        (wrong(|r| r.follow = 9).await, "follow"),
+        (
+            wrong(|r| r.max_help_weights = Some(f64::NAN)).await,
+            "max_help_weights",
+        ),
+        (
+            wrong(|r| r.max_help_weights = Some(2.1)).await,
+            "max_help_weights",
+        ),
+        (
+            wrong(|r| r.budget = Some(Default::default())).await,
+            "budget",
+        ),
+        (wrong(|r| r.clip = "wave".into()).await, "clip"),
+        (wrong(|r| r.figure = "anna".into()).await, "figure"),
+    ] {
+        assert_eq!(refusal(&refused).2, field);
+    }
+    for absent in [
+        wrong(|r| r.clip = "clips/none".into()).await,
+        wrong(|r| r.figure = "worlds/studio/figures/bob".into()).await,
+    ] {
+        assert_eq!(absent.code(), Code::NotFound);
+    }
+
+    // One that is given up ends.
+    let long = server
+        .start_operation(Work::RehearseClip(rehearsal("slide", 600)))
+        .await;
+    let request = pb::CancelOperationRequest {
+        name: long.name.clone(),
+    };
+    let cancelled = server.client.operations().cancel_operation(request).await;
+    let cancelled = cancelled.unwrap().into_inner().operation.unwrap();
+    assert_eq!(cancelled.state(), pb::OperationState::Cancelled);
+}

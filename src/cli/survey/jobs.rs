@@ -7,7 +7,7 @@
 use super::SurveyArgs;
 use super::corpus::{Entry, Source};
 use crate::cli::args::LoadSpec;
-use crate::cli::rehearse::{AS_RECORDED, FollowArg};
+use crate::cli::rehearse::FollowArg;
 use crate::evaluate::follow::{Found, RehearsalOptions, follow};
 use crate::evaluate::forecast::{Forecast, forecast};
 use crate::evaluate::noise::noisy;
@@ -294,7 +294,8 @@ fn job(
         }
         if let Some(motion) = &plan.found.motion {
             let reference = &plan.fitted.reference;
-            let mut conditions = conditions(args, body, reference, (bytes, copy), 0.0);
+            let lead = motion.lead_in();
+            let mut conditions = conditions(args, body, reference, (bytes, copy), lead);
             conditions.rehearsed = Some(RehearsedRun {
                 motion: Arc::clone(motion),
                 from: disturbed(args, motion.start(), seed(bytes, copy, 0)),
@@ -389,7 +390,7 @@ fn plan(args: &SurveyArgs, body: &Arc<Body>, source: &Source, bytes: &[u8]) -> R
         Source::File(_) => {
             let bvh = Bvh::parse(bytes).context("not a BVH file")?;
             let options = RetargetOptions {
-                preparation: AS_RECORDED,
+                preparation: Preparation::REHEARSED,
                 ..RetargetOptions::default()
             };
             Arc::new(
@@ -418,8 +419,8 @@ fn plan(args: &SurveyArgs, body: &Arc<Body>, source: &Source, bytes: &[u8]) -> R
 /// What is known of a clip whose way was found; with pushes it is run once more.
 fn planned(args: &SurveyArgs, body: &Arc<Body>, plan: &Plan, bytes: &[u8]) -> Result<Measured> {
     let reference = &plan.fitted.reference;
-    let lead = match plan.found.motion {
-        Some(_) => 0.0,
+    let lead = match &plan.found.motion {
+        Some(motion) => motion.lead_in(),
         None => reference.prepared.lead_in(),
     };
     let mut conditions = conditions(args, body, reference, (bytes, 0), lead);

@@ -90,7 +90,7 @@ pub struct Conditions {
     pub perturbations: Vec<Perturbation>,
     /// Streams the recording through a preparation window of this length, s, instead of playing the prepared motion.
     pub live_window: Option<f64>,
-    /// Plays this instead, from the first frame of the recording on: world time 0 is there.
+    /// Plays this instead: world time 0 is the beginning of its way in.
     pub rehearsed: Option<RehearsedRun>,
 }
 
@@ -142,7 +142,7 @@ pub fn watched(
         (Some(run), _) => {
             let play = RehearsedPlayback::new(Arc::clone(&run.motion), 0.0);
             let length = run.motion.duration() + AFTER;
-            (Drive::Rehearsed(play), 0.0, length)
+            (Drive::Rehearsed(play), run.motion.lead_in(), length)
         }
         (None, Some(window)) => {
             let drive = stream(c, reference, window);

@@ -5,13 +5,19 @@ use crate::server::access::caller::Caller;
 use crate::server::access::roles::{Role, Roles};
 use crate::server::library::NewClip;
 use crate::server::progress::Progress;
+use crate::server::rehearsals::{self, Rehearsed, Score};
 use crate::server::shares::Client;
+use crate::server::tick::command::Origin;
 use crate::server::workers::Turn;
-use crate::wire::convert::{body, clip_name, control, display_name, motion, new_id, page};
+use crate::wire::convert::{
+    body, clip_name, control, display_name, figure_name, motion, new_id, page,
+};
 use crate::wire::pb::{self, motion_service_server::MotionService};
 use crate::wire::status::Fault;
-use crate::wire::types::ClipInfo;
+use crate::wire::types::{ClipInfo, Follow, FollowSettings};
 use std::cell::Cell;
+use std::sync::Arc;
+use std::time::Instant;
 use tonic::{Request, Response, Status, Streaming};
 
 /// Whether a caller may see (`Viewer`) or forget (`Owner`) a clip: its own, those that come with the server, and those
@@ -54,6 +60,7 @@ pub(super) async fn create(
         id,
         display_name: display_name("display_name", &r.display_name)?,
         owner: known.then(|| caller.principal().clone()),
+        follow: motion::follow_settings(r.follow, r.max_help_weights, FollowSettings::default())?,
     };
     let reference = body::reference("body", &r.body, "profile", None)?;
     let max_bytes = api.config.max_clip_bytes;
@@ -93,8 +100,71 @@ pub(super) async fn create(
     Ok(pb::CreateClipResponse { clip: Some(clip) })
 }
 
+/// Rehearses a clip for a figure, and keeps what was found.
+pub(super) async fn rehearse(
+    api: &Api,
+    (caller, client): (&Caller, Client),
+    r: pb::RehearseClipRequest,
+    progress: Progress,
+) -> Result<pb::RehearseClipResponse, Fault> {
+    let id = clip_name("clip", &r.clip)?.to_owned();
+    let info = seen(api, caller, &id)?;
+    let settings = motion::follow_settings(r.follow, r.max_help_weights, info.follow)?;
+    let budget = motion::budget("budget", r.budget)?;
+    let (world, figure) = figure_name("figure", &r.figure)?;
+    let handle = api.enter_as(caller, Role::Viewer, world)?;
+    let figure = figure.to_owned();
+    let who = Origin {
+        client: caller.order.clone(),
+        sequence: 0,
+    };
+    let performer = handle.call(who, move |s| s.performer(&figure)).await?;
+    let app = api.0.clone();
+    let work = move |turn: &Turn| {
+        progress.tell(0.0, 1.0);
+        let begun = Instant::now();
+        let stop = || turn.stop();
+        let source = app.clips.source(&id)?;
+        let score = Score { id, source };
+        let mut go_on = |share: f64| {
+            progress.tell(share, 1.0);
+            begun.elapsed() < budget && !turn.stop()
+        };
+        let (info, found) = rehearsals::rehearse(&score, &performer, settings, &stop, &mut go_on)?;
+        if let Some(found) = found {
+            app.clips.keep_rehearsed(&score.id, found)?;
+        }
+        Ok(pb::RehearseClipResponse {
+            rehearsal: Some(motion::rehearsal_out(&info)),
+        })
+    };
+    api.simulations.run(&client, work).await
+}
+
+/// The rehearsals of a clip that may be played at this speed.
+fn rehearsed(api: &Api, id: &str, follow: Option<Follow>, speed: f64) -> Vec<Arc<Rehearsed>> {
+    if follow == Some(Follow::Strict) || speed != 1.0 {
+        return Vec::new();
+    }
+    let mut all = api.clips.rehearsed(id);
+    all.retain(|r| !r.helps || follow != Some(Follow::Rehearsed));
+    all
+}
+
 #[tonic::async_trait]
 impl MotionService for Api {
+    async fn rehearse_clip(
+        &self,
+        request: Request<pb::RehearseClipRequest>,
+    ) -> Result<Response<pb::RehearseClipResponse>, Status> {
+        self.once(request, |api, request| async move {
+            let (client, caller) = (client(&request), caller(&request)?.clone());
+            let r = request.into_inner();
+            rehearse(&api, (&caller, client), r, Progress::default()).await
+        })
+        .await
+    }
+
     async fn create_clip(
         &self,
         request: Request<pb::CreateClipRequest>,
@@ -212,6 +282,8 @@ impl MotionService for Api {
             let caller = caller(&request)?;
             let who = control::single(caller.principal(), "control_token", &r.control_token)?;
             seen(&api, caller, &clip_id)?;
+            let follow = motion::follow("follow", r.follow)?;
+            let rehearsed = rehearsed(&api, &clip_id, follow, playback.speed);
             let (manner, rest) = api
                 .clips
                 .manner(&clip_id, playback.looped, playback.speed)?;
@@ -231,7 +303,7 @@ impl MotionService for Api {
             };
             let start_time_s = handle
                 .call(origin(&request), move |s| {
-                    s.play(&figure, &clip_id, clip, playback, &who)
+                    s.play(&figure, &clip_id, (clip, &rehearsed), playback, &who)
                 })
                 .await?;
             Ok(pb::PlayClipResponse { start_time_s })

@@ -20,6 +20,7 @@ fn size(done: &Done) -> u64 {
         Done::Error(status) => prost::Message::encoded_len(status) as u64,
         Done::CreateClip(made) => prost::Message::encoded_len(made) as u64,
         Done::SimulateClip(done) => prost::Message::encoded_len(done) as u64,
+        Done::RehearseClip(done) => prost::Message::encoded_len(done) as u64,
     }
 }
 
@@ -78,8 +79,12 @@ impl OperationService for Api {
         self.once(request, |api, request| async move {
             let (client, caller) = (client(&request), caller(&request)?.clone());
             let work = request.into_inner().work;
-            let work =
-                work.ok_or_else(|| Fault::invalid("work", "must be create_clip or simulate_clip"))?;
+            let work = work.ok_or_else(|| {
+                Fault::invalid(
+                    "work",
+                    "must be create_clip, simulate_clip or rehearse_clip",
+                )
+            })?;
             if matches!(&work, Work::CreateClip(r) if r.validate_only) {
                 return Err(Fault::invalid(
                     "create_clip.validate_only",
@@ -103,6 +108,10 @@ impl OperationService for Api {
                                 .map(Done::SimulateClip)
                                 .map_err(|fault| fault.within("simulate_clip"))
                         }
+                        Work::RehearseClip(r) => clips::rehearse(&doer, who, r, progress)
+                            .await
+                            .map(Done::RehearseClip)
+                            .map_err(|fault| fault.within("rehearse_clip")),
                     }
                 },
                 size,

@@ -48,6 +48,8 @@ pub struct Spring {
 pub enum PelvisHelp<'a> {
     /// A spring towards its desired pose.
     Desired(&'a Assist, &'a TargetPair),
+    /// A pull towards its desired pose, worked out from where it is at the start of a substep.
+    Pull(Hold, &'a TargetPair),
     /// The help of a rehearsal, and a spring towards the path that the pelvis took there.
     Rehearsed(Hold, RootPath<'a>),
 }
@@ -60,6 +62,10 @@ impl PelvisHelp<'_> {
             Self::Desired(assist, target) => {
                 let s = f64::from(i) / f64::from(substeps);
                 assist.spring(target, state, s, dt, h)
+            }
+            Self::Pull(pull, target) => {
+                let s = f64::from(i) / f64::from(substeps);
+                pull.impulse(target, (s, dt), state, h)
             }
             Self::Rehearsed(hold, path) => hold.spring(path, i as usize, state, h),
         }
@@ -96,21 +102,39 @@ impl Assist {
 
     /// The spring of a substep of `h` s that begins at share `s` of the tick of `dt` s.
     pub fn spring(&self, target: &TargetPair, state: &State, s: f64, dt: f64, h: f64) -> Spring {
+        let Missing { off, rate } = Missing::of(target, state, s, dt);
+        Spring {
+            gain: self.stiffness,
+            rest: [
+                rate[0] + capped(off[0] * (RETURN / h), RETURN_RATE),
+                rate[1] + capped(off[1] * (RETURN / h), RETURN_SPEED),
+            ],
+            most: [self.most_moment * h, self.most_force * h],
+            given: None,
+        }
+    }
+}
+
+/// What the pelvis lacks to its desired motion: turn, rad, and way, m; and the rates that are desired, rad/s and m/s.
+pub(super) struct Missing {
+    pub off: [Vec3; 2],
+    pub rate: [Vec3; 2],
+}
+
+impl Missing {
+    /// At share `s` of the tick of `dt` s.
+    pub fn of(target: &TargetPair, state: &State, s: f64, dt: f64) -> Self {
         let (from, to) = (&target.now.posture, &target.next.posture);
         let path = to.root_position - from.root_position;
         let turn = (to.root_rotation * from.root_rotation.conjugate()).log();
         let wanted = from.root_position + path * s;
         let wanted_rotation = crate::sim::math::Quat::exp(turn * s) * from.root_rotation;
-        let off = wanted - state.posture.root_position;
-        let off_rotation = (wanted_rotation * state.posture.root_rotation.conjugate()).log();
-        Spring {
-            gain: self.stiffness,
-            rest: [
-                turn * (1.0 / dt) + capped(off_rotation * (RETURN / h), RETURN_RATE),
-                path * (1.0 / dt) + capped(off * (RETURN / h), RETURN_SPEED),
+        Self {
+            off: [
+                (wanted_rotation * state.posture.root_rotation.conjugate()).log(),
+                wanted - state.posture.root_position,
             ],
-            most: [self.most_moment * h, self.most_force * h],
-            given: None,
+            rate: [turn * (1.0 / dt), path * (1.0 / dt)],
         }
     }
 }

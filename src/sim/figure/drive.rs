@@ -1,7 +1,7 @@
 //! Where a figure's desired motion comes from.
 
 use super::plan_task::{PlanRequest, PlanTask};
-use super::rehearsed::RehearsedPlayback;
+use super::rehearsed::{RehearsedMotion, RehearsedPlayback};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::clip::{Clip, PlanarTransform};
@@ -31,6 +31,9 @@ pub struct ClipPlayback {
     /// is not like its beginning.
     #[serde(with = "crate::sim::saved::definition::option")]
     pub way_in: Option<Arc<TransitionClip>>,
+    /// What a figure that stands where the clip begins does instead: a rehearsal of it, in the same coordinates.
+    #[serde(with = "crate::sim::saved::definition::option")]
+    pub rehearsed: Option<Arc<RehearsedMotion>>,
 }
 
 /// A stream that is prepared while it comes.
@@ -76,6 +79,7 @@ impl ClipPlayback {
             looped: false,
             origin: PlanarTransform::default(),
             way_in: None,
+            rehearsed: None,
         }
     }
 

@@ -10,7 +10,7 @@
 //! its end, and when the figure is farther from the path than the hold can mend; then the figure stands, recovers or
 //! falls as after any other motion.
 
-use super::assist::{PelvisHelp, Spring};
+use super::assist::{Missing, PelvisHelp, Spring, capped};
 use super::tick::TickContext;
 use super::torque_step::MotorCommand;
 use crate::sim::body::topology::DOF_COUNT;
@@ -22,6 +22,27 @@ use crate::sim::motion::{Target, TargetPair};
 use crate::sim::setup::ControlParams;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
+
+/// How near to its beginning a figure has to be to begin a rehearsed motion: it stands as that does, as steadily as a
+/// body stands.
+struct Near {
+    /// Turn of the pelvis, rad.
+    turn: f64,
+    /// Its place, m.
+    place: f64,
+    /// Root of the sum of the squared errors of all joints, rad.
+    joints: f64,
+    /// Velocity of the pelvis, m/s.
+    speed: f64,
+}
+
+/// See [`Near`].
+const NEAR: Near = Near {
+    turn: 0.2,
+    place: 0.08,
+    joints: 0.6,
+    speed: 0.25,
+};
 
 /// Longest rehearsed motion, ticks: ten minutes at 60 a second.
 pub const MAX_TICKS: usize = 36_000;
@@ -145,6 +166,34 @@ impl Hold {
             && self.most.iter().all(|x| (0.0..=1e5).contains(x))
     }
 
+    /// What it gives at once, towards a desired pose, in a substep of `h` s that begins at share `s` of the tick of
+    /// `dt` s: as an impulse that does not depend on how the substep ends, so that nothing has to be solved with it.
+    pub(super) fn impulse(
+        &self,
+        target: &TargetPair,
+        (s, dt): (f64, f64),
+        state: &State,
+        h: f64,
+    ) -> Spring {
+        let Missing { off, rate } = Missing::of(target, state, s, dt);
+        let v = &state.velocity;
+        let now = [
+            Vec3::from_array([v[0], v[1], v[2]]),
+            Vec3::from_array([v[3], v[4], v[5]]),
+        ];
+        let ([mass, inertia], w) = (self.inertia, self.frequency);
+        let pull = |k: usize, inertia: f64, most: f64| {
+            let pull = (off[k] * (w * w) + (rate[k] - now[k]) * (2.0 * w)) * inertia;
+            capped(pull, most) * h
+        };
+        Spring {
+            gain: [0.0; 2],
+            rest: [Vec3::zero(); 2],
+            most: [0.0; 2],
+            given: Some([pull(0, inertia, self.most[1]), pull(1, mass, self.most[0])]),
+        }
+    }
+
     /// The spring of substep `i`, of `h` s. Implicit: its force is that at the end of the substep.
     pub(super) fn spring(&self, path: &RootPath<'_>, i: usize, state: &State, h: f64) -> Spring {
         let step = path.step(i);
@@ -185,9 +234,11 @@ pub struct RehearsedMotion {
     pub motors: MotorLaw,
     /// What leads back to its path; with largest force and moment 0 nothing does.
     pub hold: Hold,
+    /// Ticks before the first frame of the recording.
+    pub lead: usize,
     /// Ticks of a window.
     pub window: usize,
-    /// The recording at the start of each tick, and at the end of the last one.
+    /// The recording with the ways in and out at the start of each tick, and at the end of the last one.
     pub desired: Vec<Target>,
     /// What is added to the desired joints, rad, by window.
     pub offsets: Vec<JointOffset>,
@@ -227,6 +278,11 @@ impl RehearsedMotion {
         self.ticks() as f64 * self.stage.dt
     }
 
+    /// Length of the way into the recording, s.
+    pub fn lead_in(&self) -> f64 {
+        self.lead as f64 * self.stage.dt
+    }
+
     /// The state that it was rehearsed from.
     pub fn start(&self) -> State {
         self.desired[0].state()
@@ -238,6 +294,7 @@ impl RehearsedMotion {
             stage,
             motors,
             hold,
+            lead,
             window,
             desired,
             offsets,
@@ -253,6 +310,7 @@ impl RehearsedMotion {
             && within(motors.horizon, [1e-3, 2.0])
             && within(motors.saturation_speed, [1e-4, 100.0])
             && hold.is_valid()
+            && *lead <= n
             && (1..=n).contains(window)
             && offsets.len() == n.div_ceil(*window)
             && steps == Some(path.len())
@@ -339,6 +397,18 @@ impl RehearsedPlayback {
         let acts =
             hold.most.iter().any(|m| *m > 0.0) || given.into_iter().any(|p| p != Vec3::zero());
         acts.then_some(PelvisHelp::Rehearsed(hold, path))
+    }
+
+    /// True if a figure in `state` is where it begins: what is left the hold can mend.
+    pub(super) fn begins_at(&self, state: &State) -> bool {
+        let first = self.sample(self.start);
+        let off = state.posture.difference(&first.posture);
+        let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let rate: [f64; 3] = std::array::from_fn(|i| state.velocity[3 + i] - first.velocity[3 + i]);
+        length(&off[..3]) < NEAR.turn
+            && length(&off[3..6]) < NEAR.place
+            && length(&off[6..]) < NEAR.joints
+            && length(&rate) < NEAR.speed
     }
 
     /// True if a figure in `state` at the start of the tick at `t` can go on with it in this world.

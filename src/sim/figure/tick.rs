@@ -207,6 +207,7 @@ impl Figure {
         self.begin_next_if_ready(world);
         self.outcome.told_late = LatePlans::default();
         self.update_get_up(world.time());
+        self.begin_rehearsal_if_due(world);
     }
 
     /// Stage 2: desired motion of the tick.

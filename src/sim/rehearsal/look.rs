@@ -23,6 +23,8 @@ pub struct Look {
     pub lowest: [f64; 4],
 }
 
+/// √(l/g) of a body that falls over, s, l being the height of its centre of mass.
+const FALL_TIME: f64 = 0.32;
 const ENDS: [&[SegmentId]; 4] = [&[L_HAND], &[R_HAND], &[L_FOOT, L_TOES], &[R_FOOT, R_TOES]];
 
 /// Looks at states of one body. Allocates nothing.
@@ -56,7 +58,32 @@ impl Looker {
     }
 }
 
+/// How far a body is from where it should be.
+#[derive(Clone, Copy, Debug)]
+pub struct Off {
+    /// Mean distance of the segment origins, m.
+    pub mean: f64,
+    /// Distance on the floor between the places over the feet that the centres of mass are on their way to, m.
+    pub balance: f64,
+}
+
 impl Look {
+    /// How far this is from another look.
+    pub fn off(&self, other: &Self) -> Off {
+        let apart = self.heading_for() - other.heading_for();
+        Off {
+            mean: self.distance(other),
+            balance: (apart.x * apart.x + apart.y * apart.y).sqrt(),
+        }
+    }
+
+    /// Where the centre of mass will be over the middle between the feet if nothing stops it (Hof et al. 2005,
+    /// *The condition for dynamic stability*: the extrapolated centre of mass), m.
+    fn heading_for(&self) -> Vec3 {
+        let middle = (self.at[L_FOOT.index()] + self.at[R_FOOT.index()]) * 0.5;
+        self.com - middle + self.velocity * FALL_TIME
+    }
+
     /// Mean distance of the segment origins from those of another look, m.
     pub fn distance(&self, other: &Self) -> f64 {
         let all = self.at.iter().zip(&other.at).map(|(a, b)| (*a - *b).norm());
@@ -103,5 +130,6 @@ impl Cost {
             + over(square(should.velocity - is.velocity), size.velocity)
             + over(square(should.spin - is.spin), size.spin)
             + over(feet[0] + feet[1], size.feet)
+            + over(level(should.heading_for() - is.heading_for()), size.balance)
     }
 }

@@ -14,6 +14,7 @@ pub mod look;
 pub mod problem;
 pub mod random;
 pub mod result;
+mod sample;
 pub mod search;
 pub mod settings;
 pub mod simulator;

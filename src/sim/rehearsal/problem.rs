@@ -1,8 +1,10 @@
 //! What is rehearsed: a body with its strength and loads, a stage, and a recording.
 
-use super::look::{Look, Looker};
-use crate::sim::body::{Body, Links, State};
+use super::look::{Look, Looker, Off};
+use super::settings::{Rest, Settings};
+use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::figure::rehearsed::{MAX_TICKS, Stage};
+use crate::sim::math::curve::smootherstep;
 use crate::sim::motion::{Clip, Target, TargetPair};
 use crate::sim::setup::StrengthScale;
 use crate::sim::strength::{MuscleScale, Strength};
@@ -25,6 +27,9 @@ pub struct Problem {
     pub stage: Stage,
     /// Largest force of the help over the weight; 0: none.
     pub most_help: f64,
+    /// Postures in which the body stands before a recording that begins slowly, and after one that ends so. Without
+    /// them it is its first and its last posture, which need not balance.
+    pub stands: Option<[Posture; 2]>,
     /// Which random numbers.
     pub seed: u64,
 }
@@ -55,6 +60,7 @@ impl Problem {
             friction,
             stage,
             most_help: 0.0,
+            stands: None,
             seed: 1,
         }
     }
@@ -71,6 +77,10 @@ pub struct Reference {
     pub looks: Vec<Look>,
     /// How far it was raised, m.
     pub raised: f64,
+    /// First and last tick of the recording; before it and after it are the ways in and out.
+    pub recorded: [usize; 2],
+    /// Tick from which on the body is to stand.
+    stands_from: usize,
 }
 
 /// A floor is where the lowest point of the body is in the lowest fifth of the time: what touches now and then
@@ -78,27 +88,64 @@ pub struct Reference {
 const FLOOR_SHARE: usize = 5;
 
 impl Reference {
-    /// Of a clip from its first to its last sample, without the ways in and out, raised so that what is lowest is on
-    /// the floor.
+    /// Of a clip with its ways in and out, raised so that what is lowest is on the floor. A motion that begins or ends
+    /// slowly comes from rest and goes to rest, and stands there for a while.
     ///
     /// # Errors
     /// It is too short or too long.
-    pub fn new(problem: &Problem, clip: &Clip) -> Result<Self, ProblemError> {
+    pub fn new(problem: &Problem, clip: &Clip, rest: &Rest) -> Result<Self, ProblemError> {
         let Problem {
             body, links, stage, ..
         } = problem;
-        let ticks = (clip.duration() / stage.dt + 1e-6).floor();
-        if !(1.0..=MAX_TICKS as f64).contains(&ticks) {
+        let dt = stage.dt;
+        let whole = |seconds: f64| (seconds / dt + 1e-6).floor().clamp(0.0, 1e6) as usize;
+        let (lead, ticks) = (whole(clip.lead_in() + 0.999 * dt), whole(clip.duration()));
+        let out = whole(clip.lead_out() + 0.999 * dt);
+        let count = lead + ticks + out + whole(rest.settling) + whole(rest.after);
+        if ticks < 1 || count > MAX_TICKS {
             return Err(ProblemError::Length {
                 seconds: clip.duration(),
-                least: stage.dt,
-                most: MAX_TICKS as f64 * stage.dt,
+                least: dt,
+                most: MAX_TICKS as f64 * dt,
             });
         }
-        let mut targets: Vec<Target> = (0..=ticks as usize)
-            .map(|i| clip.sample((i as f64 * stage.dt).min(clip.duration() - 1e-9)))
+        // What ends in full motion has its velocity up to its end.
+        let last = clip.duration() + clip.lead_out() - 1e-9;
+        let mut targets: Vec<Target> = (0..=lead + ticks + out)
+            .map(|i| clip.sample(((i as f64 - lead as f64) * dt).min(last)))
             .collect();
         let mut looker = Looker::default();
+        let mut slow =
+            |t: &Target| looker.look(body, links, &t.state()).velocity.norm() < rest.speed;
+        let ends = [&targets[0], &targets[targets.len() - 1]].map(&mut slow);
+        let [first, last] = [targets[0].clone(), targets[targets.len() - 1].clone()];
+        let stand = |end: &Target, k: usize| match &problem.stands {
+            Some(stands) if near(&end.posture, &stands[k]) => stands[k],
+            _ => end.posture,
+        };
+        let mut before = 0;
+        let mut stands_from = usize::MAX;
+        if ends[1] {
+            stands_from = targets.len() - 1 + whole(rest.settling);
+            targets.extend(to_rest(
+                &last,
+                &stand(&last, 1),
+                (rest, dt),
+                whole(rest.after),
+            ));
+        }
+        if ends[0] && lead == 0 {
+            // The same backwards in time.
+            before = whole(rest.settling);
+            let mut way = to_rest(
+                &backwards(first.clone()),
+                &stand(&first, 0),
+                (rest, dt),
+                before,
+            );
+            way.reverse();
+            targets.splice(0..0, way.into_iter().map(backwards));
+        }
         let mut low: Vec<f64> = targets
             .iter()
             .map(|t| {
@@ -131,6 +178,8 @@ impl Reference {
             pairs,
             looks,
             raised,
+            recorded: [before + lead, before + lead + ticks],
+            stands_from: stands_from.saturating_add(before),
         })
     }
 
@@ -139,8 +188,59 @@ impl Reference {
         self.pairs.len()
     }
 
+    /// True if a body that is so far off at the end of tick `k − 1` keeps the motion, as these settings have it.
+    pub fn is_kept(&self, off: &Off, k: usize, settings: &Settings) -> bool {
+        // Written so that no number is not kept.
+        off.mean <= settings.kept && (k < self.stands_from || off.balance <= settings.rest.steady)
+    }
+
     /// The state that it begins in.
     pub fn start(&self) -> State {
         self.targets[0].state()
     }
+}
+
+/// Largest way of the pelvis, m, and turn of a joint, rad, that a body makes on its feet to balance.
+const SHIFT: f64 = 0.15;
+const BEND: f64 = 0.6;
+
+/// True if a body that is at rest in `a` stands in `b` without a step: what is between them is balance.
+fn near(a: &Posture, b: &Posture) -> bool {
+    let off = a.difference(b);
+    let way = off[3..6].iter().map(|x| x * x).sum::<f64>().sqrt();
+    way < SHIFT && off[..3].iter().chain(&off[6..]).all(|x| x.abs() < BEND)
+}
+
+/// The same instant of the motion backwards in time.
+fn backwards(mut target: Target) -> Target {
+    target.velocity = target.velocity.map(|v| -v);
+    target
+}
+
+/// So many ticks after `end`: what moves comes to rest, and the body to a stand.
+fn to_rest(end: &Target, stand: &Posture, (rest, dt): (&Rest, f64), count: usize) -> Vec<Target> {
+    let posture = |k: usize| {
+        let t = k as f64 * dt;
+        let left = (1.0 - t / rest.stopping).max(0.0);
+        let mut p = end.posture;
+        p.integrate(
+            &end.velocity,
+            rest.stopping * (1.0 - left * left * left) / 3.0,
+        );
+        let way = p.difference(stand);
+        p.integrate(&way, smootherstep(t / rest.settling));
+        p
+    };
+    let postures: Vec<Posture> = (0..=count + 1).map(posture).collect();
+    let rate = |a: &Posture, b: &Posture, h: f64| a.difference(b).map(|x| x / h);
+    let of = |w: &[Posture]| {
+        let (before, after) = (rate(&w[0], &w[1], dt), rate(&w[1], &w[2], dt));
+        Target {
+            posture: w[1],
+            velocity: rate(&w[0], &w[2], 2.0 * dt),
+            acceleration: std::array::from_fn(|i| (after[i] - before[i]) / dt),
+            planted: end.planted,
+        }
+    };
+    postures.windows(3).map(of).collect()
 }

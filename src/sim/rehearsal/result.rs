@@ -17,6 +17,8 @@ pub const LOST: f64 = 0.5;
 pub struct Rehearsal {
     /// The motion, to be played. If it is lost, it is what was found until then.
     pub motion: RehearsedMotion,
+    /// Length of the recording in it, s.
+    pub recorded: f64,
     /// The states that it ran through: at the start of each tick, and at the end of the last.
     pub states: Vec<State>,
     /// How near it came.
@@ -32,9 +34,10 @@ pub struct Rehearsal {
 /// Distances from the recording, whose lowest points are on the floor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
-    /// When the mean distance of the segment origins first exceeded [`LOST`], s.
+    /// When the mean distance of the segment origins first exceeded [`LOST`], s on the recording's clock: negative on
+    /// the way in.
     pub lost_at: Option<f64>,
-    /// Mean distance of the segment origins, m, over the motion or until it was lost.
+    /// Mean distance of the segment origins, m, over the recording or until it was lost.
     pub global: f64,
     /// The same with both pelvis origins in one place, m.
     pub from_root: f64,
@@ -91,7 +94,7 @@ pub fn rehearse(
     before: &[Action],
     go_on: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Rehearsal, ProblemError> {
-    let reference = Reference::new(problem, clip)?;
+    let reference = Reference::new(problem, clip, &settings.rest)?;
     let mut search = Search::new(problem, &reference, settings, threads, before);
     let count = reference.ticks().div_ceil(window_ticks(problem, settings));
     let Path {
@@ -102,12 +105,12 @@ pub fn rehearse(
         ..
     } = search.run(go_on);
     actions.resize(count, Action::NONE);
-    let mut sim = Simulator::new(problem, settings.motors);
+    let mut sim = Simulator::new(problem, settings);
     let mut stage = Playing {
         problem,
         reference: &reference,
         window: window_ticks(problem, settings),
-        kept: settings.kept,
+        settings,
         sim: &mut sim,
     };
     if reached == count && !stopped {
@@ -135,7 +138,7 @@ struct Playing<'a> {
     problem: &'a Problem,
     reference: &'a Reference,
     window: usize,
-    kept: f64,
+    settings: &'a Settings,
     sim: &'a mut Simulator,
 }
 
@@ -164,11 +167,12 @@ impl Playing<'_> {
             let (is, should) = (self.sim.look(&state), &self.reference.looks[k + 1]);
             let mean = is.distance(should);
             e.farthest = e.farthest.max(mean);
+            let [first, last] = self.reference.recorded;
             if mean > LOST || mean.is_nan() {
-                e.lost_at
-                    .get_or_insert((k + 1) as f64 * self.problem.stage.dt);
+                let at = (k + 1) as f64 - first as f64;
+                e.lost_at.get_or_insert(at * self.problem.stage.dt);
             }
-            if e.lost_at.is_none() {
+            if e.lost_at.is_none() && (first..=last).contains(&(k + 1)) {
                 let shift = should.at[0] - is.at[0];
                 let off = is.at.iter().zip(&should.at);
                 let from_root = off.map(|(a, b)| (*b - *a - shift).norm()).sum::<f64>();
@@ -193,8 +197,8 @@ impl Playing<'_> {
             let action = &actions[k / self.window];
             self.sim
                 .tick(&mut state, &self.reference.pairs[k], action, |_| ());
-            let mean = self.sim.look(&state).distance(&self.reference.looks[k + 1]);
-            if mean > self.kept || mean.is_nan() {
+            let off = self.sim.look(&state).off(&self.reference.looks[k + 1]);
+            if !self.reference.is_kept(&off, k + 1, self.settings) {
                 return None;
             }
         }
@@ -266,13 +270,16 @@ impl Rehearsal {
                 most: [share.force * weight, share.moment * weight * p.height],
                 reach: share.reach,
             },
+            lead: reference.recorded[0],
             window: window_ticks(problem, settings),
             desired: reference.targets.clone(),
             offsets: actions.iter().map(|a| a.offset).collect(),
             path: run.path,
         };
+        let [first, last] = reference.recorded;
         Self {
             motion,
+            recorded: (last - first) as f64 * problem.stage.dt,
             states: run.states,
             errors: run.errors,
             help,

@@ -8,21 +8,11 @@
 
 use super::look::Cost;
 use super::problem::{Problem, Reference};
-use super::random::Random;
-use super::settings::{SAMPLED, Settings};
+use super::sample::{
+    D, HELP, Node, Vector, Window, action, chosen, pool_score, simulate_all, vector,
+};
+use super::settings::Settings;
 use super::simulator::{Action, Simulator};
-use crate::sim::body::State;
-use crate::sim::figure::rehearsed::JointOffset;
-
-/// Sampled joints, and the help.
-const D: usize = SAMPLED.len() + 1;
-/// Index of the help.
-const HELP: usize = D - 1;
-/// What a sample draws.
-type Vector = [f64; D];
-
-/// Cost of a sample that was not simulated to the end of its window: it is no beginning of another one.
-const DROPPED: f64 = 1e9;
 
 /// How far a search has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,37 +42,6 @@ pub struct Path {
     pub rounds: usize,
     /// The caller stopped it.
     pub stopped: bool,
-}
-
-/// A state that a sample led to.
-#[derive(Clone, Debug)]
-struct Node {
-    state: State,
-    /// Index in the layer before.
-    parent: usize,
-    vector: Vector,
-    /// Cost of its window, what it is chosen by, and sum of the costs of its path.
-    cost: f64,
-    score: f64,
-    total: f64,
-}
-
-fn action(v: &Vector) -> Action {
-    let mut offset = [0.0; crate::sim::body::DOF_COUNT];
-    for (d, x) in SAMPLED.into_iter().zip(v) {
-        offset[d] = *x;
-    }
-    Action {
-        offset: JointOffset(offset),
-        help: v[HELP],
-    }
-}
-
-fn vector(action: &Action) -> Vector {
-    std::array::from_fn(|k| match k {
-        HELP => action.help,
-        k => action.offset.0[SAMPLED[k]],
-    })
 }
 
 /// A search, between rounds.
@@ -126,114 +85,6 @@ impl std::fmt::Debug for Search<'_> {
     }
 }
 
-/// What a thread needs for its share of a window.
-#[derive(Clone, Copy)]
-struct Window<'a> {
-    settings: &'a Settings,
-    reference: &'a Reference,
-    cost: &'a Cost,
-    parents: &'a [Node],
-    index: usize,
-    ticks: [usize; 2],
-    mean: &'a Vector,
-    spread: &'a Vector,
-    first: &'a Vector,
-    most_help: f64,
-    /// Numbers that its random numbers are for.
-    what: [u64; 2],
-}
-
-impl Window<'_> {
-    /// What sample `i` adds, and the parent that it begins from.
-    fn draw(&self, i: usize) -> (Vector, usize) {
-        let n = self.parents.len();
-        let [seed, round] = self.what;
-        let mut random = Random::of([seed, round, self.index as u64, i as u64]);
-        let mut v = *self.mean;
-        // The mean from every parent; then others, from better parents more often.
-        if i < n {
-            return (v, i);
-        }
-        let u = random.unit();
-        let parent = (n as f64 * u * u.sqrt()) as usize;
-        // Some far, most near, and only a part of the joints at a time.
-        let draw = &self.settings.draw;
-        let far = if random.unit() < draw.far_share {
-            draw.far
-        } else {
-            draw.near
-        };
-        for k in 0..HELP {
-            if random.unit() < draw.part {
-                v[k] += far * self.spread[k] * random.normal();
-            }
-        }
-        if self.most_help > 0.0 {
-            let help = self.mean[HELP];
-            v[HELP] = match random.unit() {
-                u if u < 0.25 => 0.0,
-                u if u < 0.5 => 0.6 * help,
-                _ => help + far * self.spread[HELP] * random.normal().abs(),
-            };
-            v[HELP] = v[HELP].clamp(0.0, self.most_help);
-            if v[HELP] < self.settings.help.least {
-                v[HELP] = 0.0;
-            }
-        }
-        (v, parent.min(n - 1))
-    }
-
-    /// Simulates a sample.
-    fn simulate(&self, sim: &mut Simulator, i: usize, give_up: f64) -> Node {
-        let (vector, parent) = self.draw(i);
-        let from = &self.parents[parent];
-        let action = action(&vector);
-        let mut state = from.state;
-        let [first, end] = self.ticks;
-        let (mut sum, mut last) = (0.0, 0.0);
-        for k in first..end {
-            sim.tick(&mut state, &self.reference.pairs[k], &action, |_| ());
-            if !state.is_finite() {
-                return from.child(from.state, parent, vector, DROPPED);
-            }
-            let (cost, distance) = sim.cost(self.cost, &state, self.reference, k + 1);
-            last = cost;
-            sum += last;
-            if last > give_up || distance > self.settings.kept {
-                return from.child(state, parent, vector, DROPPED);
-            }
-        }
-        let mean = sum / (end - first) as f64;
-        let effort: f64 = (0..HELP)
-            .filter(|k| self.first[*k] > 0.0)
-            .map(|k| (vector[k] / self.first[k]) * (vector[k] / self.first[k]))
-            .sum();
-        let end = self.settings.end;
-        let mut cost = (1.0 - end) * mean + end * last + self.settings.effort * effort;
-        if vector[HELP] > 0.0 {
-            let (share, price) = (vector[HELP] / self.most_help, &self.settings.help);
-            cost += price.any + price.full * share;
-        }
-        let cost = if cost.is_finite() { cost } else { DROPPED };
-        let mut node = from.child(state, parent, vector, cost);
-        node.score = cost + self.settings.trials.past * from.score;
-        node
-    }
-}
-
-impl Node {
-    fn child(&self, state: State, parent: usize, vector: Vector, cost: f64) -> Self {
-        Self {
-            state,
-            parent,
-            vector,
-            cost,
-            score: cost,
-            total: self.total + cost,
-        }
-    }
-}
-
 impl<'a> Search<'a> {
     /// A search that nothing is known of yet, or that begins with what was found before. As many threads as there are
     /// simulators; their number does not matter to what is found.
@@ -273,7 +124,7 @@ impl<'a> Search<'a> {
             first,
             layers: vec![vec![root]],
             sims: (0..threads.max(1))
-                .map(|_| Simulator::new(problem, settings.motors))
+                .map(|_| Simulator::new(problem, settings))
                 .collect(),
             state: Standing {
                 round: 0,
@@ -301,9 +152,9 @@ impl<'a> Search<'a> {
     /// no: it is asked after each window.
     pub fn run(&mut self, go_on: &mut dyn FnMut(&Progress) -> bool) -> Path {
         let trials = self.settings.trials;
-        let budget = trials.budget * self.reference.ticks() as u64;
+        let budget = (trials.budget * self.reference.ticks() as u64).max(trials.least_budget);
         let mut limit = budget;
-        while self.state.polished < trials.polish && !self.state.stopped {
+        while self.state.polished < trials.polish.rounds && !self.state.stopped {
             if self.ticks() > limit || self.state.stuck >= trials.patience {
                 if self.state.helps || self.problem.most_help == 0.0 || self.reached_end() {
                     break;
@@ -392,7 +243,8 @@ impl<'a> Search<'a> {
         let parents = self.layers.last().expect("there is a first one");
         let worst = parents.iter().map(|p| p.cost).fold(0.0, f64::max);
         let give_up = trials.drop * worst + trials.lost;
-        let window = Window {
+        let mut window = Window {
+            pool: f64::INFINITY,
             settings: self.settings,
             reference: self.reference,
             cost: &self.cost,
@@ -410,13 +262,23 @@ impl<'a> Search<'a> {
             what: [self.problem.seed, self.state.round as u64],
         };
         let mut all: Vec<Node> = Vec::new();
-        while all.len() < trials.samples {
-            let batch = all.len()..(all.len() + trials.batch).min(trials.samples);
+        let most = match self.state.polished {
+            0 => trials.samples,
+            _ => trials.polish.samples.min(trials.samples),
+        };
+        let enough = trials.enough;
+        // What led to a loss is not easy, however it looks.
+        let rewound = w < self.state.reached && !self.reached_end();
+        let mut best = f64::INFINITY;
+        while all.len() < most {
+            let batch = all.len()..(all.len() + trials.batch).min(most);
+            window.pool = pool_score(&all);
             all.extend(simulate_all(&window, &mut self.sims, batch, give_up));
-            let cheapest = all.iter().map(|n| n.cost).fold(f64::INFINITY, f64::min);
-            // What led to a loss is not easy, however it looks.
-            let rewound = w < self.state.reached && !self.reached_end();
-            if cheapest < trials.easy && !rewound {
+            let least = |of: fn(&Node) -> f64| all.iter().map(of).fold(f64::INFINITY, f64::min);
+            let (cheapest, score) = (least(|n| n.cost), least(|n| n.score));
+            let gained = score < (1.0 - enough.gain) * best;
+            best = score;
+            if !rewound && (cheapest < enough.easy || (cheapest < enough.calm && !gained)) {
                 break;
             }
         }
@@ -492,64 +354,4 @@ impl<'a> Search<'a> {
 /// Ticks of a window.
 pub(super) fn window_ticks(problem: &Problem, settings: &Settings) -> usize {
     ((settings.window / problem.stage.dt).round() as usize).max(1)
-}
-
-/// Simulates samples, in order, on all simulators.
-fn simulate_all(
-    window: &Window<'_>,
-    sims: &mut [Simulator],
-    batch: std::ops::Range<usize>,
-    give_up: f64,
-) -> Vec<Node> {
-    let share = batch.len().div_ceil(sims.len());
-    let part = |t: usize| {
-        let first = (batch.start + t * share).min(batch.end);
-        first..(first + share).min(batch.end)
-    };
-    if let [sim] = sims {
-        return part(0).map(|i| window.simulate(sim, i, give_up)).collect();
-    }
-    std::thread::scope(|scope| {
-        let handles: Vec<_> = sims
-            .iter_mut()
-            .enumerate()
-            .map(|(t, sim)| {
-                let mine = part(t);
-                scope.spawn(move || {
-                    mine.map(|i| window.simulate(sim, i, give_up))
-                        .collect::<Vec<_>>()
-                })
-            })
-            .collect();
-        let done = handles.into_iter().map(|h| h.join());
-        done.flat_map(|all| all.expect("simulating does not panic"))
-            .collect()
-    })
-}
-
-/// Those that live on, of all that came to the end of the window: ranks spread by a cube over the better 60 %,
-/// so that a few come from farther down.
-fn chosen(mut all: Vec<Node>, survivors: usize) -> Vec<Node> {
-    all.retain(|n| n.cost < DROPPED);
-    all.sort_by(|a, b| a.score.total_cmp(&b.score));
-    let pool = (all.len() * 6).div_ceil(10);
-    let keep = survivors.min(pool);
-    let mut next = 0;
-    let ranks: Vec<usize> = (0..keep)
-        .map(|i| {
-            let share = i as f64 / keep as f64;
-            let rank = ((share * share * share * pool as f64) as usize).max(next);
-            next = rank + 1;
-            rank
-        })
-        .collect();
-    let mut ranks = ranks.into_iter().peekable();
-    let mut out = Vec::with_capacity(keep);
-    for (i, node) in all.into_iter().enumerate() {
-        if ranks.peek() == Some(&i) {
-            ranks.next();
-            out.push(node);
-        }
-    }
-    out
 }

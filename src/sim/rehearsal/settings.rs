@@ -1,7 +1,9 @@
 //! All numbers of a rehearsal, with units and why. One set for all clips.
 
+use crate::sim::body::Body;
 use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::figure::rehearsed::MotorLaw;
+use crate::sim::figure::rehearsed::{Hold, MotorLaw};
+use crate::sim::motion::GRAVITY;
 
 /// Joint DOFs that a sample offsets: waist, thorax, shoulders without rotation, hips, knees, ankles without rotation.
 /// What the others do is too light, or too far out, to change how the body moves.
@@ -17,6 +19,8 @@ pub struct Settings {
     pub motors: MotorLaw,
     /// Length of a window, s: about what a body takes to change its momentum.
     pub window: f64,
+    /// How a motion begins from a stand and comes to one.
+    pub rest: Rest,
     /// Standard deviation of offsets in the first round, rad.
     pub spread: Spread,
     /// Errors that cost 1.
@@ -36,6 +40,24 @@ pub struct Settings {
     pub hold: HoldShare,
     /// Help.
     pub help: HelpPrice,
+}
+
+/// Standing before and after a recording that begins or ends so: a second of it shows whether a body comes to a
+/// stand or only falls past it, and a figure that stands can begin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rest {
+    /// Speed of the centre of mass below which a recording counts as standing, m/s: a body stops within a hand's
+    /// breadth from there.
+    pub speed: f64,
+    /// What moves comes to rest within this time, s, before the first frame and after the last.
+    pub stopping: f64,
+    /// It comes to a stand that balances, on the feet as they are, within this time, s.
+    pub settling: f64,
+    /// From then on it does not stand where the place over the feet that its centre of mass is on its way to is farther
+    /// than this from that of the stand, m: half a foot's length.
+    pub steady: f64,
+    /// How long there is standing after the last frame, s, that included.
+    pub after: f64,
 }
 
 /// Standard deviations by part of the body, rad. A tenth of a radian of the trunk moves the centre of mass by some
@@ -85,6 +107,8 @@ pub struct Sizes {
     pub spin: f64,
     /// Place of the feet under the centre of mass, m: what decides the balance.
     pub feet: f64,
+    /// Place over the feet that the centre of mass is on its way to, m: a third of a foot's length.
+    pub balance: f64,
 }
 
 impl Sizes {
@@ -101,6 +125,8 @@ impl Sizes {
 /// changes all at once is seldom better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
+    /// States that live on from which the mean is tried as it is, the best first.
+    pub from: usize,
     /// Share of the joints that a sample changes.
     pub part: f64,
     /// Share of the samples that go far.
@@ -113,15 +139,35 @@ pub struct Draw {
     pub least_spread: f64,
 }
 
+/// When the samples of a window are enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Enough {
+    /// The best one costs less than this.
+    pub easy: f64,
+    /// It costs less than this, and the last batch has brought its score down by less than `gain` of it.
+    pub calm: f64,
+    /// See `calm`.
+    pub gain: f64,
+}
+
+/// Rounds over a whole clip that is kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Polish {
+    /// Rounds.
+    pub rounds: usize,
+    /// Most samples of a window in them: the path is known, and what is near it is narrow.
+    pub samples: usize,
+}
+
 /// How much is tried.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trials {
     /// Samples of a window that is hard.
     pub samples: usize,
-    /// Samples that are always taken; more only while the best costs more than `easy`.
+    /// Samples that are always taken, and so many more at a time until that is enough.
     pub batch: usize,
-    /// Window cost below which no more samples are taken.
-    pub easy: f64,
+    /// When no more samples are taken.
+    pub enough: Enough,
     /// Samples that live on.
     pub survivors: usize,
     /// Window cost from which a window counts as lost: every error about three times the size that costs 1.
@@ -132,12 +178,14 @@ pub struct Trials {
     pub back: usize,
     /// Part of the score of its past that a sample is chosen by.
     pub past: f64,
-    /// Rounds over the whole clip once its end is reached.
-    pub polish: usize,
+    /// What follows once the end is reached.
+    pub polish: Polish,
     /// Rounds without getting farther after which the search gives up, or begins to help.
     pub patience: usize,
-    /// Most ticks for each tick of the clip.
+    /// Most ticks for each tick of the clip, before help is tried and after.
     pub budget: u64,
+    /// The same for the whole clip at least: short clips are whole efforts, and cost seconds.
+    pub least_budget: u64,
 }
 
 /// The hold, for a body of any size.
@@ -155,9 +203,36 @@ pub struct HoldShare {
     pub reach: f64,
 }
 
+/// How a body is helped: a pull on the pelvis towards its desired pose, as a critically damped spring, cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HelpLaw {
+    /// Angular frequency, rad/s: all the help that is allowed at some centimetres.
+    pub frequency: f64,
+    /// Largest moment over largest force times stature.
+    pub moment: f64,
+    /// Moment of inertia about the pelvis over mass times stature squared.
+    pub inertia: f64,
+}
+
+impl HelpLaw {
+    /// For a body, with so much force over its weight.
+    pub fn pull(&self, body: &Body, most: f64) -> Hold {
+        let p = body.profile;
+        let force = most * p.mass * GRAVITY;
+        Hold {
+            frequency: self.frequency,
+            inertia: [p.mass, self.inertia * p.mass * p.height * p.height],
+            most: [force, self.moment * force * p.height],
+            reach: f64::INFINITY,
+        }
+    }
+}
+
 /// What help costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HelpPrice {
+    /// How it acts.
+    pub law: HelpLaw,
     /// Cost of a window with all the help that is allowed.
     pub full: f64,
     /// Cost of a window with any: help in few windows rather than a little in all.
@@ -176,6 +251,13 @@ impl Default for Settings {
                 saturation_speed: 0.1,
             },
             window: 0.1,
+            rest: Rest {
+                speed: 0.3,
+                stopping: 0.3,
+                settling: 0.5,
+                steady: 0.12,
+                after: 1.0,
+            },
             spread: Spread {
                 waist: 0.12,
                 thorax: 0.06,
@@ -192,11 +274,13 @@ impl Default for Settings {
                 velocity: 0.35,
                 spin: 6.0,
                 feet: 0.12,
+                balance: 0.08,
             },
             effort: 0.02,
             end: 0.6,
             kept: 0.4,
             draw: Draw {
+                from: 12,
                 part: 0.6,
                 far_share: 0.25,
                 far: 1.6,
@@ -204,17 +288,25 @@ impl Default for Settings {
                 least_spread: 0.2,
             },
             trials: Trials {
-                samples: 256,
-                batch: 64,
-                easy: 3.0,
+                samples: 192,
+                batch: 48,
+                enough: Enough {
+                    easy: 3.0,
+                    calm: 15.0,
+                    gain: 0.1,
+                },
                 survivors: 32,
                 lost: 60.0,
                 drop: 3.0,
                 back: 5,
                 past: 0.4,
-                polish: 3,
+                polish: Polish {
+                    rounds: 3,
+                    samples: 96,
+                },
                 patience: 4,
                 budget: 400,
+                least_budget: 60_000,
             },
             hold: HoldShare {
                 frequency: 8.0,
@@ -224,6 +316,11 @@ impl Default for Settings {
                 reach: 0.5,
             },
             help: HelpPrice {
+                law: HelpLaw {
+                    frequency: 8.0,
+                    moment: 0.25,
+                    inertia: 0.05,
+                },
                 full: 6.0,
                 any: 0.5,
                 least: 0.004,

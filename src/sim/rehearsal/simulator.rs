@@ -1,16 +1,16 @@
 //! One figure reduced to what a rehearsal needs: a state in, a state out. The parts are those of a figure's tick, in
 //! the same order, so that a motion runs in a world as it does here.
 
-use super::look::{Cost, Look, Looker};
+use super::look::{Cost, Look, Looker, Off};
 use super::problem::{Problem, Reference};
+use super::settings::{HelpLaw, Settings};
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, State};
 use crate::sim::contact::Tissue;
 use crate::sim::control::Law;
 use crate::sim::dynamics::Terms;
-use crate::sim::figure::assist::{Assist, PelvisHelp};
-use crate::sim::figure::params::assist::LARGEST_FORCE;
+use crate::sim::figure::assist::PelvisHelp;
 use crate::sim::figure::plan_task::Planning;
 use crate::sim::figure::rehearsed::{JointOffset, MotorLaw, RootStep};
 use crate::sim::figure::tick::TickContext;
@@ -48,6 +48,7 @@ pub struct Simulator {
     muscles: MuscleScale,
     world: TickContext,
     motors: MotorLaw,
+    help: HelpLaw,
     law: Law,
     terms: Terms,
     stepper: TorqueStepper,
@@ -58,8 +59,9 @@ pub struct Simulator {
 }
 
 impl Simulator {
-    /// Of this problem, with motors that follow by `motors`.
-    pub fn new(problem: &Problem, motors: MotorLaw) -> Self {
+    /// Of this problem.
+    pub fn new(problem: &Problem, settings: &Settings) -> Self {
+        let motors = settings.motors;
         let none = [0.0; DOF_COUNT];
         let mut stepper = TorqueStepper::new(problem.friction);
         stepper.set_accuracy(Accuracy::REHEARSED);
@@ -77,6 +79,7 @@ impl Simulator {
             },
             law: motors.law(problem.stage.dt),
             motors,
+            help: settings.help.law,
             terms: Terms::default(),
             stepper,
             available: TorqueRange {
@@ -93,26 +96,28 @@ impl Simulator {
         self.looker.look(&self.body, &self.links, state)
     }
 
-    /// What it costs to be in `state` at the end of tick `k − 1`, and the mean distance from the recording, m.
+    /// What it costs to be in `state` at the end of tick `k − 1`, and how far that is from the recording.
     pub fn cost(
         &mut self,
         cost: &Cost,
         state: &State,
         reference: &Reference,
         k: usize,
-    ) -> (f64, f64) {
+    ) -> (f64, Off) {
         let is = self.look(state);
         let (wanted, should) = (&reference.targets[k].posture, &reference.looks[k]);
         let cost = cost.of((&state.posture, &is), (wanted, should));
-        (cost, is.distance(should))
+        (cost, is.off(should))
     }
 
-    /// Largest used share of the available torque in the last tick, by DOF.
+    /// Used share of the available torque in the last tick, by DOF: mean torque over the strength at its start, which
+    /// may have changed within the tick, so at most 1.
     pub fn utilisation(&self) -> [f64; DOF_COUNT] {
         let TorqueRange { lower, upper } = &self.available;
-        std::array::from_fn(|d| match self.stepper.forces.torque[d] {
-            t if t < 0.0 => t / lower[d],
-            t => t / upper[d],
+        std::array::from_fn(|d| {
+            let torque = self.stepper.forces.torque[d];
+            let limit = if torque < 0.0 { lower[d] } else { upper[d] };
+            (torque / limit).min(1.0)
         })
     }
 
@@ -143,7 +148,7 @@ impl Simulator {
         let TorqueRange { lower, upper } = &mut self.available;
         strength.range(&angles, &rates, muscles, lower, upper);
         let command = self.motors.command(&self.law, body, state, &moved);
-        let assist = Assist::new(body, action.help / LARGEST_FORCE);
+        let pull = (action.help > 0.0).then(|| self.help.pull(body, action.help));
         let input = StepInput {
             body,
             links,
@@ -156,7 +161,7 @@ impl Simulator {
             forces: ExternalForces {
                 applied: &[],
                 bar: None,
-                assist: assist.as_ref().map(|a| PelvisHelp::Desired(a, target)),
+                assist: pull.map(|p| PelvisHelp::Pull(p, target)),
             },
             world,
         };

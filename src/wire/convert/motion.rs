@@ -4,8 +4,9 @@ use super::super::pb;
 use super::super::posture::{segment_of_bone, set_joint_rotation};
 use super::super::status::Fault;
 use super::super::types::{
-    BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, ForecastInfo,
-    ForecastVerdict, MotionSample, MotionSource, Playback, ReadingReport, Supply,
+    BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, Follow,
+    FollowSettings, FollowWay, ForecastInfo, ForecastVerdict, MotionSample, MotionSource, Playback,
+    ReadingReport, RehearsalInfo, Supply,
 };
 use super::names::{BODY, CLIP};
 use super::{
@@ -16,6 +17,7 @@ use crate::sim::body::topology::{BONE_NAMES, PARENT};
 use crate::sim::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
 use crate::sim::math::Quat;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Most frames in one batch.
 pub const MAX_BATCH_FRAMES: usize = 64;
@@ -545,6 +547,86 @@ pub fn clip_out(c: &ClipInfo, with_report: bool) -> pb::Clip {
             .as_ref()
             .filter(|_| with_report)
             .map(|f| forecast_out(f)),
+        follow: match c.follow.follow {
+            Follow::Strict => pb::Follow::Strict,
+            Follow::Rehearsed => pb::Follow::Rehearsed,
+            Follow::Assisted => pb::Follow::Assisted,
+        }
+        .into(),
+        max_help_weights: c.follow.most_help,
+    }
+}
+
+/// How far it may go so that a figure keeps to a clip; `None` if it is not given.
+pub fn follow(field: &str, value: i32) -> Result<Option<Follow>, Fault> {
+    match pb::Follow::try_from(value) {
+        Ok(pb::Follow::Unspecified) => Ok(None),
+        Ok(pb::Follow::Strict) => Ok(Some(Follow::Strict)),
+        Ok(pb::Follow::Rehearsed) => Ok(Some(Follow::Rehearsed)),
+        Ok(pb::Follow::Assisted) => Ok(Some(Follow::Assisted)),
+        Err(_) => Err(Fault::invalid(field, format!("{value} is not a choice"))),
+    }
+}
+
+/// Shortest and longest search of a rehearsal, and that of one that does not say.
+const BUDGET: [Duration; 3] = [
+    Duration::from_secs(1),
+    Duration::from_secs(3600),
+    Duration::from_secs(600),
+];
+
+/// How long a rehearsal may search.
+pub fn budget(field: &str, given: Option<prost_types::Duration>) -> Result<Duration, Fault> {
+    let [least, most, unless] = BUDGET;
+    let Some(given) = given else {
+        return Ok(unless);
+    };
+    let given = Duration::try_from(given).ok();
+    let given = given.filter(|t| (least..=most).contains(t));
+    given.ok_or_else(|| Fault::invalid(field, "must be 1 s…1 h"))
+}
+
+/// How far it may go with the bound of the help; what is not given is as in `unless`.
+pub fn follow_settings(
+    value: i32,
+    most_help: Option<f64>,
+    unless: FollowSettings,
+) -> Result<FollowSettings, Fault> {
+    let most_help = optional("max_help_weights", most_help, 0.0, 2.0)?;
+    Ok(FollowSettings {
+        follow: follow("follow", value)?.unwrap_or(unless.follow),
+        most_help: most_help.unwrap_or(unless.most_help),
+    })
+}
+
+/// What came of a rehearsal, for a response.
+pub fn rehearsal_out(r: &RehearsalInfo) -> pb::Rehearsal {
+    let way = match r.way {
+        FollowWay::Tracked => pb::FollowWay::Tracked,
+        FollowWay::Rehearsed => pb::FollowWay::Rehearsed,
+        FollowWay::Helped => pb::FollowWay::Helped,
+        FollowWay::Lost => pb::FollowWay::Lost,
+    };
+    let [error_m, root_relative_error_m] = r.error;
+    let [
+        help_newton_seconds,
+        help_ratio,
+        help_peak_newtons,
+        helped_ratio,
+    ] = r.help;
+    pb::Rehearsal {
+        way: way.into(),
+        reason: r.reason.clone(),
+        lost_at_s: r.lost_at,
+        error_m,
+        root_relative_error_m,
+        help_newton_seconds,
+        help_ratio,
+        help_peak_newtons,
+        helped_ratio,
+        hardest_dof: r.hardest.0.clone(),
+        hardest_ratio: r.hardest.1,
+        stopped: r.stopped,
     }
 }
 

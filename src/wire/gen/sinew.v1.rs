@@ -9066,6 +9066,12 @@ pub struct Clip {
     /// in lists.
     #[prost(message, optional, tag = "10")]
     pub forecast: ::core::option::Option<Forecast>,
+    /// How far it may go so that a figure keeps to it.
+    #[prost(enumeration = "Follow", tag = "11")]
+    pub follow: i32,
+    /// Largest force of the help, body weights.
+    #[prost(double, tag = "12")]
+    pub max_help_weights: f64,
 }
 impl ::prost::Name for Clip {
     const NAME: &'static str = "Clip";
@@ -9075,6 +9081,57 @@ impl ::prost::Name for Clip {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/sinew.v1.Clip".into()
+    }
+}
+/// What came of a rehearsal. It is for one body, its strength and loads, and for the rate, substeps, friction and
+/// gravity of its world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Rehearsal {
+    /// In which way the figure keeps to the clip.
+    #[prost(enumeration = "FollowWay", tag = "1")]
+    pub way: i32,
+    /// Why not in an easier one, in words.
+    #[prost(string, tag = "2")]
+    pub reason: ::prost::alloc::string::String,
+    /// When the figure is more than half a metre from the recording, mean of its segments, s; absent if it never is.
+    #[prost(double, optional, tag = "3")]
+    pub lost_at_s: ::core::option::Option<f64>,
+    /// Mean distance of its segments from the recording, m, until then.
+    #[prost(double, tag = "4")]
+    pub error_m: f64,
+    /// The same with both pelvis origins in one place, m.
+    #[prost(double, tag = "5")]
+    pub root_relative_error_m: f64,
+    /// Impulse of the help, N·s.
+    #[prost(double, tag = "6")]
+    pub help_newton_seconds: f64,
+    /// The same over weight times time.
+    #[prost(double, tag = "7")]
+    pub help_ratio: f64,
+    /// Largest force of the help, N.
+    #[prost(double, tag = "8")]
+    pub help_peak_newtons: f64,
+    /// Share of the time in which there is help.
+    #[prost(double, tag = "9")]
+    pub helped_ratio: f64,
+    /// The DOF that uses most of its strength, and that share for 5 % of the time.
+    #[prost(string, tag = "10")]
+    pub hardest_dof: ::prost::alloc::string::String,
+    /// See `hardest_dof`.
+    #[prost(double, tag = "11")]
+    pub hardest_ratio: f64,
+    /// The search was stopped by its budget.
+    #[prost(bool, tag = "12")]
+    pub stopped: bool,
+}
+impl ::prost::Name for Rehearsal {
+    const NAME: &'static str = "Rehearsal";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Rehearsal".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Rehearsal".into()
     }
 }
 /// How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the
@@ -9230,6 +9287,13 @@ pub struct CreateClipRequest {
     /// Body to prepare it for: `bodies/{body}`. Empty: `bodies/adult-man`.
     #[prost(string, tag = "3")]
     pub body: ::prost::alloc::string::String,
+    /// How far it may go so that a figure keeps to it, unless `RehearseClip` or `PlayClip` say otherwise. Absent:
+    /// FOLLOW_STRICT.
+    #[prost(enumeration = "Follow", tag = "6")]
+    pub follow: i32,
+    /// Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: 0.3.
+    #[prost(double, optional, tag = "7")]
+    pub max_help_weights: ::core::option::Option<f64>,
     /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
     /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
     #[prost(string, tag = "13")]
@@ -9436,6 +9500,57 @@ impl ::prost::Name for DeleteClipResponse {
         "/sinew.v1.DeleteClipResponse".into()
     }
 }
+/// Asks to rehearse a clip for a figure.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct RehearseClipRequest {
+    /// Resource name `clips/{clip}`.
+    #[prost(string, tag = "1")]
+    pub clip: ::prost::alloc::string::String,
+    /// The figure, as it is now: body, strength, the loads that it holds, and its world. Resource name
+    /// `worlds/{world}/figures/{figure}`.
+    #[prost(string, tag = "2")]
+    pub figure: ::prost::alloc::string::String,
+    /// How far it may go. Absent: as the clip says.
+    #[prost(enumeration = "Follow", tag = "3")]
+    pub follow: i32,
+    /// Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: as the clip says.
+    #[prost(double, optional, tag = "4")]
+    pub max_help_weights: ::core::option::Option<f64>,
+    /// Longest time for the search, 1 s to 1 h: the best that was found until then is the result. Absent: 10 min.
+    #[prost(message, optional, tag = "5")]
+    pub budget: ::core::option::Option<::prost_types::Duration>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+}
+impl ::prost::Name for RehearseClipRequest {
+    const NAME: &'static str = "RehearseClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RehearseClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RehearseClipRequest".into()
+    }
+}
+/// The clip is rehearsed, if it was found to need that and a way was found.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct RehearseClipResponse {
+    /// What came of it.
+    #[prost(message, optional, tag = "1")]
+    pub rehearsal: ::core::option::Option<Rehearsal>,
+}
+impl ::prost::Name for RehearseClipResponse {
+    const NAME: &'static str = "RehearseClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RehearseClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RehearseClipResponse".into()
+    }
+}
 /// Lets a figure play a clip.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PlayClipRequest {
@@ -9464,6 +9579,11 @@ pub struct PlayClipRequest {
     /// stands.
     #[prost(message, optional, tag = "7")]
     pub placement: ::core::option::Option<Placement>,
+    /// How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
+    /// else the clip is tracked as it is. FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help.
+    /// Absent: any rehearsal.
+    #[prost(enumeration = "Follow", tag = "8")]
+    pub follow: i32,
     /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
     /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
     #[prost(string, tag = "13")]
@@ -9883,6 +10003,84 @@ impl ::prost::Name for FigureFeedback {
         "/sinew.v1.FigureFeedback".into()
     }
 }
+/// How far it may go so that a figure keeps to a clip that it loses as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum Follow {
+    /// The default, as the comment of the field says.
+    Unspecified = 0,
+    /// Not at all: physics alone, the figure falls honestly.
+    Strict = 1,
+    /// The clip is rehearsed: what has to be added to it is found out beforehand. Strength alone does it.
+    Rehearsed = 2,
+    /// The same, and as little help as will do, in newtons, which every frame tells (`assist`).
+    Assisted = 3,
+}
+impl Follow {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "FOLLOW_UNSPECIFIED",
+            Self::Strict => "FOLLOW_STRICT",
+            Self::Rehearsed => "FOLLOW_REHEARSED",
+            Self::Assisted => "FOLLOW_ASSISTED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "FOLLOW_UNSPECIFIED" => Some(Self::Unspecified),
+            "FOLLOW_STRICT" => Some(Self::Strict),
+            "FOLLOW_REHEARSED" => Some(Self::Rehearsed),
+            "FOLLOW_ASSISTED" => Some(Self::Assisted),
+            _ => None,
+        }
+    }
+}
+/// In which way a figure keeps to a clip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum FollowWay {
+    /// Not told.
+    Unspecified = 0,
+    /// As it is: there is nothing to rehearse.
+    Tracked = 1,
+    /// Rehearsed, by strength alone.
+    Rehearsed = 2,
+    /// Rehearsed, with help.
+    Helped = 3,
+    /// Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may.
+    Lost = 4,
+}
+impl FollowWay {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "FOLLOW_WAY_UNSPECIFIED",
+            Self::Tracked => "FOLLOW_WAY_TRACKED",
+            Self::Rehearsed => "FOLLOW_WAY_REHEARSED",
+            Self::Helped => "FOLLOW_WAY_HELPED",
+            Self::Lost => "FOLLOW_WAY_LOST",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "FOLLOW_WAY_UNSPECIFIED" => Some(Self::Unspecified),
+            "FOLLOW_WAY_TRACKED" => Some(Self::Tracked),
+            "FOLLOW_WAY_REHEARSED" => Some(Self::Rehearsed),
+            "FOLLOW_WAY_HELPED" => Some(Self::Helped),
+            "FOLLOW_WAY_LOST" => Some(Self::Lost),
+            _ => None,
+        }
+    }
+}
 /// Forecast of how a figure follows a clip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -10252,6 +10450,35 @@ pub mod motion_service_client {
                 .insert(GrpcMethod::new("sinew.v1.MotionService", "DeleteClip"));
             self.inner.unary(req, path, codec).await
         }
+        /// Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
+        /// to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
+        /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
+        /// further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
+        /// (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
+        pub async fn rehearse_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::RehearseClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RehearseClipResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/RehearseClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "RehearseClip"));
+            self.inner.unary(req, path, codec).await
+        }
         /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
         /// it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
         /// `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
@@ -10419,6 +10646,18 @@ pub mod motion_service_server {
             request: tonic::Request<super::DeleteClipRequest>,
         ) -> std::result::Result<
             tonic::Response<super::DeleteClipResponse>,
+            tonic::Status,
+        >;
+        /// Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
+        /// to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
+        /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
+        /// further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
+        /// (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
+        async fn rehearse_clip(
+            &self,
+            request: tonic::Request<super::RehearseClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RehearseClipResponse>,
             tonic::Status,
         >;
         /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
@@ -10756,6 +10995,51 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/RehearseClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct RehearseClipSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::UnaryService<super::RehearseClipRequest>
+                    for RehearseClipSvc<T> {
+                        type Response = super::RehearseClipResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::RehearseClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::rehearse_clip(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = RehearseClipSvc(inner);
                         let codec = crate::wire::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
@@ -13237,7 +13521,7 @@ pub struct Operation {
     #[prost(message, optional, tag = "6")]
     pub expire_time: ::core::option::Option<::prost_types::Timestamp>,
     /// What came of it; absent before it is done.
-    #[prost(oneof = "operation::Result", tags = "7, 8, 9")]
+    #[prost(oneof = "operation::Result", tags = "7, 8, 9, 10")]
     pub result: ::core::option::Option<operation::Result>,
 }
 /// Nested message and enum types in `Operation`.
@@ -13254,6 +13538,9 @@ pub mod operation {
         /// The simulation.
         #[prost(message, tag = "9")]
         SimulateClip(super::SimulateClipResponse),
+        /// The rehearsal.
+        #[prost(message, tag = "10")]
+        RehearseClip(super::RehearseClipResponse),
     }
 }
 impl ::prost::Name for Operation {
@@ -13274,7 +13561,7 @@ pub struct StartOperationRequest {
     #[prost(string, tag = "13")]
     pub request_id: ::prost::alloc::string::String,
     /// What is to be done. Required.
-    #[prost(oneof = "start_operation_request::Work", tags = "1, 2")]
+    #[prost(oneof = "start_operation_request::Work", tags = "1, 2, 3")]
     pub work: ::core::option::Option<start_operation_request::Work>,
 }
 /// Nested message and enum types in `StartOperationRequest`.
@@ -13288,6 +13575,9 @@ pub mod start_operation_request {
         /// Simulates a clip.
         #[prost(message, tag = "2")]
         SimulateClip(super::SimulateClipRequest),
+        /// Rehearses a clip. Its own `request_id` is ignored.
+        #[prost(message, tag = "3")]
+        RehearseClip(super::RehearseClipRequest),
     }
 }
 impl ::prost::Name for StartOperationRequest {

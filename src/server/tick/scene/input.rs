@@ -8,6 +8,7 @@
 use crate::server::engine::{Clip, FigureKey, ObstacleKey};
 use crate::sim::body::Body;
 use crate::sim::collide::ObstacleSetup;
+use crate::sim::world::RehearsedMotion;
 use crate::wire::types::{
     DriveSettings, FigureDisturbance, FigureSettings, FigureUpdate, Pace, Place, Playback,
 };
@@ -80,6 +81,14 @@ pub enum Input {
     },
     /// Live motion is no longer played to a figure, which goes on with what it does.
     Unfollow(PlayerKey),
+    /// What a figure was asked to play last it does as it was rehearsed, if it begins standing.
+    Rehearsed {
+        /// Figure.
+        figure: FigureKey,
+        /// The rehearsal.
+        #[serde(with = "crate::sim::saved::definition")]
+        motion: Arc<RehearsedMotion>,
+    },
 }
 
 /// What an input has led to.

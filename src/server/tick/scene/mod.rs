@@ -178,6 +178,10 @@ impl Scene {
                 clip,
                 playback,
             } => self.play(figure, name, clip, playback),
+            Input::Rehearsed { figure, motion } => {
+                self.figure_mut(figure)?.rehearse(motion);
+                Ok(Done::Changed)
+            }
             Input::Stop(key) => {
                 self.member_mut(key)?.clip = None;
                 let time = self.world.time();

@@ -3,6 +3,7 @@
 use super::Shard;
 use crate::server::engine::Clip;
 use crate::server::ingest::mailbox::{DriverId, Mailbox, fenced};
+use crate::server::rehearsals::{Performer, Rehearsed};
 use crate::server::telemetry::metrics::ticks;
 use crate::server::tick::drives::{Drive, Slot};
 use crate::server::tick::scene::{Done, Input};
@@ -19,12 +20,23 @@ impl Shard {
         }
     }
 
-    /// Lets a figure play a clip. Returns the world time of its start.
+    /// A figure, to rehearse a clip for it.
+    ///
+    /// # Errors
+    /// There is none of that name, or nothing can be rehearsed for it.
+    pub fn performer(&self, figure: &str) -> Result<Performer, Fault> {
+        let key = self.scene.members()[self.member(figure)?].key;
+        let world = self.scene.world();
+        Performer::of(self.scene.figure(key), world.params(), world.time())
+    }
+
+    /// Lets a figure play a clip, as it was rehearsed if it is one of those that it was rehearsed for. Returns the
+    /// world time of its start.
     pub fn play(
         &mut self,
         figure: &str,
         clip_id: &str,
-        clip: Arc<Clip>,
+        (clip, rehearsed): (Arc<Clip>, &[Arc<Rehearsed>]),
         playback: Playback,
         who: &ControlKey,
     ) -> Result<f64, Fault> {
@@ -33,6 +45,14 @@ impl Shard {
         self.may_direct(figure, who)?;
         let key = self.scene.members()[i].key;
         let reset = playback.reset;
+        let rehearsed = match rehearsed {
+            _ if reset || playback.looped => None,
+            [] => None,
+            all => self.performer(figure).ok().and_then(|mine| {
+                let like = |r: &&Arc<Rehearsed>| r.performer.is_like(&mine);
+                all.iter().find(like).map(|r| Arc::clone(&r.motion))
+            }),
+        };
         self.end_undriven(key);
         let done = self.scene.apply(Input::Play {
             figure: key,
@@ -40,6 +60,12 @@ impl Shard {
             clip,
             playback,
         })?;
+        if let Some(motion) = rehearsed {
+            self.scene.apply(Input::Rehearsed {
+                figure: key,
+                motion,
+            })?;
+        }
         self.changed |= reset;
         match done {
             Done::Begins(start) => Ok(start),

@@ -2,10 +2,57 @@
 
 use super::{Figure, TickContext};
 use crate::sim::figure::drive::Drive;
+use crate::sim::figure::rehearsed::{RehearsedMotion, RehearsedPlayback};
 use crate::sim::figure::torque_step::MotorCommand;
 use crate::sim::report::Flags;
+use crate::sim::setup::ControllerKind;
+use crate::sim::track::planned_to_world::Anchor;
+use std::sync::Arc;
 
 impl Figure {
+    /// The clip that it was asked to play last it does as it was rehearsed, if it begins standing.
+    pub fn rehearse(&mut self, motion: Arc<RehearsedMotion>) {
+        if self.motion.next().is_some() {
+            self.motion.update_next(|q| q.play.rehearsed = Some(motion));
+        } else if let Drive::Clip(play) = self.motion.source_mut() {
+            play.rehearsed = Some(motion);
+        }
+    }
+
+    /// Begins the rehearsal of a clip in the tick in which the clip begins, if the figure stands as that does; else the
+    /// clip is tracked as it is.
+    pub(super) fn begin_rehearsal_if_due(&mut self, world: &TickContext) {
+        let Drive::Clip(play) = self.motion.source() else {
+            return;
+        };
+        let Some(motion) = &play.rehearsed else {
+            return;
+        };
+        let time = world.time();
+        let late = time - (play.start - play.clip.lead_in());
+        if late < -1e-9 {
+            return;
+        }
+        // Where the clip lies, or where the feet are: prepared clip and recording need not begin in one place.
+        let (tracker, state) = (&self.desired.tracker, &self.physical.state);
+        let first = tracker.stance_of(&self.setup.body, &motion.start().posture);
+        let feet = Anchor::between(first, tracker.stance(&self.scratch.terms)).transform();
+        let able = self.setup.controller == ControllerKind::Modern && !self.motion.has_fallen();
+        let way = [play.origin, feet].map(|origin| RehearsedPlayback {
+            motion: Arc::clone(motion),
+            start: time,
+            origin,
+        });
+        let begins = |way: &RehearsedPlayback| {
+            able && late < world.dt && way.begins_at(state) && way.goes_on(time, state, world)
+        };
+        if let Some(way) = way.into_iter().find(begins) {
+            self.set_drive(Drive::Rehearsed(way));
+        } else if let Drive::Clip(play) = self.motion.source_mut() {
+            play.rehearsed = None;
+        }
+    }
+
     /// Leaves a rehearsed motion that is over, that this world is not for, or whose path is out of reach.
     pub(super) fn leave_rehearsal_if_over(&mut self, world: &TickContext) {
         let Drive::Rehearsed(play) = self.motion.source() else {
@@ -20,7 +67,13 @@ impl Figure {
 
     /// Stands as the motion does now, or recovers or falls on the way there: what comes next is as after any motion.
     pub(super) fn leave_rehearsal(&mut self) {
-        let posture = self.desired.target.next.posture;
+        let mut next = self.desired.target.next.clone();
+        let tracker = &self.desired.tracker;
+        let asked = tracker.stance_of(&self.setup.body, &next.posture);
+        // Where its feet are: they need not have come down where the recording has them.
+        let feet = Anchor::between(asked, tracker.stance(&self.scratch.terms)).transform();
+        feet.apply_to(&mut next);
+        let posture = next.posture;
         self.set_drive(Drive::Hold(posture));
         self.surroundings.balance.reset();
         self.start_afresh();

@@ -5,6 +5,7 @@ isort:skip_file
 
 from collections import abc as _abc
 from google.protobuf import descriptor as _descriptor
+from google.protobuf import duration_pb2 as _duration_pb2
 from google.protobuf import message as _message
 from google.protobuf import timestamp_pb2 as _timestamp_pb2
 from google.protobuf.internal import containers as _containers
@@ -20,6 +21,66 @@ else:
     from typing_extensions import TypeAlias as _TypeAlias, Never as _Never
 
 DESCRIPTOR: _descriptor.FileDescriptor
+
+class _Follow:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _FollowEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Follow.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    FOLLOW_UNSPECIFIED: _Follow.ValueType  # 0
+    """The default, as the comment of the field says."""
+    FOLLOW_STRICT: _Follow.ValueType  # 1
+    """Not at all: physics alone, the figure falls honestly."""
+    FOLLOW_REHEARSED: _Follow.ValueType  # 2
+    """The clip is rehearsed: what has to be added to it is found out beforehand. Strength alone does it."""
+    FOLLOW_ASSISTED: _Follow.ValueType  # 3
+    """The same, and as little help as will do, in newtons, which every frame tells (`assist`)."""
+
+class Follow(_Follow, metaclass=_FollowEnumTypeWrapper):
+    """How far it may go so that a figure keeps to a clip that it loses as it is."""
+
+FOLLOW_UNSPECIFIED: Follow.ValueType  # 0
+"""The default, as the comment of the field says."""
+FOLLOW_STRICT: Follow.ValueType  # 1
+"""Not at all: physics alone, the figure falls honestly."""
+FOLLOW_REHEARSED: Follow.ValueType  # 2
+"""The clip is rehearsed: what has to be added to it is found out beforehand. Strength alone does it."""
+FOLLOW_ASSISTED: Follow.ValueType  # 3
+"""The same, and as little help as will do, in newtons, which every frame tells (`assist`)."""
+Global___Follow: _TypeAlias = Follow  # noqa: Y015
+
+class _FollowWay:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _FollowWayEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_FollowWay.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    FOLLOW_WAY_UNSPECIFIED: _FollowWay.ValueType  # 0
+    """Not told."""
+    FOLLOW_WAY_TRACKED: _FollowWay.ValueType  # 1
+    """As it is: there is nothing to rehearse."""
+    FOLLOW_WAY_REHEARSED: _FollowWay.ValueType  # 2
+    """Rehearsed, by strength alone."""
+    FOLLOW_WAY_HELPED: _FollowWay.ValueType  # 3
+    """Rehearsed, with help."""
+    FOLLOW_WAY_LOST: _FollowWay.ValueType  # 4
+    """Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may."""
+
+class FollowWay(_FollowWay, metaclass=_FollowWayEnumTypeWrapper):
+    """In which way a figure keeps to a clip."""
+
+FOLLOW_WAY_UNSPECIFIED: FollowWay.ValueType  # 0
+"""Not told."""
+FOLLOW_WAY_TRACKED: FollowWay.ValueType  # 1
+"""As it is: there is nothing to rehearse."""
+FOLLOW_WAY_REHEARSED: FollowWay.ValueType  # 2
+"""Rehearsed, by strength alone."""
+FOLLOW_WAY_HELPED: FollowWay.ValueType  # 3
+"""Rehearsed, with help."""
+FOLLOW_WAY_LOST: FollowWay.ValueType  # 4
+"""Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may."""
+Global___FollowWay: _TypeAlias = FollowWay  # noqa: Y015
 
 class _ForecastVerdict:
     ValueType = _typing.NewType("ValueType", _builtins.int)
@@ -153,6 +214,8 @@ class Clip(_message.Message):
     REPORT_FIELD_NUMBER: _builtins.int
     CREATE_TIME_FIELD_NUMBER: _builtins.int
     FORECAST_FIELD_NUMBER: _builtins.int
+    FOLLOW_FIELD_NUMBER: _builtins.int
+    MAX_HELP_WEIGHTS_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `clips/{clip}`."""
     display_name: _builtins.str
@@ -167,6 +230,10 @@ class Clip(_message.Message):
     """Number of frames."""
     duration_s: _builtins.float
     """Length, s."""
+    follow: Global___Follow.ValueType
+    """How far it may go so that a figure keeps to it."""
+    max_help_weights: _builtins.float
+    """Largest force of the help, body weights."""
     @_builtins.property
     def report(self) -> _types_pb2.RetargetReport:
         """How the file was understood; absent for built-in clips and clips made of frames."""
@@ -194,14 +261,86 @@ class Clip(_message.Message):
         report: _types_pb2.RetargetReport | None = ...,
         create_time: _timestamp_pb2.Timestamp | None = ...,
         forecast: Global___Forecast | None = ...,
+        follow: Global___Follow.ValueType = ...,
+        max_help_weights: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["create_time", b"create_time", "forecast", b"forecast", "report", b"report"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["body", b"body", "builtin", b"builtin", "create_time", b"create_time", "display_name", b"display_name", "duration_s", b"duration_s", "forecast", b"forecast", "frame_count", b"frame_count", "name", b"name", "rate_hz", b"rate_hz", "report", b"report"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["body", b"body", "builtin", b"builtin", "create_time", b"create_time", "display_name", b"display_name", "duration_s", b"duration_s", "follow", b"follow", "forecast", b"forecast", "frame_count", b"frame_count", "max_help_weights", b"max_help_weights", "name", b"name", "rate_hz", b"rate_hz", "report", b"report"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
 Global___Clip: _TypeAlias = Clip  # noqa: Y015
+
+@_typing.final
+class Rehearsal(_message.Message):
+    """What came of a rehearsal. It is for one body, its strength and loads, and for the rate, substeps, friction and
+    gravity of its world.
+    """
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    WAY_FIELD_NUMBER: _builtins.int
+    REASON_FIELD_NUMBER: _builtins.int
+    LOST_AT_S_FIELD_NUMBER: _builtins.int
+    ERROR_M_FIELD_NUMBER: _builtins.int
+    ROOT_RELATIVE_ERROR_M_FIELD_NUMBER: _builtins.int
+    HELP_NEWTON_SECONDS_FIELD_NUMBER: _builtins.int
+    HELP_RATIO_FIELD_NUMBER: _builtins.int
+    HELP_PEAK_NEWTONS_FIELD_NUMBER: _builtins.int
+    HELPED_RATIO_FIELD_NUMBER: _builtins.int
+    HARDEST_DOF_FIELD_NUMBER: _builtins.int
+    HARDEST_RATIO_FIELD_NUMBER: _builtins.int
+    STOPPED_FIELD_NUMBER: _builtins.int
+    way: Global___FollowWay.ValueType
+    """In which way the figure keeps to the clip."""
+    reason: _builtins.str
+    """Why not in an easier one, in words."""
+    lost_at_s: _builtins.float
+    """When the figure is more than half a metre from the recording, mean of its segments, s; absent if it never is."""
+    error_m: _builtins.float
+    """Mean distance of its segments from the recording, m, until then."""
+    root_relative_error_m: _builtins.float
+    """The same with both pelvis origins in one place, m."""
+    help_newton_seconds: _builtins.float
+    """Impulse of the help, N·s."""
+    help_ratio: _builtins.float
+    """The same over weight times time."""
+    help_peak_newtons: _builtins.float
+    """Largest force of the help, N."""
+    helped_ratio: _builtins.float
+    """Share of the time in which there is help."""
+    hardest_dof: _builtins.str
+    """The DOF that uses most of its strength, and that share for 5 % of the time."""
+    hardest_ratio: _builtins.float
+    """See `hardest_dof`."""
+    stopped: _builtins.bool
+    """The search was stopped by its budget."""
+    def __init__(
+        self,
+        *,
+        way: Global___FollowWay.ValueType = ...,
+        reason: _builtins.str = ...,
+        lost_at_s: _builtins.float | None = ...,
+        error_m: _builtins.float = ...,
+        root_relative_error_m: _builtins.float = ...,
+        help_newton_seconds: _builtins.float = ...,
+        help_ratio: _builtins.float = ...,
+        help_peak_newtons: _builtins.float = ...,
+        helped_ratio: _builtins.float = ...,
+        hardest_dof: _builtins.str = ...,
+        hardest_ratio: _builtins.float = ...,
+        stopped: _builtins.bool = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s", "lost_at_s", b"lost_at_s"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s", "error_m", b"error_m", "hardest_dof", b"hardest_dof", "hardest_ratio", b"hardest_ratio", "help_newton_seconds", b"help_newton_seconds", "help_peak_newtons", b"help_peak_newtons", "help_ratio", b"help_ratio", "helped_ratio", b"helped_ratio", "lost_at_s", b"lost_at_s", "reason", b"reason", "root_relative_error_m", b"root_relative_error_m", "stopped", b"stopped", "way", b"way"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__lost_at_s: _TypeAlias = _typing.Literal["lost_at_s"]  # noqa: Y015
+    _WhichOneofArgType__lost_at_s: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s"]  # noqa: Y015
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__lost_at_s) -> _WhichOneofReturnType__lost_at_s | None: ...
+
+Global___Rehearsal: _TypeAlias = Rehearsal  # noqa: Y015
 
 @_typing.final
 class Forecast(_message.Message):
@@ -429,6 +568,8 @@ class CreateClipRequest(_message.Message):
     BODY_FIELD_NUMBER: _builtins.int
     BVH_FIELD_NUMBER: _builtins.int
     FRAMES_FIELD_NUMBER: _builtins.int
+    FOLLOW_FIELD_NUMBER: _builtins.int
+    MAX_HELP_WEIGHTS_FIELD_NUMBER: _builtins.int
     REQUEST_ID_FIELD_NUMBER: _builtins.int
     VALIDATE_ONLY_FIELD_NUMBER: _builtins.int
     clip_id: _builtins.str
@@ -437,6 +578,12 @@ class CreateClipRequest(_message.Message):
     """Name for people, at most 128 bytes. Default: empty."""
     body: _builtins.str
     """Body to prepare it for: `bodies/{body}`. Empty: `bodies/adult-man`."""
+    follow: Global___Follow.ValueType
+    """How far it may go so that a figure keeps to it, unless `RehearseClip` or `PlayClip` say otherwise. Absent:
+    FOLLOW_STRICT.
+    """
+    max_help_weights: _builtins.float
+    """Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: 0.3."""
     request_id: _builtins.str
     """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
     ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
@@ -459,15 +606,22 @@ class CreateClipRequest(_message.Message):
         body: _builtins.str = ...,
         bvh: Global___BvhSource | None = ...,
         frames: Global___FrameSource | None = ...,
+        follow: Global___Follow.ValueType = ...,
+        max_help_weights: _builtins.float | None = ...,
         request_id: _builtins.str = ...,
         validate_only: _builtins.bool = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["bvh", b"bvh", "frames", b"frames", "source", b"source"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights", "bvh", b"bvh", "frames", b"frames", "max_help_weights", b"max_help_weights", "source", b"source"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["body", b"body", "bvh", b"bvh", "clip_id", b"clip_id", "display_name", b"display_name", "frames", b"frames", "request_id", b"request_id", "source", b"source", "validate_only", b"validate_only"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights", "body", b"body", "bvh", b"bvh", "clip_id", b"clip_id", "display_name", b"display_name", "follow", b"follow", "frames", b"frames", "max_help_weights", b"max_help_weights", "request_id", b"request_id", "source", b"source", "validate_only", b"validate_only"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__max_help_weights: _TypeAlias = _typing.Literal["max_help_weights"]  # noqa: Y015
+    _WhichOneofArgType__max_help_weights: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights"]  # noqa: Y015
     _WhichOneofReturnType_source: _TypeAlias = _typing.Literal["bvh", "frames"]  # noqa: Y015
     _WhichOneofArgType_source: _TypeAlias = _typing.Literal["source", b"source"]  # noqa: Y015
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__max_help_weights) -> _WhichOneofReturnType__max_help_weights | None: ...
+    @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType_source) -> _WhichOneofReturnType_source | None: ...
 
 Global___CreateClipRequest: _TypeAlias = CreateClipRequest  # noqa: Y015
@@ -696,6 +850,80 @@ class DeleteClipResponse(_message.Message):
 Global___DeleteClipResponse: _TypeAlias = DeleteClipResponse  # noqa: Y015
 
 @_typing.final
+class RehearseClipRequest(_message.Message):
+    """Asks to rehearse a clip for a figure."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    CLIP_FIELD_NUMBER: _builtins.int
+    FIGURE_FIELD_NUMBER: _builtins.int
+    FOLLOW_FIELD_NUMBER: _builtins.int
+    MAX_HELP_WEIGHTS_FIELD_NUMBER: _builtins.int
+    BUDGET_FIELD_NUMBER: _builtins.int
+    REQUEST_ID_FIELD_NUMBER: _builtins.int
+    clip: _builtins.str
+    """Resource name `clips/{clip}`."""
+    figure: _builtins.str
+    """The figure, as it is now: body, strength, the loads that it holds, and its world. Resource name
+    `worlds/{world}/figures/{figure}`.
+    """
+    follow: Global___Follow.ValueType
+    """How far it may go. Absent: as the clip says."""
+    max_help_weights: _builtins.float
+    """Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: as the clip says."""
+    request_id: _builtins.str
+    """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    """
+    @_builtins.property
+    def budget(self) -> _duration_pb2.Duration:
+        """Longest time for the search, 1 s to 1 h: the best that was found until then is the result. Absent: 10 min."""
+
+    def __init__(
+        self,
+        *,
+        clip: _builtins.str = ...,
+        figure: _builtins.str = ...,
+        follow: Global___Follow.ValueType = ...,
+        max_help_weights: _builtins.float | None = ...,
+        budget: _duration_pb2.Duration | None = ...,
+        request_id: _builtins.str = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights", "budget", b"budget", "max_help_weights", b"max_help_weights"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights", "budget", b"budget", "clip", b"clip", "figure", b"figure", "follow", b"follow", "max_help_weights", b"max_help_weights", "request_id", b"request_id"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__max_help_weights: _TypeAlias = _typing.Literal["max_help_weights"]  # noqa: Y015
+    _WhichOneofArgType__max_help_weights: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights"]  # noqa: Y015
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__max_help_weights) -> _WhichOneofReturnType__max_help_weights | None: ...
+
+Global___RehearseClipRequest: _TypeAlias = RehearseClipRequest  # noqa: Y015
+
+@_typing.final
+class RehearseClipResponse(_message.Message):
+    """The clip is rehearsed, if it was found to need that and a way was found."""
+
+    DESCRIPTOR: _descriptor.Descriptor
+
+    REHEARSAL_FIELD_NUMBER: _builtins.int
+    @_builtins.property
+    def rehearsal(self) -> Global___Rehearsal:
+        """What came of it."""
+
+    def __init__(
+        self,
+        *,
+        rehearsal: Global___Rehearsal | None = ...,
+    ) -> None: ...
+    _HasFieldArgType: _TypeAlias = _typing.Literal["rehearsal", b"rehearsal"]  # noqa: Y015
+    def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["rehearsal", b"rehearsal"]  # noqa: Y015
+    def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    def WhichOneof(self, oneof_group: _Never) -> None: ...
+
+Global___RehearseClipResponse: _TypeAlias = RehearseClipResponse  # noqa: Y015
+
+@_typing.final
 class PlayClipRequest(_message.Message):
     """Lets a figure play a clip."""
 
@@ -708,6 +936,7 @@ class PlayClipRequest(_message.Message):
     START_TIME_S_FIELD_NUMBER: _builtins.int
     RESET_FIELD_NUMBER: _builtins.int
     PLACEMENT_FIELD_NUMBER: _builtins.int
+    FOLLOW_FIELD_NUMBER: _builtins.int
     REQUEST_ID_FIELD_NUMBER: _builtins.int
     CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
@@ -727,6 +956,11 @@ class PlayClipRequest(_message.Message):
     reset: _builtins.bool
     """Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
     by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
+    """
+    follow: Global___Follow.ValueType
+    """How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
+    else the clip is tracked as it is. FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help.
+    Absent: any rehearsal.
     """
     request_id: _builtins.str
     """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
@@ -752,12 +986,13 @@ class PlayClipRequest(_message.Message):
         start_time_s: _builtins.float | None = ...,
         reset: _builtins.bool = ...,
         placement: _types_pb2.Placement | None = ...,
+        follow: Global___Follow.ValueType = ...,
         request_id: _builtins.str = ...,
         control_token: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "placement", b"placement", "start_time_s", b"start_time_s"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "clip", b"clip", "control_token", b"control_token", "figure", b"figure", "loop", b"loop", "placement", b"placement", "request_id", b"request_id", "reset", b"reset", "speed", b"speed", "start_time_s", b"start_time_s"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "clip", b"clip", "control_token", b"control_token", "figure", b"figure", "follow", b"follow", "loop", b"loop", "placement", b"placement", "request_id", b"request_id", "reset", b"reset", "speed", b"speed", "start_time_s", b"start_time_s"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__start_time_s: _TypeAlias = _typing.Literal["start_time_s"]  # noqa: Y015
     _WhichOneofArgType__start_time_s: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s"]  # noqa: Y015

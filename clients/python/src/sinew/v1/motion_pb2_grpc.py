@@ -60,6 +60,11 @@ class MotionServiceStub:
                 request_serializer=sinew_dot_v1_dot_motion__pb2.DeleteClipRequest.SerializeToString,
                 response_deserializer=sinew_dot_v1_dot_motion__pb2.DeleteClipResponse.FromString,
                 _registered_method=True)
+        self.RehearseClip = channel.unary_unary(
+                '/sinew.v1.MotionService/RehearseClip',
+                request_serializer=sinew_dot_v1_dot_motion__pb2.RehearseClipRequest.SerializeToString,
+                response_deserializer=sinew_dot_v1_dot_motion__pb2.RehearseClipResponse.FromString,
+                _registered_method=True)
         self.PlayClip = channel.unary_unary(
                 '/sinew.v1.MotionService/PlayClip',
                 request_serializer=sinew_dot_v1_dot_motion__pb2.PlayClipRequest.SerializeToString,
@@ -116,6 +121,17 @@ class MotionServiceServicer:
 
     def DeleteClip(self, request, context):
         """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted.
+        """
+        context.set_code(grpc.StatusCode.UNIMPLEMENTED)
+        context.set_details('Method not implemented!')
+        raise NotImplementedError('Method not implemented!')
+
+    def RehearseClip(self, request, context):
+        """Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
+        to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
+        figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
+        further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
+        (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')
@@ -182,6 +198,11 @@ def add_MotionServiceServicer_to_server(servicer, server):
                     servicer.DeleteClip,
                     request_deserializer=sinew_dot_v1_dot_motion__pb2.DeleteClipRequest.FromString,
                     response_serializer=sinew_dot_v1_dot_motion__pb2.DeleteClipResponse.SerializeToString,
+            ),
+            'RehearseClip': grpc.unary_unary_rpc_method_handler(
+                    servicer.RehearseClip,
+                    request_deserializer=sinew_dot_v1_dot_motion__pb2.RehearseClipRequest.FromString,
+                    response_serializer=sinew_dot_v1_dot_motion__pb2.RehearseClipResponse.SerializeToString,
             ),
             'PlayClip': grpc.unary_unary_rpc_method_handler(
                     servicer.PlayClip,
@@ -340,6 +361,33 @@ class MotionService:
             '/sinew.v1.MotionService/DeleteClip',
             sinew_dot_v1_dot_motion__pb2.DeleteClipRequest.SerializeToString,
             sinew_dot_v1_dot_motion__pb2.DeleteClipResponse.FromString,
+            options,
+            channel_credentials,
+            insecure,
+            call_credentials,
+            compression,
+            wait_for_ready,
+            timeout,
+            metadata,
+            _registered_method=True)
+
+    @staticmethod
+    def RehearseClip(request,
+            target,
+            options=(),
+            channel_credentials=None,
+            call_credentials=None,
+            insecure=False,
+            compression=None,
+            wait_for_ready=None,
+            timeout=None,
+            metadata=None):
+        return grpc.experimental.unary_unary(
+            request,
+            target,
+            '/sinew.v1.MotionService/RehearseClip',
+            sinew_dot_v1_dot_motion__pb2.RehearseClipRequest.SerializeToString,
+            sinew_dot_v1_dot_motion__pb2.RehearseClipResponse.FromString,
             options,
             channel_credentials,
             insecure,

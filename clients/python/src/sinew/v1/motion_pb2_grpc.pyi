@@ -43,6 +43,13 @@ class MotionServiceStub:
     """All clips, built-in ones included, by name."""
     DeleteClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.DeleteClipRequest, _motion_pb2.DeleteClipResponse]
     """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted."""
+    RehearseClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.RehearseClipRequest, _motion_pb2.RehearseClipResponse]
+    """Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
+    to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
+    figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
+    further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
+    (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
+    """
     PlayClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]
     """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
     it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
@@ -76,6 +83,13 @@ class MotionServiceAsyncStub(MotionServiceStub):
     """All clips, built-in ones included, by name."""
     DeleteClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.DeleteClipRequest, _motion_pb2.DeleteClipResponse]  # type: ignore[assignment]
     """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted."""
+    RehearseClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.RehearseClipRequest, _motion_pb2.RehearseClipResponse]  # type: ignore[assignment]
+    """Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
+    to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
+    figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
+    further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
+    (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
+    """
     PlayClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]  # type: ignore[assignment]
     """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
     it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
@@ -136,6 +150,19 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         context: _ServicerContext,
     ) -> _typing.Union[_motion_pb2.DeleteClipResponse, _abc.Awaitable[_motion_pb2.DeleteClipResponse]]:
         """Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted."""
+
+    @_abc_1.abstractmethod
+    def RehearseClip(
+        self,
+        request: _motion_pb2.RehearseClipRequest,
+        context: _ServicerContext,
+    ) -> _typing.Union[_motion_pb2.RehearseClipResponse, _abc.Awaitable[_motion_pb2.RehearseClipResponse]]:
+        """Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
+        to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
+        figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
+        further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
+        (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
+        """
 
     @_abc_1.abstractmethod
     def PlayClip(

@@ -32,7 +32,7 @@ from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 from sinew.v1 import simulation_pb2 as sinew_dot_v1_dot_simulation__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x18sinew/v1/operation.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x1egoogle/protobuf/duration.proto\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x17google/rpc/status.proto\x1a\x15sinew/v1/motion.proto\x1a\x16sinew/v1/options.proto\x1a\x19sinew/v1/simulation.proto\"\xea\x03\n\tOperation\x12\x12\n\x04name\x18\x01 \x01(\tB\x04\xe2\x41\x01\x08\x12-\n\x05state\x18\x02 \x01(\x0e\x32\x18.sinew.v1.OperationStateB\x04\xe2\x41\x01\x03\x12\x16\n\x08progress\x18\x03 \x01(\x01\x42\x04\xe2\x41\x01\x03\x12\x35\n\x0b\x63reate_time\x18\x04 \x01(\x0b\x32\x1a.google.protobuf.TimestampB\x04\xe2\x41\x01\x03\x12\x32\n\x08\x65nd_time\x18\x05 \x01(\x0b\x32\x1a.google.protobuf.TimestampB\x04\xe2\x41\x01\x03\x12\x35\n\x0b\x65xpire_time\x18\x06 \x01(\x0b\x32\x1a.google.protobuf.TimestampB\x04\xe2\x41\x01\x03\x12#\n\x05\x65rror\x18\x07 \x01(\x0b\x32\x12.google.rpc.StatusH\x00\x12\x33\n\x0b\x63reate_clip\x18\x08 \x01(\x0b\x32\x1c.sinew.v1.CreateClipResponseH\x00\x12\x37\n\rsimulate_clip\x18\t \x01(\x0b\x32\x1e.sinew.v1.SimulateClipResponseH\x00:C\xea\x41@\n\x0fsinew/Operation\x12\x16operations/{operation}*\noperations2\toperationB\x08\n\x06result\"\xa5\x01\n\x15StartOperationRequest\x12\x32\n\x0b\x63reate_clip\x18\x01 \x01(\x0b\x32\x1b.sinew.v1.CreateClipRequestH\x00\x12\x36\n\rsimulate_clip\x18\x02 \x01(\x0b\x32\x1d.sinew.v1.SimulateClipRequestH\x00\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\x42\x06\n\x04work\"@\n\x16StartOperationResponse\x12&\n\toperation\x18\x01 \x01(\x0b\x32\x13.sinew.v1.Operation\"=\n\x13GetOperationRequest\x12&\n\x04name\x18\x01 \x01(\tB\x18\xe2\x41\x01\x02\xfa\x41\x11\n\x0fsinew/Operation\">\n\x14GetOperationResponse\x12&\n\toperation\x18\x01 \x01(\x0b\x32\x13.sinew.v1.Operation\"J\n\x15ListOperationsRequest\x12\x17\n\tpage_size\x18\x01 \x01(\x05\x42\x04\xe2\x41\x01\x01\x12\x18\n\npage_token\x18\x02 \x01(\tB\x04\xe2\x41\x01\x01\"Z\n\x16ListOperationsResponse\x12\'\n\noperations\x18\x01 \x03(\x0b\x32\x13.sinew.v1.Operation\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"p\n\x14WaitOperationRequest\x12&\n\x04name\x18\x01 \x01(\tB\x18\xe2\x41\x01\x02\xfa\x41\x11\n\x0fsinew/Operation\x12\x30\n\x07timeout\x18\x02 \x01(\x0b\x32\x19.google.protobuf.DurationB\x04\xe2\x41\x01\x01\"?\n\x15WaitOperationResponse\x12&\n\toperation\x18\x01 \x01(\x0b\x32\x13.sinew.v1.Operation\"@\n\x16\x43\x61ncelOperationRequest\x12&\n\x04name\x18\x01 \x01(\tB\x18\xe2\x41\x01\x02\xfa\x41\x11\n\x0fsinew/Operation\"A\n\x17\x43\x61ncelOperationResponse\x12&\n\toperation\x18\x01 \x01(\x0b\x32\x13.sinew.v1.Operation\"@\n\x16\x44\x65leteOperationRequest\x12&\n\x04name\x18\x01 \x01(\tB\x18\xe2\x41\x01\x02\xfa\x41\x11\n\x0fsinew/Operation\"\x19\n\x17\x44\x65leteOperationResponse*\xc4\x01\n\x0eOperationState\x12\x1f\n\x1bOPERATION_STATE_UNSPECIFIED\x10\x00\x12\x1a\n\x16OPERATION_STATE_QUEUED\x10\x01\x12\x1b\n\x17OPERATION_STATE_RUNNING\x10\x02\x12\x1d\n\x19OPERATION_STATE_SUCCEEDED\x10\x03\x12\x1a\n\x16OPERATION_STATE_FAILED\x10\x04\x12\x1d\n\x19OPERATION_STATE_CANCELLED\x10\x05\x32\xb1\x04\n\x10OperationService\x12Y\n\x0eStartOperation\x12\x1f.sinew.v1.StartOperationRequest\x1a .sinew.v1.StartOperationResponse\"\x04\xe8\xe0\x18\x07\x12S\n\x0cGetOperation\x12\x1d.sinew.v1.GetOperationRequest\x1a\x1e.sinew.v1.GetOperationResponse\"\x04\xe8\xe0\x18\x06\x12Y\n\x0eListOperations\x12\x1f.sinew.v1.ListOperationsRequest\x1a .sinew.v1.ListOperationsResponse\"\x04\xe8\xe0\x18\x06\x12V\n\rWaitOperation\x12\x1e.sinew.v1.WaitOperationRequest\x1a\x1f.sinew.v1.WaitOperationResponse\"\x04\xe8\xe0\x18\x06\x12\\\n\x0f\x43\x61ncelOperation\x12 .sinew.v1.CancelOperationRequest\x1a!.sinew.v1.CancelOperationResponse\"\x04\xe8\xe0\x18\x06\x12\\\n\x0f\x44\x65leteOperation\x12 .sinew.v1.DeleteOperationRequest\x1a!.sinew.v1.DeleteOperationResponse\"\x04\xe8\xe0\x18\x06\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x18sinew/v1/operation.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x1egoogle/protobuf/duration.proto\x1a\x1fgoogle/protobuf/timestamp.proto\x1a\x17google/rpc/status.proto\x1a\x15sinew/v1/motion.proto\x1a\x16sinew/v1/options.proto\x1a\x19sinew/v1/simulation.proto\"\xa3\x04\n\tOperation\x12\x12\n\x04name\x18\x01 \x01(\tB\x04\xe2\x41\x01\x08\x12-\n\x05state\x18\x02 \x01(\x0e\x32\x18.sinew.v1.OperationStateB\x04\xe2\x41\x01\x03\x12\x16\n\x08progress\x18\x03 \x01(\x01\x42\x04\xe2\x41\x01\x03\x12\x35\n\x0b\x63reate_time\x18\x04 \x01(\x0b\x32\x1a.google.protobuf.TimestampB\x04\xe2\x41\x01\x03\x12\x32\n\x08\x65nd_time\x18\x05 \x01(\x0b\x32\x1a.google.protobuf.TimestampB\x04\xe2\x41\x01\x03\x12\x35\n\x0b\x65xpire_time\x18\x06 \x01(\x0b\x32\x1a.google.protobuf.TimestampB\x04\xe2\x41\x01\x03\x12#\n\x05\x65rror\x18\x07 \x01(\x0b\x32\x12.google.rpc.StatusH\x00\x12\x33\n\x0b\x63reate_clip\x18\x08 \x01(\x0b\x32\x1c.sinew.v1.CreateClipResponseH\x00\x12\x37\n\rsimulate_clip\x18\t \x01(\x0b\x32\x1e.sinew.v1.SimulateClipResponseH\x00\x12\x37\n\rrehearse_clip\x18\n \x01(\x0b\x32\x1e.sinew.v1.RehearseClipResponseH\x00:C\xea\x41@\n\x0fsinew/Operation\x12\x16operations/{operation}*\noperations2\toperationB\x08\n\x06result\"\xdd\x01\n\x15StartOperationRequest\x12\x32\n\x0b\x63reate_clip\x18\x01 \x01(\x0b\x32\x1b.sinew.v1.CreateClipRequestH\x00\x12\x36\n\rsimulate_clip\x18\x02 \x01(\x0b\x32\x1d.sinew.v1.SimulateClipRequestH\x00\x12\x36\n\rrehearse_clip\x18\x03 \x01(\x0b\x32\x1d.sinew.v1.RehearseClipRequestH\x00\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\x42\x06\n\x04work\"@\n\x16StartOperationResponse\x12&\n\toperation\x18\x01 \x01(\x0b\x32\x13.sinew.v1.Operation\"=\n\x13GetOperationRequest\x12&\n\x04name\x18\x01 \x01(\tB\x18\xe2\x41\x01\x02\xfa\x41\x11\n\x0fsinew/Operation\">\n\x14GetOperationResponse\x12&\n\toperation\x18\x01 \x01(\x0b\x32\x13.sinew.v1.Operation\"J\n\x15ListOperationsRequest\x12\x17\n\tpage_size\x18\x01 \x01(\x05\x42\x04\xe2\x41\x01\x01\x12\x18\n\npage_token\x18\x02 \x01(\tB\x04\xe2\x41\x01\x01\"Z\n\x16ListOperationsResponse\x12\'\n\noperations\x18\x01 \x03(\x0b\x32\x13.sinew.v1.Operation\x12\x17\n\x0fnext_page_token\x18\x02 \x01(\t\"p\n\x14WaitOperationRequest\x12&\n\x04name\x18\x01 \x01(\tB\x18\xe2\x41\x01\x02\xfa\x41\x11\n\x0fsinew/Operation\x12\x30\n\x07timeout\x18\x02 \x01(\x0b\x32\x19.google.protobuf.DurationB\x04\xe2\x41\x01\x01\"?\n\x15WaitOperationResponse\x12&\n\toperation\x18\x01 \x01(\x0b\x32\x13.sinew.v1.Operation\"@\n\x16\x43\x61ncelOperationRequest\x12&\n\x04name\x18\x01 \x01(\tB\x18\xe2\x41\x01\x02\xfa\x41\x11\n\x0fsinew/Operation\"A\n\x17\x43\x61ncelOperationResponse\x12&\n\toperation\x18\x01 \x01(\x0b\x32\x13.sinew.v1.Operation\"@\n\x16\x44\x65leteOperationRequest\x12&\n\x04name\x18\x01 \x01(\tB\x18\xe2\x41\x01\x02\xfa\x41\x11\n\x0fsinew/Operation\"\x19\n\x17\x44\x65leteOperationResponse*\xc4\x01\n\x0eOperationState\x12\x1f\n\x1bOPERATION_STATE_UNSPECIFIED\x10\x00\x12\x1a\n\x16OPERATION_STATE_QUEUED\x10\x01\x12\x1b\n\x17OPERATION_STATE_RUNNING\x10\x02\x12\x1d\n\x19OPERATION_STATE_SUCCEEDED\x10\x03\x12\x1a\n\x16OPERATION_STATE_FAILED\x10\x04\x12\x1d\n\x19OPERATION_STATE_CANCELLED\x10\x05\x32\xb1\x04\n\x10OperationService\x12Y\n\x0eStartOperation\x12\x1f.sinew.v1.StartOperationRequest\x1a .sinew.v1.StartOperationResponse\"\x04\xe8\xe0\x18\x07\x12S\n\x0cGetOperation\x12\x1d.sinew.v1.GetOperationRequest\x1a\x1e.sinew.v1.GetOperationResponse\"\x04\xe8\xe0\x18\x06\x12Y\n\x0eListOperations\x12\x1f.sinew.v1.ListOperationsRequest\x1a .sinew.v1.ListOperationsResponse\"\x04\xe8\xe0\x18\x06\x12V\n\rWaitOperation\x12\x1e.sinew.v1.WaitOperationRequest\x1a\x1f.sinew.v1.WaitOperationResponse\"\x04\xe8\xe0\x18\x06\x12\\\n\x0f\x43\x61ncelOperation\x12 .sinew.v1.CancelOperationRequest\x1a!.sinew.v1.CancelOperationResponse\"\x04\xe8\xe0\x18\x06\x12\\\n\x0f\x44\x65leteOperation\x12 .sinew.v1.DeleteOperationRequest\x1a!.sinew.v1.DeleteOperationResponse\"\x04\xe8\xe0\x18\x06\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
@@ -81,34 +81,34 @@ if not _descriptor._USE_C_DESCRIPTORS:
   _globals['_OPERATIONSERVICE'].methods_by_name['CancelOperation']._serialized_options = b'\350\340\030\006'
   _globals['_OPERATIONSERVICE'].methods_by_name['DeleteOperation']._loaded_options = None
   _globals['_OPERATIONSERVICE'].methods_by_name['DeleteOperation']._serialized_options = b'\350\340\030\006'
-  _globals['_OPERATIONSTATE']._serialized_start=1690
-  _globals['_OPERATIONSTATE']._serialized_end=1886
+  _globals['_OPERATIONSTATE']._serialized_start=1803
+  _globals['_OPERATIONSTATE']._serialized_end=1999
   _globals['_OPERATION']._serialized_start=263
-  _globals['_OPERATION']._serialized_end=753
-  _globals['_STARTOPERATIONREQUEST']._serialized_start=756
-  _globals['_STARTOPERATIONREQUEST']._serialized_end=921
-  _globals['_STARTOPERATIONRESPONSE']._serialized_start=923
-  _globals['_STARTOPERATIONRESPONSE']._serialized_end=987
-  _globals['_GETOPERATIONREQUEST']._serialized_start=989
-  _globals['_GETOPERATIONREQUEST']._serialized_end=1050
-  _globals['_GETOPERATIONRESPONSE']._serialized_start=1052
-  _globals['_GETOPERATIONRESPONSE']._serialized_end=1114
-  _globals['_LISTOPERATIONSREQUEST']._serialized_start=1116
-  _globals['_LISTOPERATIONSREQUEST']._serialized_end=1190
-  _globals['_LISTOPERATIONSRESPONSE']._serialized_start=1192
-  _globals['_LISTOPERATIONSRESPONSE']._serialized_end=1282
-  _globals['_WAITOPERATIONREQUEST']._serialized_start=1284
-  _globals['_WAITOPERATIONREQUEST']._serialized_end=1396
-  _globals['_WAITOPERATIONRESPONSE']._serialized_start=1398
-  _globals['_WAITOPERATIONRESPONSE']._serialized_end=1461
-  _globals['_CANCELOPERATIONREQUEST']._serialized_start=1463
-  _globals['_CANCELOPERATIONREQUEST']._serialized_end=1527
-  _globals['_CANCELOPERATIONRESPONSE']._serialized_start=1529
-  _globals['_CANCELOPERATIONRESPONSE']._serialized_end=1594
-  _globals['_DELETEOPERATIONREQUEST']._serialized_start=1596
-  _globals['_DELETEOPERATIONREQUEST']._serialized_end=1660
-  _globals['_DELETEOPERATIONRESPONSE']._serialized_start=1662
-  _globals['_DELETEOPERATIONRESPONSE']._serialized_end=1687
-  _globals['_OPERATIONSERVICE']._serialized_start=1889
-  _globals['_OPERATIONSERVICE']._serialized_end=2450
+  _globals['_OPERATION']._serialized_end=810
+  _globals['_STARTOPERATIONREQUEST']._serialized_start=813
+  _globals['_STARTOPERATIONREQUEST']._serialized_end=1034
+  _globals['_STARTOPERATIONRESPONSE']._serialized_start=1036
+  _globals['_STARTOPERATIONRESPONSE']._serialized_end=1100
+  _globals['_GETOPERATIONREQUEST']._serialized_start=1102
+  _globals['_GETOPERATIONREQUEST']._serialized_end=1163
+  _globals['_GETOPERATIONRESPONSE']._serialized_start=1165
+  _globals['_GETOPERATIONRESPONSE']._serialized_end=1227
+  _globals['_LISTOPERATIONSREQUEST']._serialized_start=1229
+  _globals['_LISTOPERATIONSREQUEST']._serialized_end=1303
+  _globals['_LISTOPERATIONSRESPONSE']._serialized_start=1305
+  _globals['_LISTOPERATIONSRESPONSE']._serialized_end=1395
+  _globals['_WAITOPERATIONREQUEST']._serialized_start=1397
+  _globals['_WAITOPERATIONREQUEST']._serialized_end=1509
+  _globals['_WAITOPERATIONRESPONSE']._serialized_start=1511
+  _globals['_WAITOPERATIONRESPONSE']._serialized_end=1574
+  _globals['_CANCELOPERATIONREQUEST']._serialized_start=1576
+  _globals['_CANCELOPERATIONREQUEST']._serialized_end=1640
+  _globals['_CANCELOPERATIONRESPONSE']._serialized_start=1642
+  _globals['_CANCELOPERATIONRESPONSE']._serialized_end=1707
+  _globals['_DELETEOPERATIONREQUEST']._serialized_start=1709
+  _globals['_DELETEOPERATIONREQUEST']._serialized_end=1773
+  _globals['_DELETEOPERATIONRESPONSE']._serialized_start=1775
+  _globals['_DELETEOPERATIONRESPONSE']._serialized_end=1800
+  _globals['_OPERATIONSERVICE']._serialized_start=2002
+  _globals['_OPERATIONSERVICE']._serialized_end=2563
 # @@protoc_insertion_point(module_scope)

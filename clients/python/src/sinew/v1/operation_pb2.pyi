@@ -75,6 +75,7 @@ class Operation(_message.Message):
     ERROR_FIELD_NUMBER: _builtins.int
     CREATE_CLIP_FIELD_NUMBER: _builtins.int
     SIMULATE_CLIP_FIELD_NUMBER: _builtins.int
+    REHEARSE_CLIP_FIELD_NUMBER: _builtins.int
     name: _builtins.str
     """Resource name `operations/{operation}`."""
     state: Global___OperationState.ValueType
@@ -105,6 +106,10 @@ class Operation(_message.Message):
     def simulate_clip(self) -> _simulation_pb2.SimulateClipResponse:
         """The simulation."""
 
+    @_builtins.property
+    def rehearse_clip(self) -> _motion_pb2.RehearseClipResponse:
+        """The rehearsal."""
+
     def __init__(
         self,
         *,
@@ -117,12 +122,13 @@ class Operation(_message.Message):
         error: _status_pb2.Status | None = ...,
         create_clip: _motion_pb2.CreateClipResponse | None = ...,
         simulate_clip: _simulation_pb2.SimulateClipResponse | None = ...,
+        rehearse_clip: _motion_pb2.RehearseClipResponse | None = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "create_time", b"create_time", "end_time", b"end_time", "error", b"error", "expire_time", b"expire_time", "result", b"result", "simulate_clip", b"simulate_clip"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "create_time", b"create_time", "end_time", b"end_time", "error", b"error", "expire_time", b"expire_time", "rehearse_clip", b"rehearse_clip", "result", b"result", "simulate_clip", b"simulate_clip"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "create_time", b"create_time", "end_time", b"end_time", "error", b"error", "expire_time", b"expire_time", "name", b"name", "progress", b"progress", "result", b"result", "simulate_clip", b"simulate_clip", "state", b"state"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "create_time", b"create_time", "end_time", b"end_time", "error", b"error", "expire_time", b"expire_time", "name", b"name", "progress", b"progress", "rehearse_clip", b"rehearse_clip", "result", b"result", "simulate_clip", b"simulate_clip", "state", b"state"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    _WhichOneofReturnType_result: _TypeAlias = _typing.Literal["error", "create_clip", "simulate_clip"]  # noqa: Y015
+    _WhichOneofReturnType_result: _TypeAlias = _typing.Literal["error", "create_clip", "simulate_clip", "rehearse_clip"]  # noqa: Y015
     _WhichOneofArgType_result: _TypeAlias = _typing.Literal["result", b"result"]  # noqa: Y015
     def WhichOneof(self, oneof_group: _WhichOneofArgType_result) -> _WhichOneofReturnType_result | None: ...
 
@@ -136,6 +142,7 @@ class StartOperationRequest(_message.Message):
 
     CREATE_CLIP_FIELD_NUMBER: _builtins.int
     SIMULATE_CLIP_FIELD_NUMBER: _builtins.int
+    REHEARSE_CLIP_FIELD_NUMBER: _builtins.int
     REQUEST_ID_FIELD_NUMBER: _builtins.int
     request_id: _builtins.str
     """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
@@ -149,18 +156,23 @@ class StartOperationRequest(_message.Message):
     def simulate_clip(self) -> _simulation_pb2.SimulateClipRequest:
         """Simulates a clip."""
 
+    @_builtins.property
+    def rehearse_clip(self) -> _motion_pb2.RehearseClipRequest:
+        """Rehearses a clip. Its own `request_id` is ignored."""
+
     def __init__(
         self,
         *,
         create_clip: _motion_pb2.CreateClipRequest | None = ...,
         simulate_clip: _simulation_pb2.SimulateClipRequest | None = ...,
+        rehearse_clip: _motion_pb2.RehearseClipRequest | None = ...,
         request_id: _builtins.str = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "simulate_clip", b"simulate_clip", "work", b"work"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "rehearse_clip", b"rehearse_clip", "simulate_clip", b"simulate_clip", "work", b"work"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "request_id", b"request_id", "simulate_clip", b"simulate_clip", "work", b"work"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["create_clip", b"create_clip", "rehearse_clip", b"rehearse_clip", "request_id", b"request_id", "simulate_clip", b"simulate_clip", "work", b"work"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
-    _WhichOneofReturnType_work: _TypeAlias = _typing.Literal["create_clip", "simulate_clip"]  # noqa: Y015
+    _WhichOneofReturnType_work: _TypeAlias = _typing.Literal["create_clip", "simulate_clip", "rehearse_clip"]  # noqa: Y015
     _WhichOneofArgType_work: _TypeAlias = _typing.Literal["work", b"work"]  # noqa: Y015
     def WhichOneof(self, oneof_group: _WhichOneofArgType_work) -> _WhichOneofReturnType_work | None: ...
 

@@ -6,8 +6,8 @@ import type { GenEnum, GenFile, GenMessage, GenService } from "@bufbuild/protobu
 import { enumDesc, fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
 import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
 import { file_google_api_resource } from "../../google/api/resource_pb.js";
-import type { Timestamp } from "@bufbuild/protobuf/wkt";
-import { file_google_protobuf_timestamp } from "@bufbuild/protobuf/wkt";
+import type { Duration, Timestamp } from "@bufbuild/protobuf/wkt";
+import { file_google_protobuf_duration, file_google_protobuf_timestamp } from "@bufbuild/protobuf/wkt";
 import { file_sinew_v1_options } from "./options_pb.js";
 import type { Placement, Pose, Quaternion, RetargetReport } from "./types_pb.js";
 import { file_sinew_v1_types } from "./types_pb.js";
@@ -17,7 +17,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/motion.proto.
  */
 export const file_sinew_v1_motion: GenFile = /*@__PURE__*/
-  fileDesc("ChVzaW5ldy92MS9tb3Rpb24ucHJvdG8SCHNpbmV3LnYxIvsCCgRDbGlwEhIKBG5hbWUYASABKAlCBOJBAQgSGgoMZGlzcGxheV9uYW1lGAIgASgJQgTiQQEDEhUKB2J1aWx0aW4YAyABKAhCBOJBAQMSIQoEYm9keRgEIAEoCUIT4kEBA/pBDAoKc2luZXcvQm9keRIVCgdyYXRlX2h6GAUgASgBQgTiQQEDEhkKC2ZyYW1lX2NvdW50GAYgASgFQgTiQQEDEhgKCmR1cmF0aW9uX3MYByABKAFCBOJBAQMSLgoGcmVwb3J0GAggASgLMhguc2luZXcudjEuUmV0YXJnZXRSZXBvcnRCBOJBAQMSNQoLY3JlYXRlX3RpbWUYCSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wQgTiQQEDEioKCGZvcmVjYXN0GAogASgLMhIuc2luZXcudjEuRm9yZWNhc3RCBOJBAQM6KupBJwoKc2luZXcvQ2xpcBIMY2xpcHMve2NsaXB9KgVjbGlwczIEY2xpcCLLAwoIRm9yZWNhc3QSKgoHdmVyZGljdBgBIAEoDjIZLnNpbmV3LnYxLkZvcmVjYXN0VmVyZGljdBIOCgZyZWFzb24YAiABKAkSDgoGZGVtYW5kGAMgASgBEiEKGWxhY2tpbmdfZm9yY2Vfcm1zX3dlaWdodHMYBCABKAESIgoabGFja2luZ19mb3JjZV9wZWFrX3dlaWdodHMYBSABKAESIQoZbGFja2luZ19mb3JjZV9wZWFrX3RpbWVfcxgGIAEoARIkChxsYWNraW5nX21vbWVudF9wZWFrX3dlaWdodF9tGAcgASgBEh0KFWNhcHR1cmVfcG9pbnRfZHJpZnRfbRgIIAEoARIbChNzdHJlbmd0aF9wZWFrX3JhdGlvGAkgASgBEhQKDHN0cmVuZ3RoX2RvZhgKIAEoCRIcChRzdHJlbmd0aF9wZWFrX3RpbWVfcxgLIAEoARIaChJzdHJlbmd0aF9wOTVfcmF0aW8YDCABKAESEAoIZmxpZ2h0X3MYDSABKAESGAoQbG9uZ2VzdF9mbGlnaHRfcxgOIAEoARIXCg9mbG9vcl9jb250YWN0X3MYDyABKAESEgoKaW52ZXJ0ZWRfcxgQIAEoASKhAgoKQnZoT3B0aW9ucxIZCgZ1bml0X20YASABKAFCBOJBAQFIAIgBARIVCgd1cF9heGlzGAIgASgJQgTiQQEBEhoKB3JhdGVfaHoYAyABKAFCBOJBAQFIAYgBARIcCglmaXRfZmxvb3IYBCABKAhCBOJBAQFIAogBARIcCglsb2NrX2ZlZXQYBSABKAhCBOJBAQFIA4gBARIcCgljdXRvZmZfaHoYBiABKAFCBOJBAQFIBIgBARIcCgl3YWxrX3J1bnMYByABKAhCBOJBAQFIBYgBAUIJCgdfdW5pdF9tQgoKCF9yYXRlX2h6QgwKCl9maXRfZmxvb3JCDAoKX2xvY2tfZmVldEIMCgpfY3V0b2ZmX2h6QgwKCl93YWxrX3J1bnMiTAoJQnZoU291cmNlEhIKBGRhdGEYASABKAxCBOJBAQISKwoHb3B0aW9ucxgCIAEoCzIULnNpbmV3LnYxLkJ2aE9wdGlvbnNCBOJBAQEiUgoLRnJhbWVTb3VyY2USFQoHcmF0ZV9oehgBIAEoAUIE4kEBAhIsCgZmcmFtZXMYAiADKAsyFi5zaW5ldy52MS5GaWd1cmVNb3Rpb25CBOJBAQIi9wEKEUNyZWF0ZUNsaXBSZXF1ZXN0EhUKB2NsaXBfaWQYASABKAlCBOJBAQESGgoMZGlzcGxheV9uYW1lGAIgASgJQgTiQQEBEiEKBGJvZHkYAyABKAlCE+JBAQH6QQwKCnNpbmV3L0JvZHkSIgoDYnZoGAQgASgLMhMuc2luZXcudjEuQnZoU291cmNlSAASJwoGZnJhbWVzGAUgASgLMhUuc2luZXcudjEuRnJhbWVTb3VyY2VIABIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQFCCAoGc291cmNlIjIKEkNyZWF0ZUNsaXBSZXNwb25zZRIcCgRjbGlwGAEgASgLMg4uc2luZXcudjEuQ2xpcCJRChdTdHJlYW1DcmVhdGVDbGlwUmVxdWVzdBI2CgtjcmVhdGVfY2xpcBgBIAEoCzIbLnNpbmV3LnYxLkNyZWF0ZUNsaXBSZXF1ZXN0QgTiQQECIm4KGFN0cmVhbUNyZWF0ZUNsaXBSZXNwb25zZRISCghwcm9ncmVzcxgBIAEoAUgAEjMKC2NyZWF0ZV9jbGlwGAIgASgLMhwuc2luZXcudjEuQ3JlYXRlQ2xpcFJlc3BvbnNlSABCCQoHbWVzc2FnZSIzCg5HZXRDbGlwUmVxdWVzdBIhCgRuYW1lGAEgASgJQhPiQQEC+kEMCgpzaW5ldy9DbGlwIi8KD0dldENsaXBSZXNwb25zZRIcCgRjbGlwGAEgASgLMg4uc2luZXcudjEuQ2xpcCJFChBMaXN0Q2xpcHNSZXF1ZXN0EhcKCXBhZ2Vfc2l6ZRgBIAEoBUIE4kEBARIYCgpwYWdlX3Rva2VuGAIgASgJQgTiQQEBIksKEUxpc3RDbGlwc1Jlc3BvbnNlEh0KBWNsaXBzGAEgAygLMg4uc2luZXcudjEuQ2xpcBIXCg9uZXh0X3BhZ2VfdG9rZW4YAiABKAkiUAoRRGVsZXRlQ2xpcFJlcXVlc3QSIQoEbmFtZRgBIAEoCUIT4kEBAvpBDAoKc2luZXcvQ2xpcBIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBIhQKEkRlbGV0ZUNsaXBSZXNwb25zZSKwAgoPUGxheUNsaXBSZXF1ZXN0EiUKBmZpZ3VyZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlEiEKBGNsaXAYAiABKAlCE+JBAQL6QQwKCnNpbmV3L0NsaXASEwoFc3BlZWQYAyABKAFCBOJBAQESEgoEbG9vcBgEIAEoCEIE4kEBARIfCgxzdGFydF90aW1lX3MYBSABKAFCBOJBAQFIAIgBARITCgVyZXNldBgGIAEoCEIE4kEBARIsCglwbGFjZW1lbnQYByABKAsyEy5zaW5ldy52MS5QbGFjZW1lbnRCBOJBAQESGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBARIbCg1jb250cm9sX3Rva2VuGA8gASgJQgTiQQEBQg8KDV9zdGFydF90aW1lX3MiKAoQUGxheUNsaXBSZXNwb25zZRIUCgxzdGFydF90aW1lX3MYASABKAEibwoPU3RvcENsaXBSZXF1ZXN0EiUKBmZpZ3VyZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQESGwoNY29udHJvbF90b2tlbhgPIAEoCUIE4kEBASISChBTdG9wQ2xpcFJlc3BvbnNlIlAKDEJvbmVSb3RhdGlvbhISCgRib25lGAEgASgJQgTiQQECEiwKCHJvdGF0aW9uGAIgASgLMhQuc2luZXcudjEuUXVhdGVybmlvbkIE4kEBAiKHAgoMRmlndXJlTW90aW9uEhcKCWZpZ3VyZV9pZBgBIAEoCUIE4kEBARIiCgRyb290GAIgASgLMg4uc2luZXcudjEuUG9zZUIE4kEBARIeChBqb2ludF9hbmdsZXNfcmFkGAMgAygBQgTiQQEBEjQKDmJvbmVfcm90YXRpb25zGAQgAygLMhYuc2luZXcudjEuQm9uZVJvdGF0aW9uQgTiQQEBEjUKDnJvdGF0aW9uX3NwYWNlGAUgASgOMhcuc2luZXcudjEuUm90YXRpb25TcGFjZUIE4kEBARIWCgh2ZWxvY2l0eRgGIAMoAUIE4kEBARIVCgdwbGFudGVkGAcgAygIQgTiQQEBInIKC01vdGlvbkZyYW1lEhYKCHNlcXVlbmNlGAEgASgDQgTiQQEBEhwKDnNvdXJjZV90aW1lX25zGAIgASgQQgTiQQEBEi0KB2ZpZ3VyZXMYAyADKAsyFi5zaW5ldy52MS5GaWd1cmVNb3Rpb25CBOJBAQIiqQQKC0RyaXZlSGVhZGVyEiMKBXdvcmxkGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIYCgpmaWd1cmVfaWRzGAIgAygJQgTiQQECEhcKCWRyaXZlcl9pZBgDIAEoCUIE4kEBARIdCg9ub21pbmFsX3JhdGVfaHoYBCABKAFCBOJBAQESIwoQcGxheW91dF9kZWxheV9tcxgFIAEoAUIE4kEBAUgAiAEBEiIKFG1heF9wbGF5b3V0X2RlbGF5X21zGAYgASgBQgTiQQEBEioKCHVuZGVycnVuGAcgASgOMhIuc2luZXcudjEuVW5kZXJydW5CBOJBAQESKQoWZXh0cmFwb2xhdGlvbl9saW1pdF9tcxgIIAEoAUIE4kEBAUgBiAEBEiAKDWhvbGRfbGltaXRfbXMYCSABKAFCBOJBAQFIAogBARIbCghncmFjZV9tcxgKIAEoAUIE4kEBAUgDiAEBEhMKBXJlc2V0GAsgASgIQgTiQQEBEigKFXByZXBhcmF0aW9uX3dpbmRvd19tcxgMIAEoAUIE4kEBAUgEiAEBEhwKDmNvbnRyb2xfdG9rZW5zGA8gAygJQgTiQQEBQhMKEV9wbGF5b3V0X2RlbGF5X21zQhkKF19leHRyYXBvbGF0aW9uX2xpbWl0X21zQhAKDl9ob2xkX2xpbWl0X21zQgsKCV9ncmFjZV9tc0IYChZfcHJlcGFyYXRpb25fd2luZG93X21zIjoKC01vdGlvbkJhdGNoEisKBmZyYW1lcxgBIAMoCzIVLnNpbmV3LnYxLk1vdGlvbkZyYW1lQgTiQQECInEKE0RyaXZlRmlndXJlc1JlcXVlc3QSJwoGaGVhZGVyGAEgASgLMhUuc2luZXcudjEuRHJpdmVIZWFkZXJIABImCgViYXRjaBgCIAEoCzIVLnNpbmV3LnYxLk1vdGlvbkJhdGNoSABCCQoHbWVzc2FnZSJBChREcml2ZUZpZ3VyZXNSZXNwb25zZRIpCghmZWVkYmFjaxgBIAEoCzIXLnNpbmV3LnYxLkRyaXZlRmVlZGJhY2sibAoRUHVzaE1vdGlvblJlcXVlc3QSKwoGaGVhZGVyGAEgASgLMhUuc2luZXcudjEuRHJpdmVIZWFkZXJCBOJBAQISKgoFYmF0Y2gYAiABKAsyFS5zaW5ldy52MS5Nb3Rpb25CYXRjaEIE4kEBAiI/ChJQdXNoTW90aW9uUmVzcG9uc2USKQoIZmVlZGJhY2sYASABKAsyFy5zaW5ldy52MS5Ecml2ZUZlZWRiYWNrIpMBCg1Ecml2ZUZlZWRiYWNrEhEKCWRyaXZlcl9pZBgBIAEoCRIMCgR0aWNrGAIgASgDEhkKEXJlY2VpdmVkX3NlcXVlbmNlGAMgASgDEhsKE3JlZnVzZWRfYmF0Y2hfY291bnQYBCABKAMSKQoHZmlndXJlcxgFIAMoCzIYLnNpbmV3LnYxLkZpZ3VyZUZlZWRiYWNrIsQDCg5GaWd1cmVGZWVkYmFjaxIRCglmaWd1cmVfaWQYASABKAkSGAoQYXBwbGllZF9zZXF1ZW5jZRgCIAEoAxIeChZhcHBsaWVkX3NvdXJjZV90aW1lX25zGAMgASgQEhMKC2J1ZmZlcmVkX21zGAQgASgBEhgKEHBsYXlvdXRfZGVsYXlfbXMYBSABKAESEQoJaml0dGVyX21zGAYgASgBEiAKBnN1cHBseRgHIAEoDjIQLnNpbmV3LnYxLlN1cHBseRIVCg1wcmVzZW50X2NvdW50GAggASgDEhoKEmludGVycG9sYXRlZF9jb3VudBgJIAEoAxIaChJleHRyYXBvbGF0ZWRfY291bnQYCiABKAMSEgoKaGVsZF9jb3VudBgLIAEoAxIVCg1yZWxheGVkX2NvdW50GAwgASgDEhIKCmxhdGVfY291bnQYDSABKAMSEwoLc3RhbGVfY291bnQYDiABKAMSFgoOb3ZlcmZsb3dfY291bnQYDyABKAMSHQoVcHJlcGFyYXRpb25fd2luZG93X21zGBAgASgBEhQKDHJlc3luY19jb3VudBgRIAEoAxIRCgliZWhpbmRfbXMYEiABKAEqjwEKD0ZvcmVjYXN0VmVyZGljdBIgChxGT1JFQ0FTVF9WRVJESUNUX1VOU1BFQ0lGSUVEEAASHAoYRk9SRUNBU1RfVkVSRElDVF9GT0xMT1dTEAESHwobRk9SRUNBU1RfVkVSRElDVF9ORUVEU19IRUxQEAISGwoXRk9SRUNBU1RfVkVSRElDVF9DQU5OT1QQAypkCg1Sb3RhdGlvblNwYWNlEh4KGlJPVEFUSU9OX1NQQUNFX1VOU1BFQ0lGSUVEEAASGQoVUk9UQVRJT05fU1BBQ0VfUEFSRU5UEAESGAoUUk9UQVRJT05fU1BBQ0VfV09STEQQAipRCghVbmRlcnJ1bhIYChRVTkRFUlJVTl9VTlNQRUNJRklFRBAAEhgKFFVOREVSUlVOX0VYVFJBUE9MQVRFEAESEQoNVU5ERVJSVU5fSE9MRBACKp8BCgZTdXBwbHkSFgoSU1VQUExZX1VOU1BFQ0lGSUVEEAASEgoOU1VQUExZX1BSRVNFTlQQARIXChNTVVBQTFlfSU5URVJQT0xBVEVEEAISFwoTU1VQUExZX0VYVFJBUE9MQVRFRBADEg8KC1NVUFBMWV9IRUxEEAQSEgoOU1VQUExZX1JFTEFYRUQQBRISCg5TVVBQTFlfV0FJVElORxAGMtwFCg1Nb3Rpb25TZXJ2aWNlEk0KCkNyZWF0ZUNsaXASGy5zaW5ldy52MS5DcmVhdGVDbGlwUmVxdWVzdBocLnNpbmV3LnYxLkNyZWF0ZUNsaXBSZXNwb25zZSIE6OAYBxJhChBTdHJlYW1DcmVhdGVDbGlwEiEuc2luZXcudjEuU3RyZWFtQ3JlYXRlQ2xpcFJlcXVlc3QaIi5zaW5ldy52MS5TdHJlYW1DcmVhdGVDbGlwUmVzcG9uc2UiBOjgGAcwARJECgdHZXRDbGlwEhguc2luZXcudjEuR2V0Q2xpcFJlcXVlc3QaGS5zaW5ldy52MS5HZXRDbGlwUmVzcG9uc2UiBOjgGAYSSgoJTGlzdENsaXBzEhouc2luZXcudjEuTGlzdENsaXBzUmVxdWVzdBobLnNpbmV3LnYxLkxpc3RDbGlwc1Jlc3BvbnNlIgTo4BgGEk0KCkRlbGV0ZUNsaXASGy5zaW5ldy52MS5EZWxldGVDbGlwUmVxdWVzdBocLnNpbmV3LnYxLkRlbGV0ZUNsaXBSZXNwb25zZSIE6OAYBxJHCghQbGF5Q2xpcBIZLnNpbmV3LnYxLlBsYXlDbGlwUmVxdWVzdBoaLnNpbmV3LnYxLlBsYXlDbGlwUmVzcG9uc2UiBOjgGAMSRwoIU3RvcENsaXASGS5zaW5ldy52MS5TdG9wQ2xpcFJlcXVlc3QaGi5zaW5ldy52MS5TdG9wQ2xpcFJlc3BvbnNlIgTo4BgDEk0KClB1c2hNb3Rpb24SGy5zaW5ldy52MS5QdXNoTW90aW9uUmVxdWVzdBocLnNpbmV3LnYxLlB1c2hNb3Rpb25SZXNwb25zZSIE6OAYAxJXCgxEcml2ZUZpZ3VyZXMSHS5zaW5ldy52MS5Ecml2ZUZpZ3VyZXNSZXF1ZXN0Gh4uc2luZXcudjEuRHJpdmVGaWd1cmVzUmVzcG9uc2UiBOjgGAMoATABYgZwcm90bzM", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_timestamp, file_sinew_v1_options, file_sinew_v1_types]);
+  fileDesc("ChVzaW5ldy92MS9tb3Rpb24ucHJvdG8SCHNpbmV3LnYxIsMDCgRDbGlwEhIKBG5hbWUYASABKAlCBOJBAQgSGgoMZGlzcGxheV9uYW1lGAIgASgJQgTiQQEDEhUKB2J1aWx0aW4YAyABKAhCBOJBAQMSIQoEYm9keRgEIAEoCUIT4kEBA/pBDAoKc2luZXcvQm9keRIVCgdyYXRlX2h6GAUgASgBQgTiQQEDEhkKC2ZyYW1lX2NvdW50GAYgASgFQgTiQQEDEhgKCmR1cmF0aW9uX3MYByABKAFCBOJBAQMSLgoGcmVwb3J0GAggASgLMhguc2luZXcudjEuUmV0YXJnZXRSZXBvcnRCBOJBAQMSNQoLY3JlYXRlX3RpbWUYCSABKAsyGi5nb29nbGUucHJvdG9idWYuVGltZXN0YW1wQgTiQQEDEioKCGZvcmVjYXN0GAogASgLMhIuc2luZXcudjEuRm9yZWNhc3RCBOJBAQMSJgoGZm9sbG93GAsgASgOMhAuc2luZXcudjEuRm9sbG93QgTiQQEDEh4KEG1heF9oZWxwX3dlaWdodHMYDCABKAFCBOJBAQM6KupBJwoKc2luZXcvQ2xpcBIMY2xpcHMve2NsaXB9KgVjbGlwczIEY2xpcCKyAgoJUmVoZWFyc2FsEiAKA3dheRgBIAEoDjITLnNpbmV3LnYxLkZvbGxvd1dheRIOCgZyZWFzb24YAiABKAkSFgoJbG9zdF9hdF9zGAMgASgBSACIAQESDwoHZXJyb3JfbRgEIAEoARIdChVyb290X3JlbGF0aXZlX2Vycm9yX20YBSABKAESGwoTaGVscF9uZXd0b25fc2Vjb25kcxgGIAEoARISCgpoZWxwX3JhdGlvGAcgASgBEhkKEWhlbHBfcGVha19uZXd0b25zGAggASgBEhQKDGhlbHBlZF9yYXRpbxgJIAEoARITCgtoYXJkZXN0X2RvZhgKIAEoCRIVCg1oYXJkZXN0X3JhdGlvGAsgASgBEg8KB3N0b3BwZWQYDCABKAhCDAoKX2xvc3RfYXRfcyLLAwoIRm9yZWNhc3QSKgoHdmVyZGljdBgBIAEoDjIZLnNpbmV3LnYxLkZvcmVjYXN0VmVyZGljdBIOCgZyZWFzb24YAiABKAkSDgoGZGVtYW5kGAMgASgBEiEKGWxhY2tpbmdfZm9yY2Vfcm1zX3dlaWdodHMYBCABKAESIgoabGFja2luZ19mb3JjZV9wZWFrX3dlaWdodHMYBSABKAESIQoZbGFja2luZ19mb3JjZV9wZWFrX3RpbWVfcxgGIAEoARIkChxsYWNraW5nX21vbWVudF9wZWFrX3dlaWdodF9tGAcgASgBEh0KFWNhcHR1cmVfcG9pbnRfZHJpZnRfbRgIIAEoARIbChNzdHJlbmd0aF9wZWFrX3JhdGlvGAkgASgBEhQKDHN0cmVuZ3RoX2RvZhgKIAEoCRIcChRzdHJlbmd0aF9wZWFrX3RpbWVfcxgLIAEoARIaChJzdHJlbmd0aF9wOTVfcmF0aW8YDCABKAESEAoIZmxpZ2h0X3MYDSABKAESGAoQbG9uZ2VzdF9mbGlnaHRfcxgOIAEoARIXCg9mbG9vcl9jb250YWN0X3MYDyABKAESEgoKaW52ZXJ0ZWRfcxgQIAEoASKhAgoKQnZoT3B0aW9ucxIZCgZ1bml0X20YASABKAFCBOJBAQFIAIgBARIVCgd1cF9heGlzGAIgASgJQgTiQQEBEhoKB3JhdGVfaHoYAyABKAFCBOJBAQFIAYgBARIcCglmaXRfZmxvb3IYBCABKAhCBOJBAQFIAogBARIcCglsb2NrX2ZlZXQYBSABKAhCBOJBAQFIA4gBARIcCgljdXRvZmZfaHoYBiABKAFCBOJBAQFIBIgBARIcCgl3YWxrX3J1bnMYByABKAhCBOJBAQFIBYgBAUIJCgdfdW5pdF9tQgoKCF9yYXRlX2h6QgwKCl9maXRfZmxvb3JCDAoKX2xvY2tfZmVldEIMCgpfY3V0b2ZmX2h6QgwKCl93YWxrX3J1bnMiTAoJQnZoU291cmNlEhIKBGRhdGEYASABKAxCBOJBAQISKwoHb3B0aW9ucxgCIAEoCzIULnNpbmV3LnYxLkJ2aE9wdGlvbnNCBOJBAQEiUgoLRnJhbWVTb3VyY2USFQoHcmF0ZV9oehgBIAEoAUIE4kEBAhIsCgZmcmFtZXMYAiADKAsyFi5zaW5ldy52MS5GaWd1cmVNb3Rpb25CBOJBAQIi2QIKEUNyZWF0ZUNsaXBSZXF1ZXN0EhUKB2NsaXBfaWQYASABKAlCBOJBAQESGgoMZGlzcGxheV9uYW1lGAIgASgJQgTiQQEBEiEKBGJvZHkYAyABKAlCE+JBAQH6QQwKCnNpbmV3L0JvZHkSIgoDYnZoGAQgASgLMhMuc2luZXcudjEuQnZoU291cmNlSAASJwoGZnJhbWVzGAUgASgLMhUuc2luZXcudjEuRnJhbWVTb3VyY2VIABImCgZmb2xsb3cYBiABKA4yEC5zaW5ldy52MS5Gb2xsb3dCBOJBAQESIwoQbWF4X2hlbHBfd2VpZ2h0cxgHIAEoAUIE4kEBAUgBiAEBEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQESGwoNdmFsaWRhdGVfb25seRgOIAEoCEIE4kEBAUIICgZzb3VyY2VCEwoRX21heF9oZWxwX3dlaWdodHMiMgoSQ3JlYXRlQ2xpcFJlc3BvbnNlEhwKBGNsaXAYASABKAsyDi5zaW5ldy52MS5DbGlwIlEKF1N0cmVhbUNyZWF0ZUNsaXBSZXF1ZXN0EjYKC2NyZWF0ZV9jbGlwGAEgASgLMhsuc2luZXcudjEuQ3JlYXRlQ2xpcFJlcXVlc3RCBOJBAQIibgoYU3RyZWFtQ3JlYXRlQ2xpcFJlc3BvbnNlEhIKCHByb2dyZXNzGAEgASgBSAASMwoLY3JlYXRlX2NsaXAYAiABKAsyHC5zaW5ldy52MS5DcmVhdGVDbGlwUmVzcG9uc2VIAEIJCgdtZXNzYWdlIjMKDkdldENsaXBSZXF1ZXN0EiEKBG5hbWUYASABKAlCE+JBAQL6QQwKCnNpbmV3L0NsaXAiLwoPR2V0Q2xpcFJlc3BvbnNlEhwKBGNsaXAYASABKAsyDi5zaW5ldy52MS5DbGlwIkUKEExpc3RDbGlwc1JlcXVlc3QSFwoJcGFnZV9zaXplGAEgASgFQgTiQQEBEhgKCnBhZ2VfdG9rZW4YAiABKAlCBOJBAQEiSwoRTGlzdENsaXBzUmVzcG9uc2USHQoFY2xpcHMYASADKAsyDi5zaW5ldy52MS5DbGlwEhcKD25leHRfcGFnZV90b2tlbhgCIAEoCSJQChFEZWxldGVDbGlwUmVxdWVzdBIhCgRuYW1lGAEgASgJQhPiQQEC+kEMCgpzaW5ldy9DbGlwEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiFAoSRGVsZXRlQ2xpcFJlc3BvbnNlIowCChNSZWhlYXJzZUNsaXBSZXF1ZXN0EiEKBGNsaXAYASABKAlCE+JBAQL6QQwKCnNpbmV3L0NsaXASJQoGZmlndXJlGAIgASgJQhXiQQEC+kEOCgxzaW5ldy9GaWd1cmUSJgoGZm9sbG93GAMgASgOMhAuc2luZXcudjEuRm9sbG93QgTiQQEBEiMKEG1heF9oZWxwX3dlaWdodHMYBCABKAFCBOJBAQFIAIgBARIvCgZidWRnZXQYBSABKAsyGS5nb29nbGUucHJvdG9idWYuRHVyYXRpb25CBOJBAQESGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBAUITChFfbWF4X2hlbHBfd2VpZ2h0cyI+ChRSZWhlYXJzZUNsaXBSZXNwb25zZRImCglyZWhlYXJzYWwYASABKAsyEy5zaW5ldy52MS5SZWhlYXJzYWwi2AIKD1BsYXlDbGlwUmVxdWVzdBIlCgZmaWd1cmUYASABKAlCFeJBAQL6QQ4KDHNpbmV3L0ZpZ3VyZRIhCgRjbGlwGAIgASgJQhPiQQEC+kEMCgpzaW5ldy9DbGlwEhMKBXNwZWVkGAMgASgBQgTiQQEBEhIKBGxvb3AYBCABKAhCBOJBAQESHwoMc3RhcnRfdGltZV9zGAUgASgBQgTiQQEBSACIAQESEwoFcmVzZXQYBiABKAhCBOJBAQESLAoJcGxhY2VtZW50GAcgASgLMhMuc2luZXcudjEuUGxhY2VtZW50QgTiQQEBEiYKBmZvbGxvdxgIIAEoDjIQLnNpbmV3LnYxLkZvbGxvd0IE4kEBARIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBEhsKDWNvbnRyb2xfdG9rZW4YDyABKAlCBOJBAQFCDwoNX3N0YXJ0X3RpbWVfcyIoChBQbGF5Q2xpcFJlc3BvbnNlEhQKDHN0YXJ0X3RpbWVfcxgBIAEoASJvCg9TdG9wQ2xpcFJlcXVlc3QSJQoGZmlndXJlGAEgASgJQhXiQQEC+kEOCgxzaW5ldy9GaWd1cmUSGAoKcmVxdWVzdF9pZBgNIAEoCUIE4kEBARIbCg1jb250cm9sX3Rva2VuGA8gASgJQgTiQQEBIhIKEFN0b3BDbGlwUmVzcG9uc2UiUAoMQm9uZVJvdGF0aW9uEhIKBGJvbmUYASABKAlCBOJBAQISLAoIcm90YXRpb24YAiABKAsyFC5zaW5ldy52MS5RdWF0ZXJuaW9uQgTiQQECIocCCgxGaWd1cmVNb3Rpb24SFwoJZmlndXJlX2lkGAEgASgJQgTiQQEBEiIKBHJvb3QYAiABKAsyDi5zaW5ldy52MS5Qb3NlQgTiQQEBEh4KEGpvaW50X2FuZ2xlc19yYWQYAyADKAFCBOJBAQESNAoOYm9uZV9yb3RhdGlvbnMYBCADKAsyFi5zaW5ldy52MS5Cb25lUm90YXRpb25CBOJBAQESNQoOcm90YXRpb25fc3BhY2UYBSABKA4yFy5zaW5ldy52MS5Sb3RhdGlvblNwYWNlQgTiQQEBEhYKCHZlbG9jaXR5GAYgAygBQgTiQQEBEhUKB3BsYW50ZWQYByADKAhCBOJBAQEicgoLTW90aW9uRnJhbWUSFgoIc2VxdWVuY2UYASABKANCBOJBAQESHAoOc291cmNlX3RpbWVfbnMYAiABKBBCBOJBAQESLQoHZmlndXJlcxgDIAMoCzIWLnNpbmV3LnYxLkZpZ3VyZU1vdGlvbkIE4kEBAiKpBAoLRHJpdmVIZWFkZXISIwoFd29ybGQYASABKAlCFOJBAQL6QQ0KC3NpbmV3L1dvcmxkEhgKCmZpZ3VyZV9pZHMYAiADKAlCBOJBAQISFwoJZHJpdmVyX2lkGAMgASgJQgTiQQEBEh0KD25vbWluYWxfcmF0ZV9oehgEIAEoAUIE4kEBARIjChBwbGF5b3V0X2RlbGF5X21zGAUgASgBQgTiQQEBSACIAQESIgoUbWF4X3BsYXlvdXRfZGVsYXlfbXMYBiABKAFCBOJBAQESKgoIdW5kZXJydW4YByABKA4yEi5zaW5ldy52MS5VbmRlcnJ1bkIE4kEBARIpChZleHRyYXBvbGF0aW9uX2xpbWl0X21zGAggASgBQgTiQQEBSAGIAQESIAoNaG9sZF9saW1pdF9tcxgJIAEoAUIE4kEBAUgCiAEBEhsKCGdyYWNlX21zGAogASgBQgTiQQEBSAOIAQESEwoFcmVzZXQYCyABKAhCBOJBAQESKAoVcHJlcGFyYXRpb25fd2luZG93X21zGAwgASgBQgTiQQEBSASIAQESHAoOY29udHJvbF90b2tlbnMYDyADKAlCBOJBAQFCEwoRX3BsYXlvdXRfZGVsYXlfbXNCGQoXX2V4dHJhcG9sYXRpb25fbGltaXRfbXNCEAoOX2hvbGRfbGltaXRfbXNCCwoJX2dyYWNlX21zQhgKFl9wcmVwYXJhdGlvbl93aW5kb3dfbXMiOgoLTW90aW9uQmF0Y2gSKwoGZnJhbWVzGAEgAygLMhUuc2luZXcudjEuTW90aW9uRnJhbWVCBOJBAQIicQoTRHJpdmVGaWd1cmVzUmVxdWVzdBInCgZoZWFkZXIYASABKAsyFS5zaW5ldy52MS5Ecml2ZUhlYWRlckgAEiYKBWJhdGNoGAIgASgLMhUuc2luZXcudjEuTW90aW9uQmF0Y2hIAEIJCgdtZXNzYWdlIkEKFERyaXZlRmlndXJlc1Jlc3BvbnNlEikKCGZlZWRiYWNrGAEgASgLMhcuc2luZXcudjEuRHJpdmVGZWVkYmFjayJsChFQdXNoTW90aW9uUmVxdWVzdBIrCgZoZWFkZXIYASABKAsyFS5zaW5ldy52MS5Ecml2ZUhlYWRlckIE4kEBAhIqCgViYXRjaBgCIAEoCzIVLnNpbmV3LnYxLk1vdGlvbkJhdGNoQgTiQQECIj8KElB1c2hNb3Rpb25SZXNwb25zZRIpCghmZWVkYmFjaxgBIAEoCzIXLnNpbmV3LnYxLkRyaXZlRmVlZGJhY2sikwEKDURyaXZlRmVlZGJhY2sSEQoJZHJpdmVyX2lkGAEgASgJEgwKBHRpY2sYAiABKAMSGQoRcmVjZWl2ZWRfc2VxdWVuY2UYAyABKAMSGwoTcmVmdXNlZF9iYXRjaF9jb3VudBgEIAEoAxIpCgdmaWd1cmVzGAUgAygLMhguc2luZXcudjEuRmlndXJlRmVlZGJhY2sixAMKDkZpZ3VyZUZlZWRiYWNrEhEKCWZpZ3VyZV9pZBgBIAEoCRIYChBhcHBsaWVkX3NlcXVlbmNlGAIgASgDEh4KFmFwcGxpZWRfc291cmNlX3RpbWVfbnMYAyABKBASEwoLYnVmZmVyZWRfbXMYBCABKAESGAoQcGxheW91dF9kZWxheV9tcxgFIAEoARIRCglqaXR0ZXJfbXMYBiABKAESIAoGc3VwcGx5GAcgASgOMhAuc2luZXcudjEuU3VwcGx5EhUKDXByZXNlbnRfY291bnQYCCABKAMSGgoSaW50ZXJwb2xhdGVkX2NvdW50GAkgASgDEhoKEmV4dHJhcG9sYXRlZF9jb3VudBgKIAEoAxISCgpoZWxkX2NvdW50GAsgASgDEhUKDXJlbGF4ZWRfY291bnQYDCABKAMSEgoKbGF0ZV9jb3VudBgNIAEoAxITCgtzdGFsZV9jb3VudBgOIAEoAxIWCg5vdmVyZmxvd19jb3VudBgPIAEoAxIdChVwcmVwYXJhdGlvbl93aW5kb3dfbXMYECABKAESFAoMcmVzeW5jX2NvdW50GBEgASgDEhEKCWJlaGluZF9tcxgSIAEoASpeCgZGb2xsb3cSFgoSRk9MTE9XX1VOU1BFQ0lGSUVEEAASEQoNRk9MTE9XX1NUUklDVBABEhQKEEZPTExPV19SRUhFQVJTRUQQAhITCg9GT0xMT1dfQVNTSVNURUQQAyqFAQoJRm9sbG93V2F5EhoKFkZPTExPV19XQVlfVU5TUEVDSUZJRUQQABIWChJGT0xMT1dfV0FZX1RSQUNLRUQQARIYChRGT0xMT1dfV0FZX1JFSEVBUlNFRBACEhUKEUZPTExPV19XQVlfSEVMUEVEEAMSEwoPRk9MTE9XX1dBWV9MT1NUEAQqjwEKD0ZvcmVjYXN0VmVyZGljdBIgChxGT1JFQ0FTVF9WRVJESUNUX1VOU1BFQ0lGSUVEEAASHAoYRk9SRUNBU1RfVkVSRElDVF9GT0xMT1dTEAESHwobRk9SRUNBU1RfVkVSRElDVF9ORUVEU19IRUxQEAISGwoXRk9SRUNBU1RfVkVSRElDVF9DQU5OT1QQAypkCg1Sb3RhdGlvblNwYWNlEh4KGlJPVEFUSU9OX1NQQUNFX1VOU1BFQ0lGSUVEEAASGQoVUk9UQVRJT05fU1BBQ0VfUEFSRU5UEAESGAoUUk9UQVRJT05fU1BBQ0VfV09STEQQAipRCghVbmRlcnJ1bhIYChRVTkRFUlJVTl9VTlNQRUNJRklFRBAAEhgKFFVOREVSUlVOX0VYVFJBUE9MQVRFEAESEQoNVU5ERVJSVU5fSE9MRBACKp8BCgZTdXBwbHkSFgoSU1VQUExZX1VOU1BFQ0lGSUVEEAASEgoOU1VQUExZX1BSRVNFTlQQARIXChNTVVBQTFlfSU5URVJQT0xBVEVEEAISFwoTU1VQUExZX0VYVFJBUE9MQVRFRBADEg8KC1NVUFBMWV9IRUxEEAQSEgoOU1VQUExZX1JFTEFYRUQQBRISCg5TVVBQTFlfV0FJVElORxAGMrEGCg1Nb3Rpb25TZXJ2aWNlEk0KCkNyZWF0ZUNsaXASGy5zaW5ldy52MS5DcmVhdGVDbGlwUmVxdWVzdBocLnNpbmV3LnYxLkNyZWF0ZUNsaXBSZXNwb25zZSIE6OAYBxJhChBTdHJlYW1DcmVhdGVDbGlwEiEuc2luZXcudjEuU3RyZWFtQ3JlYXRlQ2xpcFJlcXVlc3QaIi5zaW5ldy52MS5TdHJlYW1DcmVhdGVDbGlwUmVzcG9uc2UiBOjgGAcwARJECgdHZXRDbGlwEhguc2luZXcudjEuR2V0Q2xpcFJlcXVlc3QaGS5zaW5ldy52MS5HZXRDbGlwUmVzcG9uc2UiBOjgGAYSSgoJTGlzdENsaXBzEhouc2luZXcudjEuTGlzdENsaXBzUmVxdWVzdBobLnNpbmV3LnYxLkxpc3RDbGlwc1Jlc3BvbnNlIgTo4BgGEk0KCkRlbGV0ZUNsaXASGy5zaW5ldy52MS5EZWxldGVDbGlwUmVxdWVzdBocLnNpbmV3LnYxLkRlbGV0ZUNsaXBSZXNwb25zZSIE6OAYBxJTCgxSZWhlYXJzZUNsaXASHS5zaW5ldy52MS5SZWhlYXJzZUNsaXBSZXF1ZXN0Gh4uc2luZXcudjEuUmVoZWFyc2VDbGlwUmVzcG9uc2UiBOjgGAcSRwoIUGxheUNsaXASGS5zaW5ldy52MS5QbGF5Q2xpcFJlcXVlc3QaGi5zaW5ldy52MS5QbGF5Q2xpcFJlc3BvbnNlIgTo4BgDEkcKCFN0b3BDbGlwEhkuc2luZXcudjEuU3RvcENsaXBSZXF1ZXN0Ghouc2luZXcudjEuU3RvcENsaXBSZXNwb25zZSIE6OAYAxJNCgpQdXNoTW90aW9uEhsuc2luZXcudjEuUHVzaE1vdGlvblJlcXVlc3QaHC5zaW5ldy52MS5QdXNoTW90aW9uUmVzcG9uc2UiBOjgGAMSVwoMRHJpdmVGaWd1cmVzEh0uc2luZXcudjEuRHJpdmVGaWd1cmVzUmVxdWVzdBoeLnNpbmV3LnYxLkRyaXZlRmlndXJlc1Jlc3BvbnNlIgTo4BgDKAEwAWIGcHJvdG8z", [file_google_api_field_behavior, file_google_api_resource, file_google_protobuf_duration, file_google_protobuf_timestamp, file_sinew_v1_options, file_sinew_v1_types]);
 
 /**
  * A stored desired motion.
@@ -95,6 +95,20 @@ export type Clip = Message<"sinew.v1.Clip"> & {
    * @generated from field: sinew.v1.Forecast forecast = 10;
    */
   forecast?: Forecast | undefined;
+
+  /**
+   * How far it may go so that a figure keeps to it.
+   *
+   * @generated from field: sinew.v1.Follow follow = 11;
+   */
+  follow: Follow;
+
+  /**
+   * Largest force of the help, body weights.
+   *
+   * @generated from field: double max_help_weights = 12;
+   */
+  maxHelpWeights: number;
 };
 
 /**
@@ -103,6 +117,105 @@ export type Clip = Message<"sinew.v1.Clip"> & {
  */
 export const ClipSchema: GenMessage<Clip> = /*@__PURE__*/
   messageDesc(file_sinew_v1_motion, 0);
+
+/**
+ * What came of a rehearsal. It is for one body, its strength and loads, and for the rate, substeps, friction and
+ * gravity of its world.
+ *
+ * @generated from message sinew.v1.Rehearsal
+ */
+export type Rehearsal = Message<"sinew.v1.Rehearsal"> & {
+  /**
+   * In which way the figure keeps to the clip.
+   *
+   * @generated from field: sinew.v1.FollowWay way = 1;
+   */
+  way: FollowWay;
+
+  /**
+   * Why not in an easier one, in words.
+   *
+   * @generated from field: string reason = 2;
+   */
+  reason: string;
+
+  /**
+   * When the figure is more than half a metre from the recording, mean of its segments, s; absent if it never is.
+   *
+   * @generated from field: optional double lost_at_s = 3;
+   */
+  lostAtS?: number | undefined;
+
+  /**
+   * Mean distance of its segments from the recording, m, until then.
+   *
+   * @generated from field: double error_m = 4;
+   */
+  errorM: number;
+
+  /**
+   * The same with both pelvis origins in one place, m.
+   *
+   * @generated from field: double root_relative_error_m = 5;
+   */
+  rootRelativeErrorM: number;
+
+  /**
+   * Impulse of the help, N·s.
+   *
+   * @generated from field: double help_newton_seconds = 6;
+   */
+  helpNewtonSeconds: number;
+
+  /**
+   * The same over weight times time.
+   *
+   * @generated from field: double help_ratio = 7;
+   */
+  helpRatio: number;
+
+  /**
+   * Largest force of the help, N.
+   *
+   * @generated from field: double help_peak_newtons = 8;
+   */
+  helpPeakNewtons: number;
+
+  /**
+   * Share of the time in which there is help.
+   *
+   * @generated from field: double helped_ratio = 9;
+   */
+  helpedRatio: number;
+
+  /**
+   * The DOF that uses most of its strength, and that share for 5 % of the time.
+   *
+   * @generated from field: string hardest_dof = 10;
+   */
+  hardestDof: string;
+
+  /**
+   * See `hardest_dof`.
+   *
+   * @generated from field: double hardest_ratio = 11;
+   */
+  hardestRatio: number;
+
+  /**
+   * The search was stopped by its budget.
+   *
+   * @generated from field: bool stopped = 12;
+   */
+  stopped: boolean;
+};
+
+/**
+ * Describes the message sinew.v1.Rehearsal.
+ * Use `create(RehearsalSchema)` to create a new message.
+ */
+export const RehearsalSchema: GenMessage<Rehearsal> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_motion, 1);
 
 /**
  * How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the
@@ -231,7 +344,7 @@ export type Forecast = Message<"sinew.v1.Forecast"> & {
  * Use `create(ForecastSchema)` to create a new message.
  */
 export const ForecastSchema: GenMessage<Forecast> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 1);
+  messageDesc(file_sinew_v1_motion, 2);
 
 /**
  * How a BVH file is read. Everything may be left out.
@@ -295,7 +408,7 @@ export type BvhOptions = Message<"sinew.v1.BvhOptions"> & {
  * Use `create(BvhOptionsSchema)` to create a new message.
  */
 export const BvhOptionsSchema: GenMessage<BvhOptions> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 2);
+  messageDesc(file_sinew_v1_motion, 3);
 
 /**
  * A BVH file.
@@ -323,7 +436,7 @@ export type BvhSource = Message<"sinew.v1.BvhSource"> & {
  * Use `create(BvhSourceSchema)` to create a new message.
  */
 export const BvhSourceSchema: GenMessage<BvhSource> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 3);
+  messageDesc(file_sinew_v1_motion, 4);
 
 /**
  * A motion as frames of one figure, at a constant rate.
@@ -351,7 +464,7 @@ export type FrameSource = Message<"sinew.v1.FrameSource"> & {
  * Use `create(FrameSourceSchema)` to create a new message.
  */
 export const FrameSourceSchema: GenMessage<FrameSource> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 4);
+  messageDesc(file_sinew_v1_motion, 5);
 
 /**
  * Asks to store a clip.
@@ -404,6 +517,21 @@ export type CreateClipRequest = Message<"sinew.v1.CreateClipRequest"> & {
   } | { case: undefined; value?: undefined };
 
   /**
+   * How far it may go so that a figure keeps to it, unless `RehearseClip` or `PlayClip` say otherwise. Absent:
+   * FOLLOW_STRICT.
+   *
+   * @generated from field: sinew.v1.Follow follow = 6;
+   */
+  follow: Follow;
+
+  /**
+   * Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: 0.3.
+   *
+   * @generated from field: optional double max_help_weights = 7;
+   */
+  maxHelpWeights?: number | undefined;
+
+  /**
    * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
    * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
    *
@@ -424,7 +552,7 @@ export type CreateClipRequest = Message<"sinew.v1.CreateClipRequest"> & {
  * Use `create(CreateClipRequestSchema)` to create a new message.
  */
 export const CreateClipRequestSchema: GenMessage<CreateClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 5);
+  messageDesc(file_sinew_v1_motion, 6);
 
 /**
  * The stored clip.
@@ -445,7 +573,7 @@ export type CreateClipResponse = Message<"sinew.v1.CreateClipResponse"> & {
  * Use `create(CreateClipResponseSchema)` to create a new message.
  */
 export const CreateClipResponseSchema: GenMessage<CreateClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 6);
+  messageDesc(file_sinew_v1_motion, 7);
 
 /**
  * Asks to store a clip and to be told how far it is.
@@ -466,7 +594,7 @@ export type StreamCreateClipRequest = Message<"sinew.v1.StreamCreateClipRequest"
  * Use `create(StreamCreateClipRequestSchema)` to create a new message.
  */
 export const StreamCreateClipRequestSchema: GenMessage<StreamCreateClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 7);
+  messageDesc(file_sinew_v1_motion, 8);
 
 /**
  * How far it is, and in the end the clip.
@@ -503,7 +631,7 @@ export type StreamCreateClipResponse = Message<"sinew.v1.StreamCreateClipRespons
  * Use `create(StreamCreateClipResponseSchema)` to create a new message.
  */
 export const StreamCreateClipResponseSchema: GenMessage<StreamCreateClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 8);
+  messageDesc(file_sinew_v1_motion, 9);
 
 /**
  * Asks for one clip.
@@ -524,7 +652,7 @@ export type GetClipRequest = Message<"sinew.v1.GetClipRequest"> & {
  * Use `create(GetClipRequestSchema)` to create a new message.
  */
 export const GetClipRequestSchema: GenMessage<GetClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 9);
+  messageDesc(file_sinew_v1_motion, 10);
 
 /**
  * One clip.
@@ -545,7 +673,7 @@ export type GetClipResponse = Message<"sinew.v1.GetClipResponse"> & {
  * Use `create(GetClipResponseSchema)` to create a new message.
  */
 export const GetClipResponseSchema: GenMessage<GetClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 10);
+  messageDesc(file_sinew_v1_motion, 11);
 
 /**
  * Asks for clips.
@@ -573,7 +701,7 @@ export type ListClipsRequest = Message<"sinew.v1.ListClipsRequest"> & {
  * Use `create(ListClipsRequestSchema)` to create a new message.
  */
 export const ListClipsRequestSchema: GenMessage<ListClipsRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 11);
+  messageDesc(file_sinew_v1_motion, 12);
 
 /**
  * A page of clips.
@@ -601,7 +729,7 @@ export type ListClipsResponse = Message<"sinew.v1.ListClipsResponse"> & {
  * Use `create(ListClipsResponseSchema)` to create a new message.
  */
 export const ListClipsResponseSchema: GenMessage<ListClipsResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 12);
+  messageDesc(file_sinew_v1_motion, 13);
 
 /**
  * Forgets a clip.
@@ -630,7 +758,7 @@ export type DeleteClipRequest = Message<"sinew.v1.DeleteClipRequest"> & {
  * Use `create(DeleteClipRequestSchema)` to create a new message.
  */
 export const DeleteClipRequestSchema: GenMessage<DeleteClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 13);
+  messageDesc(file_sinew_v1_motion, 14);
 
 /**
  * The clip is gone.
@@ -645,7 +773,86 @@ export type DeleteClipResponse = Message<"sinew.v1.DeleteClipResponse"> & {
  * Use `create(DeleteClipResponseSchema)` to create a new message.
  */
 export const DeleteClipResponseSchema: GenMessage<DeleteClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 14);
+  messageDesc(file_sinew_v1_motion, 15);
+
+/**
+ * Asks to rehearse a clip for a figure.
+ *
+ * @generated from message sinew.v1.RehearseClipRequest
+ */
+export type RehearseClipRequest = Message<"sinew.v1.RehearseClipRequest"> & {
+  /**
+   * Resource name `clips/{clip}`.
+   *
+   * @generated from field: string clip = 1;
+   */
+  clip: string;
+
+  /**
+   * The figure, as it is now: body, strength, the loads that it holds, and its world. Resource name
+   * `worlds/{world}/figures/{figure}`.
+   *
+   * @generated from field: string figure = 2;
+   */
+  figure: string;
+
+  /**
+   * How far it may go. Absent: as the clip says.
+   *
+   * @generated from field: sinew.v1.Follow follow = 3;
+   */
+  follow: Follow;
+
+  /**
+   * Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: as the clip says.
+   *
+   * @generated from field: optional double max_help_weights = 4;
+   */
+  maxHelpWeights?: number | undefined;
+
+  /**
+   * Longest time for the search, 1 s to 1 h: the best that was found until then is the result. Absent: 10 min.
+   *
+   * @generated from field: google.protobuf.Duration budget = 5;
+   */
+  budget?: Duration | undefined;
+
+  /**
+   * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+   * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+   *
+   * @generated from field: string request_id = 13;
+   */
+  requestId: string;
+};
+
+/**
+ * Describes the message sinew.v1.RehearseClipRequest.
+ * Use `create(RehearseClipRequestSchema)` to create a new message.
+ */
+export const RehearseClipRequestSchema: GenMessage<RehearseClipRequest> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_motion, 16);
+
+/**
+ * The clip is rehearsed, if it was found to need that and a way was found.
+ *
+ * @generated from message sinew.v1.RehearseClipResponse
+ */
+export type RehearseClipResponse = Message<"sinew.v1.RehearseClipResponse"> & {
+  /**
+   * What came of it.
+   *
+   * @generated from field: sinew.v1.Rehearsal rehearsal = 1;
+   */
+  rehearsal?: Rehearsal | undefined;
+};
+
+/**
+ * Describes the message sinew.v1.RehearseClipResponse.
+ * Use `create(RehearseClipResponseSchema)` to create a new message.
+ */
+export const RehearseClipResponseSchema: GenMessage<RehearseClipResponse> = /*@__PURE__*/
+  messageDesc(file_sinew_v1_motion, 17);
 
 /**
  * Lets a figure play a clip.
@@ -707,6 +914,15 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
   placement?: Placement | undefined;
 
   /**
+   * How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
+   * else the clip is tracked as it is. FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help.
+   * Absent: any rehearsal.
+   *
+   * @generated from field: sinew.v1.Follow follow = 8;
+   */
+  follow: Follow;
+
+  /**
    * Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
    * ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
    *
@@ -728,7 +944,7 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
  * Use `create(PlayClipRequestSchema)` to create a new message.
  */
 export const PlayClipRequestSchema: GenMessage<PlayClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 15);
+  messageDesc(file_sinew_v1_motion, 18);
 
 /**
  * The clip plays, or waits until the figure stands.
@@ -752,7 +968,7 @@ export type PlayClipResponse = Message<"sinew.v1.PlayClipResponse"> & {
  * Use `create(PlayClipResponseSchema)` to create a new message.
  */
 export const PlayClipResponseSchema: GenMessage<PlayClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 16);
+  messageDesc(file_sinew_v1_motion, 19);
 
 /**
  * Ends a clip.
@@ -789,7 +1005,7 @@ export type StopClipRequest = Message<"sinew.v1.StopClipRequest"> & {
  * Use `create(StopClipRequestSchema)` to create a new message.
  */
 export const StopClipRequestSchema: GenMessage<StopClipRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 17);
+  messageDesc(file_sinew_v1_motion, 20);
 
 /**
  * The figure stands, or comes to a stand.
@@ -804,7 +1020,7 @@ export type StopClipResponse = Message<"sinew.v1.StopClipResponse"> & {
  * Use `create(StopClipResponseSchema)` to create a new message.
  */
 export const StopClipResponseSchema: GenMessage<StopClipResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 18);
+  messageDesc(file_sinew_v1_motion, 21);
 
 /**
  * Rotation of one bone.
@@ -832,7 +1048,7 @@ export type BoneRotation = Message<"sinew.v1.BoneRotation"> & {
  * Use `create(BoneRotationSchema)` to create a new message.
  */
 export const BoneRotationSchema: GenMessage<BoneRotation> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 19);
+  messageDesc(file_sinew_v1_motion, 22);
 
 /**
  * Desired motion of one figure at one instant: joint angles or bone rotations, not both.
@@ -895,7 +1111,7 @@ export type FigureMotion = Message<"sinew.v1.FigureMotion"> & {
  * Use `create(FigureMotionSchema)` to create a new message.
  */
 export const FigureMotionSchema: GenMessage<FigureMotion> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 20);
+  messageDesc(file_sinew_v1_motion, 23);
 
 /**
  * Desired motion at one instant.
@@ -931,7 +1147,7 @@ export type MotionFrame = Message<"sinew.v1.MotionFrame"> & {
  * Use `create(MotionFrameSchema)` to create a new message.
  */
 export const MotionFrameSchema: GenMessage<MotionFrame> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 21);
+  messageDesc(file_sinew_v1_motion, 24);
 
 /**
  * How figures are driven.
@@ -1043,7 +1259,7 @@ export type DriveHeader = Message<"sinew.v1.DriveHeader"> & {
  * Use `create(DriveHeaderSchema)` to create a new message.
  */
 export const DriveHeaderSchema: GenMessage<DriveHeader> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 22);
+  messageDesc(file_sinew_v1_motion, 25);
 
 /**
  * Batch of desired motion.
@@ -1064,7 +1280,7 @@ export type MotionBatch = Message<"sinew.v1.MotionBatch"> & {
  * Use `create(MotionBatchSchema)` to create a new message.
  */
 export const MotionBatchSchema: GenMessage<MotionBatch> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 23);
+  messageDesc(file_sinew_v1_motion, 26);
 
 /**
  * What a driver sends.
@@ -1101,7 +1317,7 @@ export type DriveFiguresRequest = Message<"sinew.v1.DriveFiguresRequest"> & {
  * Use `create(DriveFiguresRequestSchema)` to create a new message.
  */
 export const DriveFiguresRequestSchema: GenMessage<DriveFiguresRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 24);
+  messageDesc(file_sinew_v1_motion, 27);
 
 /**
  * What a driver is told.
@@ -1122,7 +1338,7 @@ export type DriveFiguresResponse = Message<"sinew.v1.DriveFiguresResponse"> & {
  * Use `create(DriveFiguresResponseSchema)` to create a new message.
  */
 export const DriveFiguresResponseSchema: GenMessage<DriveFiguresResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 25);
+  messageDesc(file_sinew_v1_motion, 28);
 
 /**
  * A batch of live desired motion.
@@ -1150,7 +1366,7 @@ export type PushMotionRequest = Message<"sinew.v1.PushMotionRequest"> & {
  * Use `create(PushMotionRequestSchema)` to create a new message.
  */
 export const PushMotionRequestSchema: GenMessage<PushMotionRequest> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 26);
+  messageDesc(file_sinew_v1_motion, 29);
 
 /**
  * The batch was taken. It acts from the next tick on; the call does not wait for it.
@@ -1171,7 +1387,7 @@ export type PushMotionResponse = Message<"sinew.v1.PushMotionResponse"> & {
  * Use `create(PushMotionResponseSchema)` to create a new message.
  */
 export const PushMotionResponseSchema: GenMessage<PushMotionResponse> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 27);
+  messageDesc(file_sinew_v1_motion, 30);
 
 /**
  * State of a drive.
@@ -1221,7 +1437,7 @@ export type DriveFeedback = Message<"sinew.v1.DriveFeedback"> & {
  * Use `create(DriveFeedbackSchema)` to create a new message.
  */
 export const DriveFeedbackSchema: GenMessage<DriveFeedback> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 28);
+  messageDesc(file_sinew_v1_motion, 31);
 
 /**
  * State of the jitter buffer of one figure.
@@ -1365,7 +1581,96 @@ export type FigureFeedback = Message<"sinew.v1.FigureFeedback"> & {
  * Use `create(FigureFeedbackSchema)` to create a new message.
  */
 export const FigureFeedbackSchema: GenMessage<FigureFeedback> = /*@__PURE__*/
-  messageDesc(file_sinew_v1_motion, 29);
+  messageDesc(file_sinew_v1_motion, 32);
+
+/**
+ * How far it may go so that a figure keeps to a clip that it loses as it is.
+ *
+ * @generated from enum sinew.v1.Follow
+ */
+export enum Follow {
+  /**
+   * The default, as the comment of the field says.
+   *
+   * @generated from enum value: FOLLOW_UNSPECIFIED = 0;
+   */
+  UNSPECIFIED = 0,
+
+  /**
+   * Not at all: physics alone, the figure falls honestly.
+   *
+   * @generated from enum value: FOLLOW_STRICT = 1;
+   */
+  STRICT = 1,
+
+  /**
+   * The clip is rehearsed: what has to be added to it is found out beforehand. Strength alone does it.
+   *
+   * @generated from enum value: FOLLOW_REHEARSED = 2;
+   */
+  REHEARSED = 2,
+
+  /**
+   * The same, and as little help as will do, in newtons, which every frame tells (`assist`).
+   *
+   * @generated from enum value: FOLLOW_ASSISTED = 3;
+   */
+  ASSISTED = 3,
+}
+
+/**
+ * Describes the enum sinew.v1.Follow.
+ */
+export const FollowSchema: GenEnum<Follow> = /*@__PURE__*/
+  enumDesc(file_sinew_v1_motion, 0);
+
+/**
+ * In which way a figure keeps to a clip.
+ *
+ * @generated from enum sinew.v1.FollowWay
+ */
+export enum FollowWay {
+  /**
+   * Not told.
+   *
+   * @generated from enum value: FOLLOW_WAY_UNSPECIFIED = 0;
+   */
+  UNSPECIFIED = 0,
+
+  /**
+   * As it is: there is nothing to rehearse.
+   *
+   * @generated from enum value: FOLLOW_WAY_TRACKED = 1;
+   */
+  TRACKED = 1,
+
+  /**
+   * Rehearsed, by strength alone.
+   *
+   * @generated from enum value: FOLLOW_WAY_REHEARSED = 2;
+   */
+  REHEARSED = 2,
+
+  /**
+   * Rehearsed, with help.
+   *
+   * @generated from enum value: FOLLOW_WAY_HELPED = 3;
+   */
+  HELPED = 3,
+
+  /**
+   * Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may.
+   *
+   * @generated from enum value: FOLLOW_WAY_LOST = 4;
+   */
+  LOST = 4,
+}
+
+/**
+ * Describes the enum sinew.v1.FollowWay.
+ */
+export const FollowWaySchema: GenEnum<FollowWay> = /*@__PURE__*/
+  enumDesc(file_sinew_v1_motion, 1);
 
 /**
  * Forecast of how a figure follows a clip.
@@ -1406,7 +1711,7 @@ export enum ForecastVerdict {
  * Describes the enum sinew.v1.ForecastVerdict.
  */
 export const ForecastVerdictSchema: GenEnum<ForecastVerdict> = /*@__PURE__*/
-  enumDesc(file_sinew_v1_motion, 0);
+  enumDesc(file_sinew_v1_motion, 2);
 
 /**
  * What a bone rotation is relative to.
@@ -1440,7 +1745,7 @@ export enum RotationSpace {
  * Describes the enum sinew.v1.RotationSpace.
  */
 export const RotationSpaceSchema: GenEnum<RotationSpace> = /*@__PURE__*/
-  enumDesc(file_sinew_v1_motion, 1);
+  enumDesc(file_sinew_v1_motion, 3);
 
 /**
  * What a figure does when desired motion is late.
@@ -1474,7 +1779,7 @@ export enum Underrun {
  * Describes the enum sinew.v1.Underrun.
  */
 export const UnderrunSchema: GenEnum<Underrun> = /*@__PURE__*/
-  enumDesc(file_sinew_v1_motion, 2);
+  enumDesc(file_sinew_v1_motion, 4);
 
 /**
  * How desired motion answers.
@@ -1536,7 +1841,7 @@ export enum Supply {
  * Describes the enum sinew.v1.Supply.
  */
 export const SupplySchema: GenEnum<Supply> = /*@__PURE__*/
-  enumDesc(file_sinew_v1_motion, 3);
+  enumDesc(file_sinew_v1_motion, 5);
 
 /**
  * Desired motions: stored clips and live streams.
@@ -1593,6 +1898,20 @@ export const MotionService: GenService<{
     methodKind: "unary";
     input: typeof DeleteClipRequestSchema;
     output: typeof DeleteClipResponseSchema;
+  },
+  /**
+   * Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
+   * to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
+   * figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
+   * further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
+   * (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
+   *
+   * @generated from rpc sinew.v1.MotionService.RehearseClip
+   */
+  rehearseClip: {
+    methodKind: "unary";
+    input: typeof RehearseClipRequestSchema;
+    output: typeof RehearseClipResponseSchema;
   },
   /**
    * Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else

@@ -1,0 +1,250 @@
+//! Clips that are rehearsed for figures: whom for, the work itself, and what is kept of it.
+
+use super::engine::{self, Clip};
+use super::workers::Turn;
+use crate::evaluate::follow as evaluation;
+use crate::evaluate::forecast::forecast;
+use crate::evaluate::survey::{Conditions, Reference};
+use crate::sim::body::{Body, Links};
+use crate::sim::figure::rehearsed::RootStep;
+use crate::sim::figure::{FigureOptions, HeldLoad, Perturbation, StrengthScale};
+use crate::sim::motion::{Bvh, Target};
+use crate::sim::rehearsal::Progress;
+use crate::sim::retarget::{Preparation, RetargetError, retarget_unless};
+use crate::sim::strength::Strength;
+use crate::sim::world::{Figure, RehearsedMotion, WorldParams};
+use crate::wire::status::Fault;
+use crate::wire::types::{
+    BvhReading, Follow, FollowSettings, FollowWay, MotionSource, RehearsalInfo,
+};
+use std::sync::Arc;
+
+/// Whom a clip is rehearsed for: a figure as it is, in its world.
+#[derive(Clone, Debug)]
+pub struct Performer {
+    body: Arc<Body>,
+    /// With the loads that it holds.
+    links: Links,
+    strength: StrengthScale,
+    loads: Vec<Perturbation>,
+    world: WorldParams,
+}
+
+impl Performer {
+    /// A figure of a world.
+    ///
+    /// # Errors
+    /// It holds one load in both hands.
+    pub fn of(figure: &Figure, world: &WorldParams, time: f64) -> Result<Self, Fault> {
+        let holds = |p: &Perturbation| p.load().filter(|l| l.from <= time && time < l.to);
+        let held: Vec<HeldLoad> = figure.perturbations().filter_map(holds).collect();
+        if held.iter().any(|l| l.second.is_some()) {
+            return Err(Fault::Precondition {
+                reason: "LOAD_IN_TWO_HANDS",
+                message: "a load held in two hands cannot be rehearsed yet".into(),
+                facts: vec![],
+            });
+        }
+        // What is held now is held all the time.
+        let always = |load: HeldLoad| {
+            Perturbation::Held(HeldLoad {
+                from: 0.0,
+                to: f64::INFINITY,
+                ..load
+            })
+        };
+        Ok(Self {
+            body: Arc::clone(figure.body()),
+            links: figure.links().clone(),
+            strength: figure.setup().strength.clone(),
+            loads: held.into_iter().map(always).collect(),
+            world: *world,
+        })
+    }
+
+    /// True if what is rehearsed for the one is so for the other.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let world = |w: &WorldParams| [w.rate_hz, f64::from(w.substeps), w.gravity, w.friction];
+        self.body.profile == other.body.profile
+            && self.links == other.links
+            && self.strength == other.strength
+            && world(&self.world) == world(&other.world)
+    }
+
+    fn conditions(&self) -> Conditions {
+        Conditions {
+            body: Arc::clone(&self.body),
+            world: WorldParams {
+                threads: 1,
+                collisions: false,
+                ..self.world
+            },
+            strength: self.strength.clone(),
+            options: FigureOptions::default(),
+            perturbations: self.loads.clone(),
+            live_window: None,
+            rehearsed: None,
+        }
+    }
+}
+
+/// A rehearsal that was found.
+#[derive(Clone, Debug)]
+pub struct Rehearsed {
+    /// Whom it is for.
+    pub performer: Performer,
+    /// There is help in it.
+    pub helps: bool,
+    /// What is played.
+    pub motion: Arc<RehearsedMotion>,
+}
+
+impl Rehearsed {
+    /// Bytes in memory, near enough.
+    pub fn bytes(&self) -> u64 {
+        let m = &self.motion;
+        (m.desired.len() * size_of::<Target>() + m.path.len() * size_of::<RootStep>()) as u64
+    }
+}
+
+/// A recording in the forms that it takes.
+struct Forms {
+    reference: Reference,
+    /// What is rehearsed.
+    as_recorded: Arc<Clip>,
+}
+
+/// What a clip is rehearsed from.
+#[derive(Debug)]
+pub struct Score {
+    /// Last part of its name.
+    pub id: String,
+    /// What it was made of; `None`: it comes with the server.
+    pub source: Option<MotionSource>,
+}
+
+impl Score {
+    fn forms(&self, body: &Body, stop: &dyn Fn() -> bool) -> Result<Forms, Fault> {
+        if let Some(MotionSource::Bvh(bytes, reading)) = &self.source {
+            return self.recorded(bytes, reading, body, stop);
+        }
+        let clip = match &self.source {
+            None => engine::builtin(body, &self.id)
+                .ok_or_else(|| Fault::not_found("clip", format!("clips/{}", self.id)))?,
+            Some(source) => engine::prepare("clip", &self.id, source, body, 1.0, stop)?.0,
+        };
+        let clip = Arc::new(clip);
+        Ok(Forms {
+            reference: Reference::authored(Arc::clone(&clip)),
+            as_recorded: clip,
+        })
+    }
+
+    fn recorded(
+        &self,
+        bytes: &[u8],
+        reading: &BvhReading,
+        body: &Body,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Forms, Fault> {
+        let bvh = Bvh::parse(bytes).map_err(|e| Fault::invalid("clip", e.to_string()))?;
+        let fitted = |preparation: Preparation| {
+            let options = engine::options(&self.id, reading, preparation);
+            retarget_unless(&bvh, body, &options, stop).map_err(|e| match e {
+                RetargetError::Stopped => Turn::gone(),
+                other => Fault::invalid("clip", other.to_string()),
+            })
+        };
+        let prepared = fitted(Preparation::walking(false))?;
+        Ok(Forms {
+            reference: Reference {
+                phases: prepared.report.feet.phases.clone(),
+                recorded: Arc::new(fitted(Preparation::NONE)?.clip),
+                prepared: Arc::new(prepared.clip),
+            },
+            as_recorded: Arc::new(fitted(Preparation::REHEARSED)?.clip),
+        })
+    }
+}
+
+/// Rehearses a clip, on one thread. `go_on` is told which share of the search is done, and stops it by `false`: the
+/// best so far is the result. `stop` gives it up.
+///
+/// # Errors
+/// The clip cannot be rehearsed, or it was given up.
+pub fn rehearse(
+    score: &Score,
+    performer: &Performer,
+    settings: FollowSettings,
+    stop: &dyn Fn() -> bool,
+    go_on: &mut dyn FnMut(f64) -> bool,
+) -> Result<(RehearsalInfo, Option<Rehearsed>), Fault> {
+    let forms = score.forms(&performer.body, stop)?;
+    let conditions = performer.conditions();
+    let strength = Strength::at_percentile(&performer.body, performer.strength.percentile);
+    let said = forecast(
+        &performer.body,
+        &performer.links,
+        &strength,
+        &performer.strength,
+        &forms.reference.prepared,
+    );
+    let options = evaluation::RehearsalOptions {
+        follow: match settings.follow {
+            Follow::Strict => evaluation::Follow::Strict,
+            Follow::Rehearsed => evaluation::Follow::Rehearsed,
+            Follow::Assisted => evaluation::Follow::Assisted,
+        },
+        most_help: settings.most_help,
+        ..evaluation::RehearsalOptions::default()
+    };
+    let polish = options.settings.trials.polish.rounds;
+    let mut told = |p: &Progress| go_on(share(p, polish));
+    let clip = (&*forms.as_recorded, &said);
+    let found = evaluation::follow(&conditions, &forms.reference, clip, &options, &mut told)
+        .map_err(|e| Fault::invalid("clip", e.to_string()))?;
+    if stop() {
+        return Err(Turn::gone());
+    }
+    let info = info(&found);
+    let rehearsed = found.motion.map(|motion| Rehearsed {
+        performer: performer.clone(),
+        helps: info.way == FollowWay::Helped,
+        motion,
+    });
+    Ok((info, rehearsed))
+}
+
+/// Half for the way to the end of the clip, half for the rounds after that.
+fn share(p: &Progress, polish: usize) -> f64 {
+    let [reached, all] = p.reached.map(|n| n as f64);
+    let polished = p.polished as f64 / polish.max(1) as f64;
+    0.5 * reached / all.max(1.0) + 0.5 * polished.min(1.0)
+}
+
+fn info(found: &evaluation::Found) -> RehearsalInfo {
+    let report = found.followed.rehearsal.clone().unwrap_or_default();
+    let outcome = &found.outcome;
+    RehearsalInfo {
+        way: match found.followed.way {
+            evaluation::Way::Tracked => FollowWay::Tracked,
+            evaluation::Way::Rehearsed => FollowWay::Rehearsed,
+            evaluation::Way::Helped => FollowWay::Helped,
+            evaluation::Way::Lost => FollowWay::Lost,
+        },
+        reason: found.followed.reason.clone(),
+        lost_at: outcome.lost_at_s,
+        error: [
+            1e-3 * outcome.recorded.mpjpe_global_mm,
+            1e-3 * outcome.recorded.mpjpe_root_mm,
+        ],
+        help: [
+            report.help_ns,
+            report.help_share,
+            report.help_most_n,
+            report.helped_windows,
+        ],
+        hardest: (report.hardest_dof, report.hardest_share),
+        stopped: report.stopped,
+    }
+}
