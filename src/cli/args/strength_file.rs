@@ -75,7 +75,10 @@ impl StrengthFile {
 
     /// The strength that a text says.
     fn parse(text: &str) -> Result<StrengthScale> {
-        let file: Self = serde_json::from_str(text).context("not a strength file")?;
+        // Only by names: a list would be taken as the fields in their order.
+        let value: serde_json::Value = serde_json::from_str(text).context("not JSON")?;
+        anyhow::ensure!(value.is_object(), "not a strength file");
+        let file: Self = serde_json::from_value(value).context("not a strength file")?;
         let mut out = StrengthScale {
             all: within("all", file.all, 0.01, 100.0)?,
             percentile: within("percentile", file.percentile, 5.0, 95.0)?,
