@@ -49,10 +49,7 @@ pub async fn begin(address: SocketAddr) -> f64 {
         ..Default::default()
     };
     client.motions().play_clip(request).await.unwrap();
-    let request = pb::ResumeWorldRequest {
-        name: WORLD.into(),
-        ..Default::default()
-    };
+    let request = pb::ResumeWorldRequest { name: WORLD.into() };
     client.worlds().resume_world(request).await.unwrap();
     tokio::time::sleep(QUIET).await;
     lateness(&client).await.unwrap()
