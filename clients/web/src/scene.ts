@@ -21,14 +21,7 @@ const LOOKS = {
   dark: { sky: 0x171d22, ground: 0x39424a, line: "#4c5862", body: 0x98a5af, ghost: 0x6cc3e0, sun: 1.7, fill: 1.1 },
 };
 /** Blue, vermilion, yellow and green of Okabe and Ito: told apart with any colour vision. */
-export const HUES = {
-  com: 0x0072b2,
-  zmp: 0xd55e00,
-  force: 0x009e73,
-  push: 0xcc79a7,
-  support: 0x56b4e9,
-  help: 0xe69f00,
-};
+export const HUES = { com: 0x0072b2, zmp: 0xd55e00, force: 0x009e73, push: 0xcc79a7, support: 0x56b4e9 };
 /** Length of an arrow, m per N. */
 const METRES_PER_NEWTON = 1 / 700;
 const MOST_ARROWS = 16;
@@ -277,7 +270,6 @@ class Actor {
     new THREE.MeshBasicMaterial({ color: HUES.zmp, transparent: true, depthWrite: false, side: THREE.DoubleSide }),
   );
   private readonly arrows: THREE.Group[] = [];
-  private readonly help = arrow(HUES.help);
   private readonly hands: [number, number];
   private readonly touchable: Touchable;
 
@@ -326,7 +318,6 @@ class Actor {
       this.plumb,
       this.zmp,
       ...this.arrows,
-      this.help,
     );
     // Nothing is seen of it before the first frame that tells where it is.
     this.group.visible = false;
@@ -350,7 +341,6 @@ class Actor {
     this.showLoads(after);
     this.showSupport(after, shown.support);
     this.showForces(after, shown.forces);
-    this.showHelp(after);
   }
 
   private tint(shown: boolean, chosen: boolean): void {
@@ -454,13 +444,6 @@ class Actor {
       line.setXYZ(1, com[0], com[1], 0.005);
       line.needsUpdate = true;
     }
-  }
-
-  /** Help is not physics: it is shown whenever it acts. */
-  private showHelp(frame: FigureFrame): void {
-    const assist = numbers(frame.assist);
-    const force = assist.length === 6 ? scratchA.fromArray(assist as number[], 3) : scratchA.set(0, 0, 0);
-    point(this.help, scratchB.fromArray(this.solid.poses), force.multiplyScalar(METRES_PER_NEWTON));
   }
 
   private showForces(frame: FigureFrame, shown: boolean): void {
