@@ -110,6 +110,9 @@ impl Services {
             }
             let code = trailers.get("grpc-status")?.to_str().unwrap();
             let told = trailers.contains_key("grpc-status-details-bin");
+            if code == "13" {
+                eprintln!("{path}: {:?}", trailers.get("grpc-message"));
+            }
             Some((Code::from(code.parse::<i32>().unwrap()), told))
         };
         self.runtime.block_on(async {

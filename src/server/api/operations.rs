@@ -3,7 +3,7 @@
 use super::{Api, answer, caller, client, clips, simulation, stopped};
 use crate::server::operations::{Operation, State};
 use crate::wire::convert::names::OPERATION;
-use crate::wire::convert::{operation_name, page, timestamp};
+use crate::wire::convert::{duration, operation_name, page, timestamp};
 use crate::wire::pb::operation::Result as Done;
 use crate::wire::pb::operation_service_server::OperationService;
 use crate::wire::pb::{self, start_operation_request::Work};
@@ -163,10 +163,10 @@ impl OperationService for Api {
         let result = async {
             let r = request.get_ref();
             let operation = self.operation(&request, &r.name)?;
-            let longest = match r.timeout.map(Duration::try_from) {
+            let longest = match r.timeout.as_ref().map(duration) {
                 None => LONGEST_WAIT,
-                Some(Ok(timeout)) => timeout.min(LONGEST_WAIT),
-                Some(Err(_)) => return Err(Fault::invalid("timeout", "must not be negative")),
+                Some(Some(timeout)) => timeout.min(LONGEST_WAIT),
+                Some(None) => return Err(Fault::invalid("timeout", "must not be negative")),
             };
             let mut stopping = self.stopping.clone();
             tokio::select! {

@@ -200,6 +200,13 @@ pub fn not_negative(field: &str, value: i64) -> Result<u64, Fault> {
         .map_err(|_| Fault::invalid(field, format!("must not be negative, got {value}")))
 }
 
+/// A duration; `None` if it is negative. The conversion of `prost_types` negates such a one, which overflows at the end
+/// of what can be written.
+pub fn duration(given: &prost_types::Duration) -> Option<std::time::Duration> {
+    let given = Some(*given).filter(|d| d.seconds >= 0)?;
+    std::time::Duration::try_from(given).ok()
+}
+
 /// A point in time for a response.
 pub fn timestamp(t: std::time::SystemTime) -> prost_types::Timestamp {
     t.into()

@@ -581,8 +581,7 @@ pub fn budget(field: &str, given: Option<prost_types::Duration>) -> Result<Durat
     let Some(given) = given else {
         return Ok(unless);
     };
-    let given = Duration::try_from(given).ok();
-    let given = given.filter(|t| (least..=most).contains(t));
+    let given = super::duration(&given).filter(|t| (least..=most).contains(t));
     given.ok_or_else(|| Fault::invalid(field, "must be 1 s…1 h"))
 }
 

@@ -97,8 +97,7 @@ pub fn idle_ttl(
     let Some(ttl) = ttl.filter(|t| t.seconds != 0 || t.nanos != 0) else {
         return Ok(None);
     };
-    let ttl = Duration::try_from(*ttl).ok();
-    match ttl.filter(|t| (IDLE_TTL.0..=IDLE_TTL.1).contains(t)) {
+    match super::duration(ttl).filter(|t| (IDLE_TTL.0..=IDLE_TTL.1).contains(t)) {
         Some(ttl) => Ok(Some(ttl)),
         None => Err(Fault::invalid(field, "must be 1 s…30 d, or 0 for never")),
     }
