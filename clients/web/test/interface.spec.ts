@@ -54,8 +54,8 @@ async function ghostPixels(page: Page): Promise<number> {
     await page.waitForFunction((n) => Number(document.body.dataset.drawn) > n + 1, drawn);
     return atRest(page);
   };
-  // The page asks for other fields each time, and gets the last frame again: both pictures are of that one, and not of a
-  // moment shortly before it.
+  // The page asks for other fields each time, and gets the last frame again: both pictures are of that one, and not of
+  // a moment shortly before it.
   await toggle();
   const on = await toggle();
   const without = await toggle();
