@@ -203,6 +203,24 @@ fn people_who_touch_each_other() {
     goes_on_bit_for_bit(Scenario::new("crowd", world, 90, 11));
 }
 
+/// Those who pass through each other are pairs of figures that there are, also before the next tick.
+#[test]
+fn a_figure_that_is_gone_passes_through_nobody() {
+    let mut world = world(1);
+    for mut actor in crowd(4) {
+        let at = actor.setup.state.posture.root_position;
+        actor.shift(vec3(-at.x, -at.y, 0.0)); // all in one place
+        actor.enter(&mut world);
+    }
+    world.step();
+    let keys: Vec<FigureKey> = world.figures().map(|(k, _)| k).collect();
+    for key in &keys[1..] {
+        assert!(world.remove_figure(*key));
+        let state = bytes(&world);
+        same("a smaller crowd", &bytes(&restored(&state)), &state);
+    }
+}
+
 #[test]
 fn prescribed_accelerations() {
     for kind in [ControllerKind::Modern, ControllerKind::Paper] {

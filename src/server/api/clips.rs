@@ -109,6 +109,10 @@ pub(super) async fn rehearse(
 ) -> Result<pb::RehearseClipResponse, Fault> {
     let id = clip_name("clip", &r.clip)?.to_owned();
     let info = seen(api, caller, &id)?;
+    // Whoever plays the clip gets what was found.
+    if !may(caller, &info, Role::Owner) {
+        return Err(caller.denied(Role::Owner, &format!("clips/{id}")));
+    }
     let settings = motion::follow_settings(r.follow, r.max_help_weights, info.follow)?;
     let budget = motion::budget("budget", r.budget)?;
     let (world, figure) = figure_name("figure", &r.figure)?;

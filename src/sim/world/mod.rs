@@ -242,6 +242,7 @@ impl World {
     pub fn remove_figure(&mut self, key: FigureKey) -> bool {
         let before = self.figures.len();
         self.figures.retain(|(k, _)| *k != key);
+        self.neighbourhood.forget(key);
         self.figures.len() < before
     }
 

@@ -71,8 +71,9 @@ impl JitterBuffer {
         let stride = 1.0 / (rate * MOMENTS as f64);
         let room = (self.seconds(newest) - p - ahead).max(0.0);
         let first = ((3.0 / rate - p - ahead).max(-MOST_OLDER) / stride).ceil() as i64;
-        let newest = (MOST_NEWER * room).min(MOST_OLDER);
-        let end = (newest / stride).floor() as i64;
+        // A driver may announce times far ahead: they are no more to be looked through than those behind.
+        let ahead_of_delay = (MOST_NEWER * room).min(MOST_OLDER);
+        let end = (ahead_of_delay / stride).floor() as i64;
         let waits = p < PATIENCE;
         let otherwise = if waits { Seam::Later } else { Seam::Nowhere };
         let at = |k: i64| self.at(p + ahead + k as f64 * stride).target.posture;

@@ -110,6 +110,11 @@ impl Neighbourhood {
         }
     }
 
+    /// A figure is gone: it passes through nobody any more.
+    pub(in super::super) fn forget(&mut self, key: FigureKey) {
+        self.through.retain(|(a, b)| *a != key && *b != key);
+    }
+
     /// True if the last [`Self::gather`] found a cluster.
     pub(in super::super) fn any(&self) -> bool {
         self.count > 0

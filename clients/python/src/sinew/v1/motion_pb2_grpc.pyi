@@ -47,8 +47,9 @@ class MotionServiceStub:
     """Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
     to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
     figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
-    further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
-    (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
+    further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
+    gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
+    figure that holds one load in both hands.
     """
     PlayClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]
     """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
@@ -87,8 +88,9 @@ class MotionServiceAsyncStub(MotionServiceStub):
     """Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
     to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
     figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
-    further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
-    (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
+    further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
+    gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
+    figure that holds one load in both hands.
     """
     PlayClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]  # type: ignore[assignment]
     """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
@@ -160,8 +162,9 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         """Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
         to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
         figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
-        further one for the same figure takes its place. It is kept in memory, with the clip. FAILED_PRECONDITION
-        (`LOAD_IN_TWO_HANDS`) for a figure that holds one load in both hands.
+        further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
+        gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
+        figure that holds one load in both hands.
         """
 
     @_abc_1.abstractmethod
