@@ -7,8 +7,11 @@ mod common;
 use allocation_counter::measure;
 use common::{Scene, authored, bent, figure, man, play, still, synthesised};
 use sinew::sim::body::SegmentId;
+use sinew::sim::body::palm::load_point;
 use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
-use sinew::sim::figure::{Constrained, Constraint, ControllerKind, Flags, Perturbation};
+use sinew::sim::figure::{
+    Constrained, Constraint, ControllerKind, Flags, HeldLoad, Perturbation, SecondHand,
+};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::plan::stream::{RATE, StreamPlan};
 use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, World};
@@ -122,6 +125,29 @@ fn loads_and_pushes_allocate_nothing() {
         push(&mut scene, Vec3::X * 60.0, 0.3);
         push(&mut scene, Vec3::Y * -40.0, 0.35);
         assert_none(&format!("{kind:?}"), &mut scene, 1.5);
+    }
+}
+
+#[test]
+fn a_second_hand_allocates_nothing() {
+    let body = man();
+    for kind in KINDS {
+        let mut scene = Scene::playing(&body, kind, &authored(&body, "lift"));
+        let load = Perturbation::Helped {
+            load: HeldLoad {
+                segment: R_HAND,
+                point: load_point(&body, R_HAND),
+                mass: 14.0,
+                velocity: Vec3::zero(),
+                second: None,
+                grip: 1e4,
+                from: 1.7,
+                to: 5.0,
+            },
+            when: SecondHand::Auto,
+        };
+        scene.world.perturb(scene.key, load).unwrap();
+        assert_none(&format!("{kind:?}"), &mut scene, 6.0);
     }
 }
 

@@ -14,13 +14,14 @@ use common::collisions::obstacle;
 use common::{
     Scene, authored, bent, corpus, figure, man, play, still, synthesised, synthesised_cycle,
 };
+use sinew::sim::body::palm::load_point;
 use sinew::sim::body::topology::{L_HAND, PELVIS, R_HAND};
 use sinew::sim::body::{Body, Profile, Sex};
 use sinew::sim::collide::{Mobility, Shape};
 use sinew::sim::figure::rehearsed::Stage;
 use sinew::sim::figure::{
     Constrained, Constraint, ControllerKind, FigureOptions, HeldLoad, LatePlans, Perturbation,
-    Planning, StepperKind, StrengthScale,
+    Planning, SecondHand, StepperKind, StrengthScale,
 };
 use sinew::sim::math::Vec3;
 use sinew::sim::math::vec3::vec3;
@@ -190,6 +191,38 @@ fn the_golden_scenes() {
         240,
         31,
     ));
+}
+
+/// Reaches for a load that is too heavy for one arm, holds it with both, is needed elsewhere, goes back.
+#[test]
+fn a_second_hand() {
+    for kind in KINDS {
+        let body = man();
+        let lift = authored(&body, "lift");
+        let mut scene = Scene::playing(&body, kind, &lift);
+        let load = |segment, mass, from, to| HeldLoad {
+            segment,
+            point: load_point(&body, segment),
+            mass,
+            velocity: Vec3::zero(),
+            second: None,
+            grip: 1e4,
+            from,
+            to,
+        };
+        let heavy = Perturbation::Helped {
+            load: load(R_HAND, 14.0, 1.7, 6.0),
+            when: SecondHand::Auto,
+        };
+        let other = Perturbation::Held(load(L_HAND, 1.0, 5.0, 5.2));
+        for what in [heavy, other] {
+            scene.world.perturb(scene.key, what).unwrap();
+        }
+        let also = &[103, 120, 140, 299, 300, 301, 305, 320];
+        goes_on_bit_for_bit(
+            Scenario::new("second hand", scene.world, 420, 37).with(also, |_, _| ()),
+        );
+    }
 }
 
 #[test]

@@ -15,9 +15,9 @@ use super::output::{extension, for_clip, write};
 use super::source::{Source, load, warn};
 use super::terminal::print;
 use crate::evaluate::strip::{Frame, Thing, evenly_spaced};
-use crate::evaluate::{Metrics, RunReport, Tick};
-use crate::sim::body::Body;
+use crate::evaluate::{Metrics, RunEvent, RunReport, Tick};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
+use crate::sim::body::{Body, SegmentId};
 use crate::sim::figure::{Constraint, ControlParams, FigureOptions, StrengthScale};
 use crate::sim::motion::{Clip, write_bvh};
 use crate::sim::plan::cycle;
@@ -74,8 +74,9 @@ pub struct RunArgs {
     /// Assist: external wrench towards the target pose of the pelvis, 0 (off) to 1; not physical, reported as assist_*.
     #[arg(long, value_name = "A", default_value_t = 0.0)]
     pub assist: f64,
-    /// Load held by one or two segments; for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable).
-    #[arg(long, value_name = "KG@SEGMENT[+SEGMENT][@T0..T1]")]
+    /// Load held by one or two segments; for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable). With
+    /// 3@r_hand+auto the other hand helps while one arm is too weak for it; with 3@r_hand+always as long as it is free.
+    #[arg(long, value_name = "KG@SEGMENT[+SEGMENT|+auto|+always][@T0..T1]")]
     pub load: Vec<LoadSpec>,
     /// Grip strength of one hand, N: a load that needs more slips; unlimited unless given.
     #[arg(long, value_name = "N", default_value_t = f64::INFINITY)]
@@ -549,26 +550,56 @@ fn scene(
 
 fn note(metrics: &mut Metrics, event: &FigureEvent) {
     use FigureEvent as E;
-    let (kind, segment, dof, mass) = match *event {
-        E::SupportGained { segment } => ("support_gained", Some(segment), None, None),
-        E::SupportLost { segment } => ("support_lost", Some(segment), None, None),
-        E::Saturated { dof } => ("saturated", None, Some(dof), None),
-        E::Relieved { dof } => ("relieved", None, Some(dof), None),
-        E::BalanceLost => ("balance_lost", None, None, None),
-        E::Recovered => ("recovered", None, None, None),
-        E::Fell => ("fell", None, None, None),
-        E::GotUp => ("got_up", None, None, None),
-        E::LoadTaken { segment, mass } => ("load_taken", Some(segment), None, Some(mass)),
-        E::LoadDropped { segment, mass } => ("load_dropped", Some(segment), None, Some(mass)),
-        E::LoadSlipped { segment, mass } => ("load_slipped", Some(segment), None, Some(mass)),
-        E::Quarantined => ("quarantined", None, None, None),
-        E::Touched { segment, .. } => ("touched", Some(segment), None, None),
-        E::Parted { segment, .. } => ("parted", Some(segment), None, None),
-    };
-    metrics.event(
+    let kind = |kind| RunEvent {
         kind,
-        segment.map(|s| s.name()),
-        dof.map(|d| DOF_NAMES[d]),
-        mass,
-    );
+        ..RunEvent::default()
+    };
+    let on = |name, segment: SegmentId| RunEvent {
+        segment: Some(segment.name()),
+        ..kind(name)
+    };
+    let of = |name, dof: usize| RunEvent {
+        dof: Some(DOF_NAMES[dof]),
+        ..kind(name)
+    };
+    let load = |name, segment, mass| RunEvent {
+        mass_kg: Some(mass),
+        ..on(name, segment)
+    };
+    metrics.event(match *event {
+        E::SupportGained { segment } => on("support_gained", segment),
+        E::SupportLost { segment } => on("support_lost", segment),
+        E::Saturated { dof } => of("saturated", dof),
+        E::Relieved { dof } => of("relieved", dof),
+        E::BalanceLost => kind("balance_lost"),
+        E::Recovered => kind("recovered"),
+        E::Fell => kind("fell"),
+        E::GotUp => kind("got_up"),
+        E::LoadTaken { segment, mass } => load("load_taken", segment, mass),
+        E::LoadDropped { segment, mass } => load("load_dropped", segment, mass),
+        E::LoadSlipped { segment, mass } => load("load_slipped", segment, mass),
+        E::LoadShared {
+            segment,
+            mass,
+            hand,
+            need,
+        } => RunEvent {
+            hand: Some(hand.name()),
+            need: Some(need),
+            ..load("load_shared", segment, mass)
+        },
+        E::LoadUnshared {
+            segment,
+            mass,
+            hand,
+            need,
+        } => RunEvent {
+            hand: Some(hand.name()),
+            need: Some(need),
+            ..load("load_unshared", segment, mass)
+        },
+        E::Quarantined => kind("quarantined"),
+        E::Touched { segment, .. } => on("touched", segment),
+        E::Parted { segment, .. } => on("parted", segment),
+    });
 }

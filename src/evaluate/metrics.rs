@@ -185,23 +185,11 @@ impl Metrics {
         self.before = tick.state.posture;
     }
 
-    /// Notes something that happened in the tick observed last.
-    pub fn event(
-        &mut self,
-        kind: &'static str,
-        segment: Option<&'static str>,
-        dof: Option<&'static str>,
-        mass_kg: Option<f64>,
-    ) {
+    /// Notes something that happened in the tick observed last, whatever its time says.
+    pub fn event(&mut self, what: RunEvent) {
         if self.events.len() < MAX_EVENTS {
             let time_s = self.time_s();
-            self.events.push(RunEvent {
-                time_s,
-                kind,
-                segment,
-                dof,
-                mass_kg,
-            });
+            self.events.push(RunEvent { time_s, ..what });
         } else {
             self.events_dropped += 1;
         }

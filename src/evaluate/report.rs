@@ -15,7 +15,7 @@ use crate::sim::body::topology::DOF_NAMES;
 pub const MAX_EVENTS: usize = 10_000;
 
 /// Something that happened at one instant of a run.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "net", derive(serde::Serialize))]
 pub struct RunEvent {
     /// End of the tick in which it happened, s from the start.
@@ -31,6 +31,12 @@ pub struct RunEvent {
     /// Mass of the load concerned, if any, kg.
     #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
     pub mass_kg: Option<f64>,
+    /// Hand that helps with a load, if one does.
+    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    pub hand: Option<&'static str>,
+    /// Share of its strength that the arm needs to hold that load alone, and with help.
+    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    pub need: Option<[f64; 2]>,
 }
 
 /// The measures of one run. Field names carry their units and are those of `report.json`.

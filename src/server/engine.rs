@@ -26,7 +26,8 @@ use crate::sim::world::{FigureSetup, WorldError, WorldParams};
 use crate::wire::status::Fault;
 use crate::wire::types::{
     BvhReading, ConstraintSettings, Disturbance, EventKind, FigureSettings, FigureSnapshot,
-    ForecastInfo, ForecastVerdict, MotionSource, Place, ReadingReport, WorldSettings,
+    ForecastInfo, ForecastVerdict, MotionSource, Place, ReadingReport, SecondSegment,
+    WorldSettings,
 };
 use std::sync::Arc;
 
@@ -325,6 +326,14 @@ fn refused(prefix: &str, e: &WorldError) -> Fault {
         WorldError::TooManyConstraints | WorldError::Constraint(_) => {
             Fault::invalid(format!("{prefix}.constraints"), e.to_string())
         }
+        WorldError::NotInOneHand => {
+            Fault::invalid(format!("{prefix}.load.two_hands"), e.to_string())
+        }
+        WorldError::OtherHandHoldsLoad => Fault::Precondition {
+            reason: "OTHER_HAND_HOLDS_LOAD",
+            message: format!("{prefix}.{e}"),
+            facts: vec![],
+        },
         WorldError::FreePlane => Fault::invalid(format!("{prefix}.mobility"), e.to_string()),
         WorldError::UnknownFigure(_) | WorldError::UnknownObstacle(_) => {
             Fault::Internal(e.to_string())
@@ -409,6 +418,21 @@ pub fn perturb(world: &mut World, key: FigureKey, p: Perturbation) -> Result<(),
     world
         .perturb(key, p)
         .map_err(|e| refused("perturbations", &e))
+}
+
+/// Checks a perturbation against others that a figure has or is about to get.
+///
+/// # Errors
+/// It is a load that the other hand is to help with, and that hand holds one then.
+pub fn check_beside<'a>(
+    prefix: &str,
+    p: &Perturbation,
+    mut others: impl Iterator<Item = &'a Perturbation>,
+) -> Result<(), Fault> {
+    if others.any(|o| p.wants_hand_of(o)) {
+        return Err(refused(prefix, &WorldError::OtherHandHoldsLoad));
+    }
+    Ok(())
 }
 
 /// Room for perturbations that a figure has left.
@@ -618,16 +642,23 @@ pub fn perturbation(body: &Body, what: &Disturbance, from: f64) -> Perturbation 
             duration,
         } => {
             let place = |s: SegmentId| load_point(body, s);
-            Perturbation::Held(HeldLoad {
+            let load = HeldLoad {
                 segment,
                 point: point.unwrap_or_else(|| place(segment)),
                 mass,
                 velocity,
-                second: second.map(|(s, p)| (s, p.unwrap_or_else(|| place(s)))),
+                second: match second {
+                    SecondSegment::Holds(s, p) => Some((s, p.unwrap_or_else(|| place(s)))),
+                    SecondSegment::Never | SecondSegment::Helps(_) => None,
+                },
                 grip,
                 from,
                 to: from + duration,
-            })
+            };
+            match second {
+                SecondSegment::Helps(when) => Perturbation::Helped { load, when },
+                SecondSegment::Never | SecondSegment::Holds(..) => Perturbation::Held(load),
+            }
         }
         Disturbance::Force {
             segment,
@@ -668,6 +699,18 @@ pub fn event_kind(e: &FigureEvent, name: impl Fn(Other) -> String) -> EventKind 
         FigureEvent::LoadTaken { segment, mass } => EventKind::LoadTaken(segment, mass),
         FigureEvent::LoadDropped { segment, mass } => EventKind::LoadDropped(segment, mass),
         FigureEvent::LoadSlipped { segment, mass } => EventKind::LoadSlipped(segment, mass),
+        FigureEvent::LoadShared {
+            segment,
+            mass,
+            hand,
+            need,
+        } => EventKind::LoadShared(segment, mass, hand, need),
+        FigureEvent::LoadUnshared {
+            segment,
+            mass,
+            hand,
+            need,
+        } => EventKind::LoadUnshared(segment, mass, hand, need),
         FigureEvent::Quarantined => EventKind::Quarantined,
     }
 }
@@ -682,12 +725,7 @@ pub fn snapshot(figure: &Figure, start: f64, dt: f64, applied: (i64, i64)) -> Fi
         desired: figure.target().next.clone(),
         applied_sequence: applied.0,
         applied_source_ns: applied.1,
-        loads: figure
-            .perturbations()
-            .filter_map(Perturbation::load)
-            .filter(|l| l.from <= soon && soon < l.to)
-            .flat_map(|l| l.shares())
-            .collect(),
+        loads: figure.held(soon).collect(),
         touched: Vec::new(),
     }
 }

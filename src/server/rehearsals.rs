@@ -34,14 +34,17 @@ impl Performer {
     /// A figure of a world.
     ///
     /// # Errors
-    /// It holds one load in both hands.
+    /// It holds one load in both hands, or may.
     pub fn of(figure: &Figure, world: &WorldParams, time: f64) -> Result<Self, Fault> {
         let holds = |p: &Perturbation| p.load().filter(|l| l.from <= time && time < l.to);
         let held: Vec<HeldLoad> = figure.perturbations().filter_map(holds).collect();
-        if held.iter().any(|l| l.second.is_some()) {
+        let helped = |p: &Perturbation| matches!(p, Perturbation::Helped { .. });
+        let may_be = figure.perturbations().filter(|p| helped(p));
+        if held.iter().any(|l| l.second.is_some()) || may_be.filter_map(holds).next().is_some() {
             return Err(Fault::Precondition {
                 reason: "LOAD_IN_TWO_HANDS",
-                message: "a load held in two hands cannot be rehearsed yet".into(),
+                message: "a load that is, or may be, held in two hands cannot be rehearsed yet"
+                    .into(),
                 facts: vec![],
             });
         }

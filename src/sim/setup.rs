@@ -1,5 +1,6 @@
 //! What a figure is made of and how it is controlled: set at creation, changeable between ticks.
 
+use crate::sim::body::topology::{L_HAND, R_HAND};
 use crate::sim::body::{Body, SegmentId, State};
 use crate::sim::math::Vec3;
 use serde::{Deserialize, Serialize};
@@ -214,6 +215,22 @@ pub enum Perturbation {
     },
     /// A load with all that can matter: see [`HeldLoad`].
     Held(HeldLoad),
+    /// A load in one hand that the other hand reaches for.
+    Helped {
+        /// The load; its `second` is `None`.
+        load: HeldLoad,
+        /// When it does.
+        when: SecondHand,
+    },
+}
+
+/// When the other hand helps to hold a load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SecondHand {
+    /// As long as one arm is too weak for the load in the desired motion, and the other is free.
+    Auto,
+    /// As long as it is free.
+    Always,
 }
 
 /// A load that may come flying, be held in two hands, and slip.
@@ -269,15 +286,29 @@ impl Perturbation {
                 from,
                 to,
             }),
-            Self::Held(load) => Some(load),
+            Self::Held(load) | Self::Helped { load, .. } => Some(load),
             Self::Force { .. } => None,
         }
+    }
+
+    /// True if the other hand is to help with this load while that hand holds another one.
+    pub fn wants_hand_of(&self, other: &Self) -> bool {
+        let (Self::Helped { load, .. }, Some(held)) = (self, other.load()) else {
+            return false;
+        };
+        let hand = if load.segment == L_HAND {
+            R_HAND
+        } else {
+            L_HAND
+        };
+        let meet = load.from < held.to && held.from < load.to;
+        meet && held.shares().any(|(segment, ..)| segment == hand)
     }
 
     fn end(&mut self) -> &mut f64 {
         match self {
             Self::Load { to, .. } | Self::Force { to, .. } => to,
-            Self::Held(load) => &mut load.to,
+            Self::Held(load) | Self::Helped { load, .. } => &mut load.to,
         }
     }
 
@@ -285,7 +316,7 @@ impl Perturbation {
     pub fn ends(&self) -> f64 {
         match self {
             Self::Load { to, .. } | Self::Force { to, .. } => *to,
-            Self::Held(load) => load.to,
+            Self::Held(load) | Self::Helped { load, .. } => load.to,
         }
     }
 

@@ -4,7 +4,8 @@ use super::status::Fault;
 use crate::sim::body::{Body, NV, Posture, Profile, SegmentId, State};
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, StepperKind, StrengthScale, TickReport,
+    ControlParams, ControllerKind, FigureOptions, SecondHand, StepperKind, StrengthScale,
+    TickReport,
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
@@ -341,6 +342,17 @@ impl ObstacleUpdate {
     }
 }
 
+/// What holds a load besides its segment. In bytes, the first two are an option.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum SecondSegment {
+    /// Nothing.
+    Never,
+    /// Another segment from the beginning on, at a point as for the first.
+    Holds(SegmentId, Option<Vec3>),
+    /// The other hand reaches for it.
+    Helps(SecondHand),
+}
+
 /// What disturbs a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Disturbance {
@@ -354,8 +366,8 @@ pub enum Disturbance {
         mass: f64,
         /// Velocity before it is taken, world axes, m/s.
         velocity: Vec3,
-        /// Second hand, with its point as for the first.
-        second: Option<(SegmentId, Option<Vec3>)>,
+        /// What else holds it.
+        second: SecondSegment,
         /// Force at one hand beyond which it is lost, N.
         grip: f64,
         /// How long, s; infinite until cleared.
@@ -667,6 +679,11 @@ pub enum EventKind {
     LoadDropped(SegmentId, f64),
     /// A load slipped from the hand: segment, kg.
     LoadSlipped(SegmentId, f64),
+    /// The other hand took hold of a load too: segment, kg, that hand, share of its strength that the arm needs alone
+    /// and with help.
+    LoadShared(SegmentId, f64, SegmentId, [f64; 2]),
+    /// It let go: the same.
+    LoadUnshared(SegmentId, f64, SegmentId, [f64; 2]),
     /// A push was accepted: segment, N·s.
     Pushed(SegmentId, f64),
     /// A segment began to touch a figure or an obstacle: name and, of a figure, its segment.

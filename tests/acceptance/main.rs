@@ -7,6 +7,7 @@
 //! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
 //! * `slide`: Coulomb's law for points that slide.
 //! * `load`: a held load is inertia.
+//! * `second_hand`: the other hand helps with a load that one arm is too weak for.
 //! * `constrain`: hands, head and centre of mass at places that a client gives.
 //! * `hand`: leaning on tables and walls; two figures that run into each other.
 //! * `people`: ages, sizes, fatigue, percentiles.
@@ -34,6 +35,7 @@ mod load;
 mod people;
 mod push;
 mod report;
+mod second_hand;
 mod slide;
 mod stand;
 mod symmetry;

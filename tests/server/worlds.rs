@@ -247,6 +247,76 @@ async fn figures_come_change_and_go() {
     server.stop().await;
 }
 
+/// A lift that is too much for one arm: the other hand helps, and the events and frames say so.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_other_hand_helps_with_a_load_that_asks_for_it() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    server
+        .play(&format!("{world}/figures/a"), "clips/lift", true)
+        .await;
+    let watch = pb::WatchEventsRequest {
+        world: world.clone(),
+        types: vec![pb::EventType::LoadShared.into()],
+        ..Default::default()
+    };
+    let mut states = server.client.states();
+    let mut events = states.watch_events(watch).await.unwrap().into_inner();
+    assert!(events.message().await.unwrap().unwrap().events.is_empty());
+    let load = |segment: &str, two_hands: pb::TwoHands, tick| pb::Perturbation {
+        figure_id: "a".into(),
+        tick: Some(tick),
+        kind: Some(pb::perturbation::Kind::Load(pb::Load {
+            segment: segment.into(),
+            mass_kg: 14.0,
+            two_hands: two_hands.into(),
+            duration_s: 4.0,
+            ..Default::default()
+        })),
+    };
+    let asked = |perturbations: Vec<pb::Perturbation>| pb::ApplyPerturbationsRequest {
+        world: world.clone(),
+        perturbations,
+        ..Default::default()
+    };
+    let mut perturbations = server.client.perturbations();
+    // All or nothing: a hand that is given a load in the same batch cannot help.
+    let both = vec![
+        load("l_hand", pb::TwoHands::Never, 102),
+        load("r_hand", pb::TwoHands::Auto, 102),
+    ];
+    let e = perturbations.apply_perturbations(asked(both)).await;
+    let (code, reason, _) = refusal(&e.unwrap_err());
+    assert_eq!(
+        (code, reason.as_str()),
+        (Code::FailedPrecondition, "OTHER_HAND_HOLDS_LOAD")
+    );
+    let alone = vec![load("r_hand", pb::TwoHands::Auto, 102)];
+    perturbations
+        .apply_perturbations(asked(alone))
+        .await
+        .unwrap();
+    server.step(&world, 240).await;
+    let e = events.message().await.unwrap().unwrap().events.remove(0);
+    assert_eq!(
+        (e.segment.as_str(), e.other_segment.as_str(), e.mass_kg),
+        ("r_hand", "l_hand", 14.0)
+    );
+    assert!(e.need_alone > 1.0 && e.need_shared < e.need_alone, "{e:?}");
+    let frame = server.frame(&world, &["status", "audit"]).await;
+    let f = &frame.figures[0];
+    let loads = &f.status.as_ref().unwrap().loads;
+    assert_eq!(loads, &f.audit.as_ref().unwrap().loads);
+    assert_eq!(loads.len(), 2);
+    let sum: f64 = loads.iter().map(|l| l.mass_kg).sum();
+    assert!(
+        (sum - 14.0).abs() < 1e-9 && loads[1].mass_kg > 2.0,
+        "{loads:?}"
+    );
+    server.stop().await;
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn loads_and_pushes_act_at_their_tick() {
     let server = TestServer::start().await;

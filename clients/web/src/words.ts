@@ -38,6 +38,13 @@ export function event(e: Event): { text: string; grave: boolean } | undefined {
       return { text: `${figure} regains balance`, grave: false };
     case EventType.GOT_UP:
       return { text: `${figure} is back on its feet`, grave: false };
+    case EventType.LOAD_SHARED:
+      return {
+        text:
+          `${figure} helps with the ${joint(e.otherSegment)}: ${kilograms(e.massKg)} need ` +
+          `${(100 * e.needAlone).toFixed(0)} % of one arm's strength`,
+        grave: false,
+      };
     case EventType.LOAD_SLIPPED:
       return { text: `${figure} drops ${kilograms(e.massKg)} from the ${joint(e.segment)}`, grave: true };
     case EventType.QUARANTINED:
@@ -77,6 +84,10 @@ export function mark(e: Event): { kind: MarkKind; text: string } | undefined {
       return { kind: "mass", text: `${figure} takes ${kilograms(e.massKg)}` };
     case EventType.LOAD_DROPPED:
       return { kind: "mass", text: `${figure} puts down ${kilograms(e.massKg)}` };
+    case EventType.LOAD_SHARED:
+      return { kind: "mass", text: `${figure} helps with the other hand: ${kilograms(e.massKg)}` };
+    case EventType.LOAD_UNSHARED:
+      return { kind: "mass", text: `${figure} holds ${kilograms(e.massKg)} in one hand again` };
     case EventType.LOAD_SLIPPED:
       return { kind: "mass", text: `${figure} drops ${kilograms(e.massKg)}` };
     case EventType.FIGURE_ADDED:

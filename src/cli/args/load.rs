@@ -2,19 +2,22 @@
 
 use super::spec::{SpecError, interval, number, segment};
 use crate::sim::body::palm::load_point;
+use crate::sim::body::topology::{L_HAND, R_HAND};
 use crate::sim::body::{Body, SegmentId};
-use crate::sim::figure::{HeldLoad, Perturbation};
+use crate::sim::figure::{HeldLoad, Perturbation, SecondHand};
 use crate::sim::math::Vec3;
 use std::str::FromStr;
 
-/// `KG@SEGMENT[+SEGMENT][@T0..T1]`: a load held by one or two segments, from T0 to T1 seconds; either end may be left
-/// out.
+/// `KG@SEGMENT[+SEGMENT|+auto|+always][@T0..T1]`: a load held by one or two segments, from T0 to T1 seconds; either end
+/// may be left out. The other hand of a hand helps when one arm is too weak, or always.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadSpec {
     /// Carrying segment.
     pub segment: SegmentId,
     /// Second carrying segment.
     pub second: Option<SegmentId>,
+    /// When the other hand helps.
+    pub help: Option<SecondHand>,
     /// Mass, kg.
     pub mass_kg: f64,
     /// Picked up at, s.
@@ -24,15 +27,15 @@ pub struct LoadSpec {
 }
 
 impl LoadSpec {
-    const FORM: &'static str =
-        "KG@SEGMENT[+SEGMENT][@T0..T1], for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1.0..2.5";
+    const FORM: &'static str = "KG@SEGMENT[+SEGMENT|+auto|+always][@T0..T1], for example 3@r_hand, 8@l_hand+r_hand, \
+         8@r_hand+auto or 3@r_hand@1.0..2.5";
 
     /// The load in the palm of a hand, or at another segment's centre of mass ([`load_point`]).
     ///
     /// * `grip`: force at one hand beyond which it slips, N.
     pub fn perturbation(&self, body: &Body, grip: f64) -> Perturbation {
         let at = |s: SegmentId| load_point(body, s);
-        Perturbation::Held(HeldLoad {
+        let load = HeldLoad {
             segment: self.segment,
             point: at(self.segment),
             mass: self.mass_kg,
@@ -41,7 +44,11 @@ impl LoadSpec {
             grip,
             from: self.from_s,
             to: self.to_s,
-        })
+        };
+        match self.help {
+            None => Perturbation::Held(load),
+            Some(when) => Perturbation::Helped { load, when },
+        }
     }
 }
 
@@ -60,18 +67,22 @@ impl FromStr for LoadSpec {
             return Err(form());
         };
         let (from_s, to_s) = times.map_or(Ok((0.0, f64::INFINITY)), |t| interval(t, form))?;
-        let (name, second) = match name.split_once('+') {
-            Some((first, second)) => (first, Some(segment(second)?)),
-            None => (name, None),
+        let (name, second, help) = match name.split_once('+') {
+            Some((first, "auto")) => (first, None, Some(SecondHand::Auto)),
+            Some((first, "always")) => (first, None, Some(SecondHand::Always)),
+            Some((first, second)) => (first, Some(segment(second)?), None),
+            None => (name, None, None),
         };
         let first = segment(name)?;
-        if second == Some(first) {
+        let is_hand = first == L_HAND || first == R_HAND;
+        if second == Some(first) || (help.is_some() && !is_hand) {
             return Err(form());
         }
         Ok(Self {
             mass_kg: number("mass (kg)", mass, 0.0, 500.0)?,
             segment: first,
             second,
+            help,
             from_s,
             to_s,
         })
@@ -95,6 +106,10 @@ mod tests {
         assert_eq!((l.from_s, l.to_s), (0.0, 2.0));
         let l: LoadSpec = "2@l_hand@1..".parse().expect("a load");
         assert_eq!((l.from_s, l.to_s), (1.0, f64::INFINITY));
+        let helped = |text: &str| text.parse::<LoadSpec>().expect("a load").help;
+        assert_eq!(helped("2@l_hand+auto@1.."), Some(SecondHand::Auto));
+        assert_eq!(helped("2@r_hand+always"), Some(SecondHand::Always));
+        assert_eq!(helped("2@r_hand+l_hand"), None);
     }
 
     #[test]
@@ -106,6 +121,7 @@ mod tests {
             ("x@r_hand", "mass (kg): \"x\" is not a number"),
             ("nan@r_hand", "mass (kg): NaN is outside 0…500"),
             ("-1@r_hand", "mass (kg): -1 is outside 0…500"),
+            ("3@chest+auto", "is not of the form"),
             ("3@tail", "there is no segment \"tail\""),
             ("3@r_hand@2..1", "the interval 2..1 s is empty"),
         ] {

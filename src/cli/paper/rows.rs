@@ -1,5 +1,7 @@
 //! `rows.md`: what the paper shows or promises beyond its equations, each with figures and strips.
 
+mod second_hand;
+
 use super::or_dash;
 use crate::cli::page::Page;
 use crate::evaluate::experiments::Pair;
@@ -27,6 +29,7 @@ pub fn write(mut page: Page, body: &Arc<Body>) -> Result<()> {
     stages(&mut page, body)?;
     lifting(&mut page)?;
     strength(&mut page)?;
+    second_hand::write(&mut page)?;
     page.finish_as("rows.md")
 }
 

@@ -8,6 +8,7 @@ use crate::evaluate::RunReport;
 use crate::evaluate::forecast::Forecast;
 use crate::sim::body::SegmentId;
 use crate::sim::body::names::sex_name;
+use crate::sim::figure::SecondHand;
 use serde::Serialize;
 
 /// `report.json`: the scenario, how the motion was fitted, and the measures.
@@ -60,6 +61,8 @@ struct LoadEntry {
     segment: &'static str,
     /// `null`: one hand.
     second_segment: Option<&'static str>,
+    /// When the other hand helps: `auto`, `always`, or `null`: never.
+    two_hands: Option<&'static str>,
     mass_kg: f64,
     from_s: f64,
     /// `null`: never put down.
@@ -109,6 +112,10 @@ pub(super) fn document<'a>(
             .map(|l| LoadEntry {
                 segment: l.segment.name(),
                 second_segment: l.second.map(SegmentId::name),
+                two_hands: l.help.map(|h| match h {
+                    SecondHand::Auto => "auto",
+                    SecondHand::Always => "always",
+                }),
                 mass_kg: l.mass_kg,
                 from_s: l.from_s,
                 to_s: Some(l.to_s).filter(|t| t.is_finite()),

@@ -7,6 +7,7 @@ pub mod fall;
 pub mod lift;
 pub mod person;
 pub mod push;
+pub mod second_hand;
 pub mod statics;
 pub mod touching;
 pub mod walk;

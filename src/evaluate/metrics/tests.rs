@@ -210,7 +210,11 @@ fn events_are_kept_up_to_the_bound_and_then_counted() {
     let mut m = stand.metrics();
     m.observe(stand.tick(), 1.0);
     for _ in 0..MAX_EVENTS + 5 {
-        m.event("saturated", None, Some("waist_flexion"), None);
+        m.event(RunEvent {
+            kind: "saturated",
+            dof: Some("waist_flexion"),
+            ..RunEvent::default()
+        });
     }
     let r = m.finish(0);
     assert_eq!((r.events.len(), r.events_dropped), (MAX_EVENTS, 5));

@@ -273,8 +273,8 @@ impl Constraints {
         stream.map_or(Vec3::zero(), |s| s.velocity)
     }
 
-    /// A hand whose arm is constrained does not follow the motion in space as well.
-    fn release(&mut self, segment: SegmentId) {
+    /// A hand whose arm is constrained, or led elsewhere, does not follow the motion in space as well.
+    pub(super) fn release(&mut self, segment: SegmentId) {
         match segment {
             L_UPPER_ARM | L_FOREARM | L_HAND => self.hands[0] = None,
             R_UPPER_ARM | R_FOREARM | R_HAND => self.hands[1] = None,
@@ -345,6 +345,15 @@ impl Constraints {
             now_velocity: blend(com.now_velocity, moves),
             next_velocity: blend(com.next_velocity, moves),
         };
+    }
+
+    /// True if one of these segments is constrained, or was and the constraint still fades.
+    pub(super) fn holds(&self, segments: [SegmentId; 3]) -> bool {
+        let on = |c: &Constraint| match c.on {
+            Constrained::Point(s, _) => segments.contains(&s),
+            Constrained::CenterOfMass => false,
+        };
+        self.given.iter().chain(&self.fading).any(on)
     }
 
     /// What the controllers are to reach in this tick.

@@ -52,6 +52,29 @@ pub enum FigureEvent {
         /// kg.
         mass: f64,
     },
+    /// The other hand took hold of a load too: one arm is too weak for it, or it was asked to.
+    LoadShared {
+        /// Carrying segment.
+        segment: SegmentId,
+        /// kg.
+        mass: f64,
+        /// The other hand.
+        hand: SegmentId,
+        /// Share of its strength that the arm needs to hold the load still, alone and with the other's help: its
+        /// hardest joint, in the desired motion.
+        need: [f64; 2],
+    },
+    /// The other hand let go of a load: one arm is enough, or the other hand is needed elsewhere.
+    LoadUnshared {
+        /// Carrying segment.
+        segment: SegmentId,
+        /// kg.
+        mass: f64,
+        /// The other hand.
+        hand: SegmentId,
+        /// As of [`Self::LoadShared`], when it let go.
+        need: [f64; 2],
+    },
     /// A load slipped from a hand: more than its grip.
     LoadSlipped {
         /// Carrying segment.

@@ -20,9 +20,10 @@ use crate::sim::figure::params::load::{
 };
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::arm_ik::{ARMS, Arm};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
 use crate::sim::motion::{Target, TargetPair};
-use arm::{ARMS, Arm, Habit, Poses};
+use arm::{Habit, Poses};
 use serde::{Deserialize, Serialize};
 
 /// Masses and first moments of mass of the segments with a load, segment frames, kg and kg·m.

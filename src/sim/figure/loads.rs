@@ -7,8 +7,9 @@ use crate::sim::dynamics::crba::CompositeInertia;
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{Kinematics, MassMatrix, Terms, crba, factor, solve};
+use crate::sim::figure::second_hand::Help;
 use crate::sim::math::Vec3;
-use crate::sim::setup::{HeldLoad, Perturbation};
+use crate::sim::setup::{HeldLoad, Perturbation, SecondHand};
 use serde::{Deserialize, Serialize};
 
 /// Most perturbations a figure can have scheduled at once.
@@ -25,6 +26,44 @@ struct Scheduled {
     /// Velocity of the points that carry it at the start of the last tick, m/s.
     moved: Option<[Vec3; 2]>,
     slipped: bool,
+    /// What the other hand does for it, and what it is to do from the next tick on.
+    help: Option<Help>,
+    wish: Option<Help>,
+}
+
+impl Scheduled {
+    /// The second point that holds it.
+    fn second(&self) -> Option<(SegmentId, Vec3)> {
+        let helped = self.help.map(|h| (h.hand, h.point));
+        helped.or_else(|| self.what.load()?.second)
+    }
+
+    /// What each point carries, if it is a load: segment, point (segment frame, m), mass (kg).
+    fn shares(&self) -> impl Iterator<Item = (SegmentId, Vec3, f64)> + use<> {
+        let load = self.what.load();
+        let helped = self.help.zip(load).map(|(help, load)| {
+            let other = help.share * load.mass;
+            [
+                (load.segment, load.point, load.mass - other),
+                (help.hand, help.point, other),
+            ]
+        });
+        let alone = load.filter(|_| helped.is_none());
+        let alone = alone.into_iter().flat_map(|l| l.shares());
+        helped.into_iter().flatten().chain(alone)
+    }
+
+    /// True if the other hand may help.
+    fn is_helpable(&self) -> bool {
+        matches!(self.what, Perturbation::Helped { .. }) && self.carried
+    }
+}
+
+/// A part of a load that goes from one hand over to the other.
+struct Moved {
+    from: (SegmentId, Vec3),
+    to: (SegmentId, Vec3),
+    mass: f64,
 }
 
 /// A rigid bar between two points of the body: a load in two hands.
@@ -66,6 +105,8 @@ impl Disturbances {
                 carried: false,
                 moved: None,
                 slipped: false,
+                help: None,
+                wish: None,
             });
         }
         room
@@ -73,7 +114,10 @@ impl Disturbances {
 
     /// False if it cannot be what was written into a checkpoint.
     pub fn is_valid(&self) -> bool {
-        self.scheduled.len() <= MAX_PERTURBATIONS && self.applied.len() <= MAX_APPLIED
+        let helps = self.scheduled.iter().flat_map(|s| [s.help, s.wish]);
+        self.scheduled.len() <= MAX_PERTURBATIONS
+            && self.applied.len() <= MAX_APPLIED
+            && helps.flatten().all(|h| h.is_valid())
     }
 
     /// Drops everything that is scheduled or acts; the loads are let go at the next tick.
@@ -93,11 +137,60 @@ impl Disturbances {
         let mut links = Links::new(body);
         let kept = |s: &&Scheduled| s.carried && s.what.ends() > f64::NEG_INFINITY;
         for load in self.scheduled.iter().filter(kept) {
-            for (segment, point, mass) in load.what.load().iter().flat_map(HeldLoad::shares) {
+            for (segment, point, mass) in load.shares() {
                 links.add_load(segment, point, mass);
             }
         }
         links
+    }
+
+    /// What each hand holds at `time`: segment, point (segment frame, m), mass (kg).
+    pub fn held(&self, time: f64) -> impl Iterator<Item = (SegmentId, Vec3, f64)> {
+        let holds = move |s: &&Scheduled| {
+            let load = s.what.load();
+            load.is_some_and(|l| l.from <= time && time < l.to)
+        };
+        self.scheduled
+            .iter()
+            .filter(holds)
+            .flat_map(Scheduled::shares)
+    }
+
+    /// The load that the other hand helps with, or else the heaviest that it may help with; with when it does and what
+    /// it does now.
+    pub fn helpable(&self) -> Option<(HeldLoad, SecondHand, Option<Help>)> {
+        let s = &self.scheduled[self.helped()?];
+        let Perturbation::Helped { load, when } = s.what else {
+            return None;
+        };
+        Some((load, when, s.help))
+    }
+
+    /// Index of the load of [`Self::helpable`].
+    fn helped(&self) -> Option<usize> {
+        let all = || (0..self.scheduled.len()).filter(|i| self.scheduled[*i].is_helpable());
+        let mass = |i: usize| self.scheduled[i].what.load().map_or(0.0, |l| l.mass);
+        let held = all().find(|i| self.scheduled[*i].help.is_some());
+        // The first of equals.
+        held.or_else(|| all().reduce(|a, b| if mass(b) > mass(a) { b } else { a }))
+    }
+
+    /// What the other hand does for the load of [`Self::helpable`] from the next tick on.
+    pub fn help(&mut self, help: Option<Help>) {
+        if let Some(i) = self.helped() {
+            self.scheduled[i].wish = help;
+        }
+    }
+
+    /// True if one of these segments carries something other than its part of a load that the other hand holds too.
+    pub fn burdens(&self, segments: [SegmentId; 3]) -> bool {
+        let own = |s: &&Scheduled| s.carried && s.help.is_none();
+        let mut parts = self
+            .scheduled
+            .iter()
+            .filter(own)
+            .flat_map(Scheduled::shares);
+        parts.any(|(segment, ..)| segments.contains(&segment))
     }
 
     /// Forces of the current tick.
@@ -126,16 +219,17 @@ impl Disturbances {
         self.applied.clear();
         let soon = time + 1e-9 * dt; // times on a tick boundary belong to that tick
         let mut changed = false;
+        let mut moved = None;
         for s in &mut self.scheduled {
             match s.what {
-                Perturbation::Load { .. } | Perturbation::Held(_) => {
+                Perturbation::Load { .. } | Perturbation::Held(_) | Perturbation::Helped { .. } => {
                     let HeldLoad {
                         segment,
                         mass,
                         from,
                         to,
                         ..
-                    } = s.what.load().expect("both kinds are loads");
+                    } = s.what.load().expect("all three kinds are loads");
                     let carried = from <= soon && soon < to;
                     if carried != s.carried {
                         s.carried = carried;
@@ -146,6 +240,13 @@ impl Disturbances {
                             (false, true) => FigureEvent::LoadSlipped { segment, mass },
                             (false, false) => FigureEvent::LoadDropped { segment, mass },
                         });
+                        if !carried {
+                            (s.help, s.wish) = (None, None);
+                        }
+                    }
+                    if s.wish != s.help {
+                        moved = s.follow_wish(watcher).or(moved);
+                        changed = true;
                     }
                 }
                 Perturbation::Force {
@@ -164,7 +265,7 @@ impl Disturbances {
             }
         }
         if changed {
-            self.carry(time, dt, body, links, state);
+            self.carry((time, dt), moved.as_ref(), body, links, state);
         }
         self.scheduled.retain(|s| s.what.ends() > soon);
         self.started = true;
@@ -172,19 +273,27 @@ impl Disturbances {
 }
 
 impl Disturbances {
-    /// Masses, bar and velocity after loads were taken up or let go.
-    fn carry(&mut self, time: f64, dt: f64, body: &Body, links: &mut Links, state: &mut State) {
+    /// Masses, bar and velocity after loads were taken up or let go, in the tick of `dt` seconds that begins at `time`,
+    /// or a part of one was `moved` from one hand to the other.
+    fn carry(
+        &mut self,
+        (time, dt): (f64, f64),
+        moved: Option<&Moved>,
+        body: &Body,
+        links: &mut Links,
+        state: &mut State,
+    ) {
         let before = links.mass;
         *links = Links::new(body);
         let old_bar = self.bar.take();
         let mut kin = Kinematics::default();
         kin.set_state(links, state);
         let loads = self.scheduled.iter().filter(|s| s.carried);
-        for load in loads.clone().filter_map(|s| s.what.load()) {
-            for (segment, point, mass) in load.shares() {
+        for s in loads.clone() {
+            for (segment, point, mass) in s.shares() {
                 links.add_load(segment, point, mass);
             }
-            if let (None, Some(second)) = (self.bar, load.second) {
+            if let (None, Some(load), Some(second)) = (self.bar, s.what.load(), s.second()) {
                 let ends = [(load.segment, load.point), second];
                 let [a, b] = ends.map(|(s, p)| {
                     let i = s.index();
@@ -203,6 +312,13 @@ impl Disturbances {
         kin.set_state(links, state); // world inertias of the loaded segments
         let mut impulse = [0.0; NV];
         let mut taken = false;
+        if let Some(Moved { from, to, mass }) = moved {
+            let i = from.0.index();
+            let r = kin.rotation[i] * from.1;
+            let velocity = kin.velocity[i] + kin.omega[i].cross(r);
+            add_momentum(&kin, to.0.index(), to.1, *mass, velocity, &mut impulse);
+            taken = true;
+        }
         for load in loads.filter_map(|s| s.what.load()) {
             let i = load.segment.index();
             if load.from > time - dt && before[i] < links.mass[i] {
@@ -242,16 +358,17 @@ impl Disturbances {
             let Some(load) = s.what.load().filter(|l| l.grip.is_finite()) else {
                 continue;
             };
+            let in_two = s.second().is_some();
             let mut now = [Vec3::zero(); 2];
             let mut most = 0.0f64;
-            for (k, (segment, point, mass)) in load.shares().enumerate() {
+            for (k, (segment, point, mass)) in s.shares().enumerate() {
                 now[k] = terms.point_velocity(segment.index(), point);
                 if let Some(before) = s.moved {
                     let a = (now[k] - before[k]) * (1.0 / dt) + Vec3::Z * gravity;
-                    let bar = match (load.second, k) {
-                        (None, _) => Vec3::zero(),
-                        (Some(_), 0) => bar_force * -1.0,
-                        (Some(_), _) => bar_force,
+                    let bar = match (in_two, k) {
+                        (false, _) => Vec3::zero(),
+                        (true, 0) => bar_force * -1.0,
+                        (true, _) => bar_force,
                     };
                     most = most.max((a * mass - bar).norm());
                 }
@@ -262,6 +379,48 @@ impl Disturbances {
                 s.what.end_at(time + dt);
             }
         }
+    }
+}
+
+impl Scheduled {
+    /// The other hand takes hold of the load, lets go of it, or takes another share of it; returns what goes over.
+    fn follow_wish(&mut self, watcher: &mut Watcher) -> Option<Moved> {
+        let (before, now) = (self.help, self.wish);
+        self.help = now;
+        let load = self.what.load()?;
+        let (segment, mass) = (load.segment, load.mass);
+        match (before, now) {
+            (None, Some(help)) => watcher.push(FigureEvent::LoadShared {
+                segment,
+                mass,
+                hand: help.hand,
+                need: help.need,
+            }),
+            (Some(help), None) => watcher.push(FigureEvent::LoadUnshared {
+                segment,
+                mass,
+                hand: help.hand,
+                need: help.need,
+            }),
+            _ => {}
+        }
+        if before.is_some() != now.is_some() {
+            self.moved = None;
+        }
+        let help = now.or(before)?;
+        let share = |h: Option<Help>| h.map_or(0.0, |h| h.share);
+        let more = (share(now) - share(before)) * mass;
+        let (own, other) = ((load.segment, load.point), (help.hand, help.point));
+        let (from, to) = if more > 0.0 {
+            (own, other)
+        } else {
+            (other, own)
+        };
+        (more.abs() > 0.0).then_some(Moved {
+            from,
+            to,
+            mass: more.abs(),
+        })
     }
 }
 

@@ -15,6 +15,7 @@ pub mod loads;
 pub mod params;
 pub mod plan_task;
 pub mod rehearsed;
+mod second_hand;
 pub mod tasks;
 pub mod tick;
 pub mod torque_step;
@@ -23,13 +24,14 @@ pub mod touches;
 pub use crate::sim::report::{Audit, ContactPoint, Flags, TickReport};
 pub use crate::sim::setup::{
     ControlParams, ControllerKind, FigureOptions, FigureSetup, HeldLoad, Metric, Perturbation,
-    Priority, Share, StepperKind, StrengthScale,
+    Priority, SecondHand, Share, StepperKind, StrengthScale,
 };
 pub use constraints::{Constrained, Constraint, MAX_CONSTRAINTS};
 pub use drive::{ClipPlayback, Drive, LivePlayback};
 pub use events::FigureEvent;
 pub use plan_task::{LatePlans, PlanRequest, Planning};
 pub use rehearsed::{RehearsedMotion, RehearsedPlayback};
+pub use second_hand::Help;
 pub(crate) use tick::SavedFigure;
 pub use tick::{Figure, TickContext};
 

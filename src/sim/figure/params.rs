@@ -172,6 +172,48 @@ pub mod load {
     }
 }
 
+/// When the other hand helps with a load, and how.
+pub mod second_hand {
+    crate::sim::params::params! {
+        /// An arm is too weak that needs more than this share of its strength to hold its load still.
+        WEAK: f64 = 1.0, "1", 0.7..=1.5, "docs/tick.md#the-second-hand";
+        /// One arm is enough again below this share.
+        ENOUGH: f64 = 0.8, "1", 0.5..=1.0, "docs/tick.md#the-second-hand";
+        /// It has to be enough for so long before the other hand lets go.
+        CALM: f64 = 0.5, "s", 0.1..=3.0, "docs/tick.md#the-second-hand";
+        /// The other hand helps only if what is needed falls by at least this share of the strength.
+        WORTH: f64 = 0.05, "1", 0..=0.3, "docs/tick.md#the-second-hand";
+        /// How far ahead the motion is looked at.
+        AHEAD: f64 = 0.6, "s", 0.0..=2.0, "docs/tick.md#the-second-hand";
+        /// Time in which the hand goes to the load, and back.
+        REACH_TIME: f64 = 0.5, "s", 0.2..=1.5, "docs/tick.md#the-second-hand";
+        /// Time in which the whole load would go from one hand to the other.
+        SHARE_TIME: f64 = 0.5, "s", 0.1..=2.0, "docs/tick.md#the-second-hand";
+        /// A share that is off by less than this stays.
+        SAME_SHARE: f64 = 0.02, "1", 0.001..=0.1, "numerical";
+        /// Most of the load that the other hand takes.
+        LARGEST_SHARE: f64 = 0.9, "1", 0.5..=1.0, "docs/tick.md#the-second-hand";
+        /// Distance between the palms: a load has no size.
+        APART: f64 = 0.14, "m", 0.05..=0.3, "docs/tick.md#the-second-hand";
+        /// The hand takes hold when its palm is as near as this to its place.
+        NEAR: f64 = 0.06, "m", 0.01..=0.1, "docs/tick.md#the-second-hand";
+        /// It gives up if it is not there so long after it should be.
+        PATIENCE: f64 = 0.7, "s", 0.2..=3.0, "docs/tick.md#the-second-hand";
+        /// Pause after that, and after it had to let go.
+        PAUSE: f64 = 1.0, "s", 0.2..=5.0, "docs/tick.md#the-second-hand";
+        /// A place that it cannot reach is looked at again after this time.
+        LOOK_AGAIN: f64 = 0.1, "s", 0.02..=0.5, "numerical";
+        /// Time constant with which the hand follows a load that is not where the motion has it.
+        FOLLOW_TIME: f64 = 0.04, "s", 0.0..=0.5, "docs/tick.md#the-second-hand";
+        /// Share of the arm's length that the place must be within.
+        STRETCH: f64 = 0.97, "1", 0.8..=1.0, "docs/tick.md#the-second-hand";
+        /// How far a shoulder may be led beyond its limits.
+        LIMIT_SLACK: f64 = 0.03, "rad", 0..=0.2, "docs/tick.md#the-second-hand";
+        /// How much deeper than in the motion the arm may be in the body's capsules.
+        TOUCH_SLACK: f64 = 0.01, "m", 0..=0.05, "docs/tick.md#the-second-hand";
+    }
+}
+
 /// Constraints that clients give.
 pub mod constraints {
     crate::sim::params::params! {
@@ -299,7 +341,7 @@ pub mod kinematic {
 }
 
 /// All groups with their names.
-pub fn groups() -> [(&'static str, &'static [Param]); 13] {
+pub fn groups() -> [(&'static str, &'static [Param]); 14] {
     [
         ("support", support::ALL),
         ("staged", staged::ALL),
@@ -308,6 +350,7 @@ pub fn groups() -> [(&'static str, &'static [Param]); 13] {
         ("get_up", get_up::ALL),
         ("switch", switch::ALL),
         ("load", load::ALL),
+        ("second_hand", second_hand::ALL),
         ("constraints", constraints::ALL),
         ("assist", assist::ALL),
         ("motors", motors::ALL),

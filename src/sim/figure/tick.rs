@@ -20,6 +20,7 @@ mod playback;
 mod rehearsal;
 mod reporting;
 mod saved;
+mod second_hand;
 mod state;
 
 pub(super) use motion_switch::ExitPlan;
@@ -46,6 +47,7 @@ use crate::sim::body::angles::anatomical_angles;
 use crate::sim::contact::Tissue;
 use crate::sim::control::{Command, Modern, MomentumTarget, Paper};
 use crate::sim::math::Vec3;
+use crate::sim::motion::arm_ik::ARMS;
 use crate::sim::report::{Flags, TickReport};
 use crate::sim::setup::{ControllerKind, FigureSetup, Share};
 use crate::sim::support::Support;
@@ -224,6 +226,7 @@ impl Figure {
                 world.dt,
             );
         }
+        self.lead_second_hand(world);
         // The paper's controller as published takes velocities where they are.
         if self.setup.controller != ControllerKind::Paper {
             let share = 0.5 / f64::from(world.substeps);
@@ -319,6 +322,7 @@ impl Figure {
             target,
             constraints,
             get_up,
+            second_hand,
             ..
         } = &mut self.desired;
         let support = &mut self.surroundings.support;
@@ -332,6 +336,9 @@ impl Figure {
             &tasks.hands,
             |s, p| buffers.desired_point(target, s, p),
         );
+        if let Some(hand) = second_hand.led() {
+            constraints.release(ARMS[hand][2]);
+        }
         support.plan_rests(terms, |s, p| buffers.desired_point(target, s, p));
         if self.motion.gets_up() {
             let off = tasks.com.now - terms.com;

@@ -1,5 +1,6 @@
 //! Motions: recordings, built-in motions, clips and how they are sampled (paper §3.2).
 
+pub mod arm_ik;
 pub mod builtin;
 pub mod bvh;
 pub mod bvh_write;

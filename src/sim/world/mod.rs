@@ -88,6 +88,12 @@ pub enum WorldError {
     /// A constraint that says nothing, or what cannot be.
     #[error("constraints: {0}")]
     Constraint(&'static str),
+    /// The other hand can only help a hand.
+    #[error("load.two_hands: the load must be in one hand, l_hand or r_hand")]
+    NotInOneHand,
+    /// The other hand, which is to help with a load, holds one then.
+    #[error("load.two_hands: the other hand holds a load at that time")]
+    OtherHandHoldsLoad,
     /// No such obstacle.
     #[error("no obstacle {0:?} in this world")]
     UnknownObstacle(ObstacleKey),
@@ -329,10 +335,13 @@ impl World {
     /// Schedules a perturbation of a figure.
     ///
     /// # Errors
-    /// Unknown figure, a number out of range, or no room.
+    /// Unknown figure, a number out of range, no room, or a load that the other hand cannot help with.
     pub fn perturb(&mut self, key: FigureKey, what: Perturbation) -> Result<(), WorldError> {
         validate::perturbation(&what)?;
         let figure = self.figure_mut(key).ok_or(WorldError::UnknownFigure(key))?;
+        if figure.perturbations().any(|p| what.wants_hand_of(p)) {
+            return Err(WorldError::OtherHandHoldsLoad);
+        }
         if figure.schedule(what) {
             Ok(())
         } else {

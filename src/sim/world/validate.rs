@@ -2,6 +2,7 @@
 
 use super::{WorldError, WorldParams};
 use crate::sim::body::State;
+use crate::sim::body::topology::{L_HAND, R_HAND};
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::figure::constraints::{Constrained, Constraint, MAX_CONSTRAINTS, MAX_EASE};
 use crate::sim::figure::{ControlParams, FigureOptions, FigureSetup, Perturbation, StrengthScale};
@@ -103,8 +104,13 @@ pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
 /// What a perturbation does; returns from when to when, which is up to the caller.
 pub(super) fn acting(p: &Perturbation) -> Result<(f64, f64), WorldError> {
     Ok(match p {
-        Perturbation::Load { .. } | Perturbation::Held(_) => {
-            let l = p.load().expect("both kinds are loads");
+        Perturbation::Load { .. } | Perturbation::Held(_) | Perturbation::Helped { .. } => {
+            let l = p.load().expect("all three kinds are loads");
+            if matches!(p, Perturbation::Helped { .. })
+                && !(l.second.is_none() && (l.segment == L_HAND || l.segment == R_HAND))
+            {
+                return Err(WorldError::NotInOneHand);
+            }
             range("load.mass_kg", l.mass, 0.0, 500.0)?;
             vector("load.point_m", l.point, 10.0)?;
             vector("load.velocity_mps", l.velocity, 100.0)?;

@@ -2,11 +2,11 @@
 
 use super::super::pb;
 use super::super::status::Fault;
-use super::super::types::{Disturbance, FigureDisturbance};
+use super::super::types::{Disturbance, FigureDisturbance, SecondSegment};
 use super::{or_default, shortened, vector, within};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::SEGMENT_NAMES;
-use crate::sim::math::Vec3;
+use crate::sim::figure::SecondHand;
 
 /// Most disturbances in one request.
 pub const MAX_BATCH: usize = 64;
@@ -30,18 +30,44 @@ pub(super) fn lasting(field: &str, value: f64) -> Result<f64, Fault> {
     or_default(field, value, f64::INFINITY, 0.0, DAY)
 }
 
-/// The second hand of a load.
-fn second_hand(
-    at: &dyn Fn(&str) -> String,
-    l: &pb::Load,
-) -> Result<Option<(SegmentId, Option<Vec3>)>, Fault> {
+/// What holds a load besides its segment.
+fn second_segment(at: &dyn Fn(&str) -> String, l: &pb::Load) -> Result<SecondSegment, Fault> {
+    use pb::TwoHands;
+    let two_hands = TwoHands::try_from(l.two_hands).map_err(|_| {
+        let problem = format!("{} is not a value of TwoHands", l.two_hands);
+        Fault::invalid(at("two_hands"), problem)
+    })?;
+    let when = match two_hands {
+        TwoHands::Unspecified => return held_second(at, l),
+        TwoHands::Never => None,
+        TwoHands::Auto => Some(SecondHand::Auto),
+        TwoHands::Always => Some(SecondHand::Always),
+    };
+    if !l.second_segment.is_empty() {
+        return Err(Fault::invalid(
+            at("second_segment"),
+            "must be empty where two_hands is given",
+        ));
+    }
+    if when.is_some() && !["l_hand", "r_hand"].contains(&l.segment.as_str()) {
+        return Err(Fault::invalid(
+            at("two_hands"),
+            "needs segment to be l_hand or r_hand",
+        ));
+    }
+    held_second(at, l)?; // nor is there a point
+    Ok(when.map_or(SecondSegment::Never, SecondSegment::Helps))
+}
+
+/// The second segment of a load, by name.
+fn held_second(at: &dyn Fn(&str) -> String, l: &pb::Load) -> Result<SecondSegment, Fault> {
     let point = l
         .second_point_m
         .map(|p| vector(&at("second_point_m"), p, 2.0))
         .transpose()?;
     if l.second_segment.is_empty() {
         return match point {
-            None => Ok(None),
+            None => Ok(SecondSegment::Never),
             Some(_) => Err(Fault::invalid(
                 at("second_point_m"),
                 "must be absent without second_segment",
@@ -54,10 +80,10 @@ fn second_hand(
             "must differ from segment",
         ));
     }
-    Ok(Some((
+    Ok(SecondSegment::Holds(
         segment(&at("second_segment"), &l.second_segment)?,
         point,
-    )))
+    ))
 }
 
 /// What disturbs a figure; `field` is where the message stands in the request.
@@ -80,7 +106,7 @@ pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fau
                     .map(|v| vector(&at("velocity_mps"), v, 100.0))
                     .transpose()?
                     .unwrap_or_default(),
-                second: second_hand(&at, l)?,
+                second: second_segment(&at, l)?,
                 grip: or_default(&at("grip_newtons"), l.grip_newtons, f64::INFINITY, 0.0, 1e6)?,
                 duration: lasting(&at("duration_s"), l.duration_s)?,
             })
@@ -181,6 +207,43 @@ mod tests {
             panic!("not a force");
         };
         assert_eq!((force.x * duration, duration), (20.0, 0.2));
+    }
+
+    #[test]
+    fn the_other_hand_is_asked_for_without_a_second_segment() {
+        let load = |segment: &str, second: &str, two_hands: i32| {
+            let kind = pb::perturbation::Kind::Load(pb::Load {
+                segment: segment.into(),
+                second_segment: second.into(),
+                two_hands,
+                ..Default::default()
+            });
+            let p = pb::Perturbation {
+                kind: Some(kind),
+                ..Default::default()
+            };
+            disturbance("p", &p)
+        };
+        for (two_hands, meant) in [
+            (1, SecondSegment::Never),
+            (2, SecondSegment::Helps(SecondHand::Auto)),
+            (3, SecondSegment::Helps(SecondHand::Always)),
+        ] {
+            let Ok(Disturbance::Load { second, .. }) = load("l_hand", "", two_hands) else {
+                panic!("refused");
+            };
+            assert_eq!(second, meant);
+        }
+        for (segment, second, two_hands, path) in [
+            ("r_hand", "l_hand", 2, "p.load.second_segment"),
+            ("chest", "", 2, "p.load.two_hands"),
+            ("r_hand", "", 9, "p.load.two_hands"),
+        ] {
+            let Err(Fault::Invalid { field, .. }) = load(segment, second, two_hands) else {
+                panic!("accepted");
+            };
+            assert_eq!(field, path);
+        }
     }
 
     #[test]

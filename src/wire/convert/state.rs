@@ -108,6 +108,8 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::LoadTaken(..) => pb::EventType::LoadTaken,
         EventKind::LoadDropped(..) => pb::EventType::LoadDropped,
         EventKind::LoadSlipped(..) => pb::EventType::LoadSlipped,
+        EventKind::LoadShared(..) => pb::EventType::LoadShared,
+        EventKind::LoadUnshared(..) => pb::EventType::LoadUnshared,
         EventKind::Pushed(..) => pb::EventType::Pushed,
         EventKind::Touched(..) => pb::EventType::Touched,
         EventKind::Parted(..) => pb::EventType::Parted,
@@ -159,6 +161,12 @@ pub fn event_out(e: &WorldEvent) -> pb::Event {
         | EventKind::LoadSlipped(s, m) => {
             out.segment = s.name().into();
             out.mass_kg = *m;
+        }
+        EventKind::LoadShared(s, m, hand, need) | EventKind::LoadUnshared(s, m, hand, need) => {
+            out.segment = s.name().into();
+            out.mass_kg = *m;
+            out.other_segment = hand.name().into();
+            [out.need_alone, out.need_shared] = *need;
         }
         EventKind::Pushed(s, impulse) => {
             out.segment = s.name().into();

@@ -7563,12 +7563,19 @@ pub struct Event {
     /// What is touched, added or removed: `figures/{figure}` or `obstacles/{obstacle}`, where there is one.
     #[prost(string, tag = "9")]
     pub other: ::prost::alloc::string::String,
-    /// Name of the segment of the other figure, where there is one.
+    /// Name of the segment of the other figure, or of the hand that helps with a load, where there is one.
     #[prost(string, tag = "10")]
     pub other_segment: ::prost::alloc::string::String,
     /// Size of a push, N·s.
     #[prost(double, tag = "11")]
     pub impulse_newton_seconds: f64,
+    /// Of a load that is shared: share of its strength that the hardest joint of the arm needs to hold it still
+    /// without the other hand, in the motion of the moment and of the next 0.6 s. 1 is all of it.
+    #[prost(double, tag = "12")]
+    pub need_alone: f64,
+    /// The same with the other hand's help, of the harder of both arms.
+    #[prost(double, tag = "13")]
+    pub need_shared: f64,
 }
 impl ::prost::Name for Event {
     const NAME: &'static str = "Event";
@@ -7649,6 +7656,10 @@ pub enum EventType {
     LoadDropped = 9,
     /// A load slipped from a hand: the force exceeded its grip.
     LoadSlipped = 30,
+    /// The other hand took hold of a load too (`other_segment`): one arm is too weak for it, or it was asked to.
+    LoadShared = 47,
+    /// It let go of it: one arm is enough, or the hand is needed elsewhere.
+    LoadUnshared = 48,
     /// The figure was pushed: an impulse was applied to the segment.
     Pushed = 46,
     /// The figure's state became unusable; it is frozen at its last good one.
@@ -7717,6 +7728,8 @@ impl EventType {
             Self::LoadTaken => "EVENT_TYPE_LOAD_TAKEN",
             Self::LoadDropped => "EVENT_TYPE_LOAD_DROPPED",
             Self::LoadSlipped => "EVENT_TYPE_LOAD_SLIPPED",
+            Self::LoadShared => "EVENT_TYPE_LOAD_SHARED",
+            Self::LoadUnshared => "EVENT_TYPE_LOAD_UNSHARED",
             Self::Pushed => "EVENT_TYPE_PUSHED",
             Self::Quarantined => "EVENT_TYPE_QUARANTINED",
             Self::FigureAdded => "EVENT_TYPE_FIGURE_ADDED",
@@ -7757,6 +7770,8 @@ impl EventType {
             "EVENT_TYPE_LOAD_TAKEN" => Some(Self::LoadTaken),
             "EVENT_TYPE_LOAD_DROPPED" => Some(Self::LoadDropped),
             "EVENT_TYPE_LOAD_SLIPPED" => Some(Self::LoadSlipped),
+            "EVENT_TYPE_LOAD_SHARED" => Some(Self::LoadShared),
+            "EVENT_TYPE_LOAD_UNSHARED" => Some(Self::LoadUnshared),
             "EVENT_TYPE_PUSHED" => Some(Self::Pushed),
             "EVENT_TYPE_QUARANTINED" => Some(Self::Quarantined),
             "EVENT_TYPE_FIGURE_ADDED" => Some(Self::FigureAdded),
@@ -10455,7 +10470,7 @@ pub mod motion_service_client {
         /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
         /// further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
         /// gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
-        /// figure that holds one load in both hands.
+        /// figure that holds one load in both hands, or may.
         pub async fn rehearse_clip(
             &mut self,
             request: impl tonic::IntoRequest<super::RehearseClipRequest>,
@@ -10654,7 +10669,7 @@ pub mod motion_service_server {
         /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
         /// further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
         /// gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
-        /// figure that holds one load in both hands.
+        /// figure that holds one load in both hands, or may.
         async fn rehearse_clip(
             &self,
             request: tonic::Request<super::RehearseClipRequest>,
@@ -12298,6 +12313,9 @@ pub struct Load {
     /// Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never.
     #[prost(double, tag = "8")]
     pub grip_newtons: f64,
+    /// Whether the other hand helps. Default: as `second_segment` says.
+    #[prost(enumeration = "TwoHands", tag = "9")]
+    pub two_hands: i32,
 }
 impl ::prost::Name for Load {
     const NAME: &'static str = "Load";
@@ -12487,6 +12505,47 @@ impl ::prost::Name for ClearPerturbationsResponse {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/sinew.v1.ClearPerturbationsResponse".into()
+    }
+}
+/// Whether the other hand helps to hold a load that is in one hand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum TwoHands {
+    /// As `second_segment` says.
+    Unspecified = 0,
+    /// It does not. `second_segment` must be empty.
+    Never = 1,
+    /// It reaches for the load when one arm is too weak to hold it where the motion has it, now or in the next 0.6 s, and
+    /// lets go when one arm is clearly enough again. It does only while it is free: it holds no load, touches nothing, no
+    /// constraint is on its arm, and the figure keeps its balance; and only where its joints let it get there.
+    /// `segment` must be `l_hand` or `r_hand`, `second_segment` empty. FAILED_PRECONDITION (`OTHER_HAND_HOLDS_LOAD`) if
+    /// the other hand holds another load at that time. The events LOAD_SHARED and LOAD_UNSHARED tell it.
+    Auto = 2,
+    /// The same, but it reaches for the load as soon as it can, and does not let go of it while it is free.
+    Always = 3,
+}
+impl TwoHands {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "TWO_HANDS_UNSPECIFIED",
+            Self::Never => "TWO_HANDS_NEVER",
+            Self::Auto => "TWO_HANDS_AUTO",
+            Self::Always => "TWO_HANDS_ALWAYS",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "TWO_HANDS_UNSPECIFIED" => Some(Self::Unspecified),
+            "TWO_HANDS_NEVER" => Some(Self::Never),
+            "TWO_HANDS_AUTO" => Some(Self::Auto),
+            "TWO_HANDS_ALWAYS" => Some(Self::Always),
+            _ => None,
+        }
     }
 }
 /// Generated client implementations.

@@ -1409,9 +1409,10 @@ class Figure:
         start_s: float = 0.0,
         duration_s: float = 0.0,
         grip_newtons: float = 0.0,
+        two_hands: str = "",
     ) -> int:
         """Gives it a load of `mass_kg` (kg) in the palm of one hand, or of two, half each; until `clear` unless
-        `duration_s` (s) says otherwise.
+        `duration_s` (s) says otherwise. With `two_hands` `auto` the other hand helps while one arm is too weak for it.
 
         `start_s` (s) counts from now. Beyond `grip_newtons` (N) at one hand it slips; 0: never. A `Load` takes more:
         where in the segment, and how fast it moves. Returns the tick at whose start the request was taken.
@@ -1424,6 +1425,7 @@ class Figure:
                 start_s=start_s,
                 duration_s=duration_s,
                 grip_newtons=grip_newtons,
+                two_hands=two_hands,
             )
         )
 

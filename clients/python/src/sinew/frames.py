@@ -87,7 +87,8 @@ class Event:
     """Something that happened: `type` in lower case, for example `saturated`, `balance_lost`, `fell`, `load_slipped`.
 
     `tick` and `time_s` (world time, s) say when; `figure`, `segment` and `dof` are names, empty where they do not
-    apply; `mass_kg` is that of a load, kg.
+    apply; `mass_kg` is that of a load, kg. Where the other hand helps with one (`load_shared`, `load_unshared`),
+    `other_segment` is that hand, and `need` the share of its strength that the arm needs alone and with help.
     """
 
     type: str
@@ -98,6 +99,8 @@ class Event:
     dof: str = ""
     mass_kg: float = 0.0
     detail: str = ""
+    other_segment: str = ""
+    need: tuple[float, float] = (0.0, 0.0)
 
     @classmethod
     def of(cls, e: state_pb2.Event) -> Event:
@@ -106,7 +109,9 @@ class Event:
             name = state_pb2.EventType.Name(e.type).removeprefix("EVENT_TYPE_").lower()
         except ValueError:  # of a newer server
             name = f"event_{e.type}"
-        return cls(name, e.tick, e.time_s, e.figure_id, e.segment, e.dof, e.mass_kg, e.detail)
+        need = (e.need_alone, e.need_shared)
+        who = (e.figure_id, e.segment, e.dof)
+        return cls(name, e.tick, e.time_s, *who, e.mass_kg, e.detail, e.other_segment, need)
 
 
 class FigureState:

@@ -199,9 +199,11 @@ class Load:
     """A mass (`mass_kg`, kg) that a hand (or any segment) carries from `start_s` (s) on; `duration_s` (s) 0: until it
     is cleared.
 
-    `point_m`: where, in the segment's frame (m); `None`: the middle of the palm of a hand, else the segment's centre of
-    mass. With `second_segment` two hands share it, half each. Taking it is perfectly inelastic: a load that moves
-    (`velocity_mps`, world axes, m/s) jerks. Beyond `grip_newtons` newtons at one hand it slips; 0: never.
+    `point_m`: where, in the segment's frame (m); `None`: the middle of the palm of a hand, else the segment's centre
+    of mass. With `second_segment` two hands share it, half each. `two_hands` `auto`: the other hand helps while one
+    arm is too weak; `always`: as long as it is free; `never`; empty: as `second_segment` says. Taking it is perfectly
+    inelastic: a load that moves (`velocity_mps`, world axes, m/s) jerks. Beyond `grip_newtons` newtons at one hand it
+    slips; 0: never.
     """
 
     mass_kg: float
@@ -213,6 +215,7 @@ class Load:
     grip_newtons: float = 0.0
     duration_s: float = 0.0
     start_s: float = 0.0
+    two_hands: str = ""
 
     def message(self) -> perturbation_pb2.Perturbation:
         """As it is sent, without figure and tick."""
@@ -226,6 +229,9 @@ class Load:
             second_point_m=vector(self.second_point_m) if self.second_point_m is not None else None,
             velocity_mps=vector(self.velocity_mps) if self.velocity_mps is not None else None,
         )
+        if self.two_hands:
+            known = perturbation_pb2.TwoHands.keys()
+            load.two_hands = perturbation_pb2.TwoHands.Value(choice(known, "TWO_HANDS_", self.two_hands, "two hands"))
         return perturbation_pb2.Perturbation(load=load)
 
 

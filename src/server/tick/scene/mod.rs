@@ -309,7 +309,7 @@ impl Scene {
         batch: &[FigureDisturbance],
     ) -> Result<Vec<(FigureKey, Perturbation)>, Fault> {
         let (tick, now, dt) = (self.world.tick(), self.world.time(), self.world.dt());
-        let mut plan = Vec::with_capacity(batch.len());
+        let mut plan: Vec<(FigureKey, Perturbation)> = Vec::with_capacity(batch.len());
         for (n, d) in batch.iter().enumerate() {
             let found = self.members.iter().find(|m| m.id == d.figure);
             let key = found.map(|m| m.key);
@@ -341,7 +341,14 @@ impl Scene {
                     retry: None,
                 });
             }
-            plan.push((key, engine::perturbation(f.body(), &d.what, from)));
+            let p = engine::perturbation(f.body(), &d.what, from);
+            let before = plan.iter().filter(|(k, _)| *k == key).map(|(_, p)| p);
+            engine::check_beside(
+                &format!("perturbations[{n}]"),
+                &p,
+                f.perturbations().chain(before),
+            )?;
+            plan.push((key, p));
         }
         Ok(plan)
     }

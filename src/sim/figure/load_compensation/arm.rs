@@ -4,10 +4,7 @@
 //! does not have, and the body would have to stand against it. So the arm moves the load about with the force of the
 //! motion: what it does slowly stays as it is, what it does quickly becomes the less the more it carries.
 
-use crate::sim::body::topology::{
-    JOINT, Joint, L_FOREARM, L_HAND, L_UPPER_ARM, PARENT, R_FOREARM, R_HAND, R_UPPER_ARM,
-    SEGMENT_COUNT,
-};
+use crate::sim::body::topology::{PARENT, SEGMENT_COUNT};
 use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::figure::params::load::{
     BENT_ELBOW, HABIT_TIME, HALF_SWING, HANGS_ELBOW, HANGS_SWING, QUICK, RAISED_SWING,
@@ -15,61 +12,12 @@ use crate::sim::figure::params::load::{
 use crate::sim::math::curve::fall;
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::motion::arm_ik::{Arm, joints};
 use crate::sim::motion::leg_ik::forward;
 use serde::{Deserialize, Serialize};
 
-/// Upper arm, forearm and hand, left and right.
-pub(super) const ARMS: [[SegmentId; 3]; 2] = [
-    [L_UPPER_ARM, L_FOREARM, L_HAND],
-    [R_UPPER_ARM, R_FOREARM, R_HAND],
-];
-
 /// Positions and rotations of all segments, m.
 pub(super) type Poses = [(Vec3, Quat); SEGMENT_COUNT];
-
-/// How an arm is held: its joints.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Arm {
-    shoulder: Quat,
-    /// Elbow and wrist, rad.
-    hinge: [f64; 4],
-}
-
-/// Where the joints of an arm are in a posture: the shoulder, and the first angles of elbow and wrist.
-fn joints(arm: [SegmentId; 3]) -> (usize, [usize; 2]) {
-    match arm.map(|s| JOINT[s.index()]) {
-        [Joint::Ball(b), Joint::Hinge2(elbow), Joint::Hinge2(wrist)] => (b, [elbow, wrist]),
-        _ => unreachable!("shoulders are balls, elbows and wrists have two hinges"),
-    }
-}
-
-impl Arm {
-    /// As in a posture.
-    pub(super) fn of(posture: &Posture, arm: [SegmentId; 3]) -> Self {
-        let (shoulder, [e, w]) = joints(arm);
-        let h = &posture.hinge;
-        Self {
-            shoulder: posture.ball[shoulder],
-            hinge: [h[e], h[e + 1], h[w], h[w + 1]],
-        }
-    }
-
-    /// Holds the arm of a posture like this.
-    fn hold(&self, posture: &mut Posture, arm: [SegmentId; 3]) {
-        let (shoulder, [e, w]) = joints(arm);
-        posture.ball[shoulder] = self.shoulder;
-        let h = &mut posture.hinge;
-        [h[e], h[e + 1], h[w], h[w + 1]] = self.hinge;
-    }
-
-    /// So much of the way to another.
-    fn toward(&self, to: &Self, share: f64) -> Self {
-        Self {
-            shoulder: self.shoulder.slerp(to.shoulder, share),
-            hinge: std::array::from_fn(|k| self.hinge[k] + share * (to.hinge[k] - self.hinge[k])),
-        }
-    }
-}
 
 /// What an arm has done lately.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -155,6 +103,7 @@ fn ahead(poses: &Poses) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sim::motion::arm_ik::ARMS;
     use crate::sim::motion::builtin::at_ease;
 
     const RIGHT: [SegmentId; 3] = ARMS[1];

@@ -3,7 +3,7 @@
 use super::state::rested;
 use super::{ExitPlan, Figure};
 use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::body::{Body, Links, State};
+use crate::sim::body::{Body, Links, SegmentId, State};
 use crate::sim::collide::shape::BodyShape;
 use crate::sim::control::Controller;
 use crate::sim::dynamics::Terms;
@@ -11,6 +11,7 @@ use crate::sim::figure::constraints::Constraint;
 use crate::sim::figure::drive::{Drive, LivePlayback, QueuedClip};
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::plan_task::{LatePlans, PlanRequest};
+use crate::sim::figure::second_hand::{Help, SecondHand};
 use crate::sim::figure::touches::Touches;
 use crate::sim::math::Vec3;
 use crate::sim::motion::{PlanarTransform, TargetPair};
@@ -144,6 +145,15 @@ impl Figure {
     pub fn perturbations(&self) -> impl Iterator<Item = &Perturbation> {
         self.surroundings.disturbances.scheduled()
     }
+    /// What segments hold at `time`, s: segment, point (segment frame, m), mass (kg). A load in two hands is there
+    /// twice, with the share of each.
+    pub fn held(&self, time: f64) -> impl Iterator<Item = (SegmentId, Vec3, f64)> + '_ {
+        self.surroundings.disturbances.held(time)
+    }
+    /// What the other hand does for a load, while it holds it.
+    pub fn help(&self) -> Option<Help> {
+        self.surroundings.disturbances.helpable()?.2
+    }
     /// Lets go of all loads and stops all pushes at the next tick.
     pub fn clear_perturbations(&mut self) {
         self.surroundings.disturbances.clear();
@@ -165,6 +175,8 @@ impl Figure {
         self.physical.frozen = false;
         self.desired.tracker.reset();
         self.desired.load_compensation.reset();
+        self.desired.second_hand = SecondHand::default();
+        self.surroundings.disturbances.help(None);
         self.physical.com_acceleration = Vec3::zero();
         self.surroundings.support.reset();
         self.surroundings.touches = Touches::default();

@@ -152,6 +152,9 @@ impl Figure {
         if !(desired.tracker.is_valid() && desired.get_up.is_valid()) {
             return Err("steps or a way of getting up that cannot be");
         }
+        if !desired.second_hand.is_valid() {
+            return Err("a hand that cannot be anywhere");
+        }
         let surroundings = surroundings.into_owned();
         let counts = surroundings.touches.is_valid() && surroundings.disturbances.is_valid();
         if !(counts && desired.constraints.is_valid()) {

@@ -19,6 +19,7 @@ use crate::sim::figure::kinematic_step::KinematicStepper;
 use crate::sim::figure::load_compensation::LoadCompensation;
 use crate::sim::figure::loads::Disturbances;
 use crate::sim::figure::plan_task::LatePlans;
+use crate::sim::figure::second_hand::SecondHand;
 use crate::sim::figure::tasks::{TaskPoints, TaskWorkspace};
 use crate::sim::figure::torque_step::{MotorCommand, TorqueRange, TorqueStepper};
 use crate::sim::figure::touches::Touches;
@@ -110,6 +111,8 @@ pub(super) struct DesiredMotion {
     pub tracker: Box<StepTracker>,
     /// What a load changes.
     pub load_compensation: Box<LoadCompensation>,
+    /// What the other hand does for a load.
+    pub second_hand: SecondHand,
     /// Constraints that clients gave.
     pub constraints: Constraints,
     /// Getting up from the floor.
@@ -127,6 +130,7 @@ impl DesiredMotion {
             com: TaskPoints::none().com,
             tracker: Box::new(StepTracker::new(&setup.body)),
             load_compensation: Box::new(LoadCompensation::new(&setup.body)),
+            second_hand: SecondHand::default(),
             constraints: Constraints::default(),
             get_up: Box::new(GetUp::new(&setup.body)),
         }

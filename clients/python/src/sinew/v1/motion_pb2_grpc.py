@@ -132,7 +132,7 @@ class MotionServiceServicer:
         figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
         further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
         gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
-        figure that holds one load in both hands.
+        figure that holds one load in both hands, or may.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

@@ -49,7 +49,7 @@ class MotionServiceStub:
     figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
     further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
     gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
-    figure that holds one load in both hands.
+    figure that holds one load in both hands, or may.
     """
     PlayClip: _grpc.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]
     """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
@@ -90,7 +90,7 @@ class MotionServiceAsyncStub(MotionServiceStub):
     figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
     further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
     gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
-    figure that holds one load in both hands.
+    figure that holds one load in both hands, or may.
     """
     PlayClip: _aio.UnaryUnaryMultiCallable[_motion_pb2.PlayClipRequest, _motion_pb2.PlayClipResponse]  # type: ignore[assignment]
     """Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
@@ -164,7 +164,7 @@ class MotionServiceServicer(metaclass=_abc_1.ABCMeta):
         figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
         further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
         gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
-        figure that holds one load in both hands.
+        figure that holds one load in both hands, or may.
         """
 
     @_abc_1.abstractmethod

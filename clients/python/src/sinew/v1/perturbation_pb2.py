@@ -28,7 +28,7 @@ from sinew.v1 import options_pb2 as sinew_dot_v1_dot_options__pb2
 from sinew.v1 import types_pb2 as sinew_dot_v1_dot_types__pb2
 
 
-DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x1bsinew/v1/perturbation.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/types.proto\"\x92\x02\n\x04Load\x12\x15\n\x07segment\x18\x01 \x01(\tB\x04\xe2\x41\x01\x02\x12(\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12\x15\n\x07mass_kg\x18\x03 \x01(\x01\x42\x04\xe2\x41\x01\x02\x12\x18\n\nduration_s\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12-\n\x0cvelocity_mps\x18\x05 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12\x1c\n\x0esecond_segment\x18\x06 \x01(\tB\x04\xe2\x41\x01\x01\x12/\n\x0esecond_point_m\x18\x07 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12\x1a\n\x0cgrip_newtons\x18\x08 \x01(\x01\x42\x04\xe2\x41\x01\x01\"\x9d\x01\n\x07Impulse\x12\x15\n\x07segment\x18\x01 \x01(\tB\x04\xe2\x41\x01\x02\x12(\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12\x37\n\x16impulse_newton_seconds\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x02\x12\x18\n\nduration_s\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\"\x92\x01\n\x05\x46orce\x12\x15\n\x07segment\x18\x01 \x01(\tB\x04\xe2\x41\x01\x02\x12(\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12.\n\rforce_newtons\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x02\x12\x18\n\nduration_s\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\"\xb9\x01\n\x0cPerturbation\x12\x17\n\tfigure_id\x18\x01 \x01(\tB\x04\xe2\x41\x01\x02\x12\x17\n\x04tick\x18\x02 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x01\x88\x01\x01\x12\x1e\n\x04load\x18\x03 \x01(\x0b\x32\x0e.sinew.v1.LoadH\x00\x12$\n\x07impulse\x18\x04 \x01(\x0b\x32\x11.sinew.v1.ImpulseH\x00\x12 \n\x05\x66orce\x18\x05 \x01(\x0b\x32\x0f.sinew.v1.ForceH\x00\x42\x06\n\x04kindB\x07\n\x05_tick\"\xdd\x01\n\x19\x41pplyPerturbationsRequest\x12#\n\x05world\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\x17\n\tclient_id\x18\x02 \x01(\tB\x04\xe2\x41\x01\x01\x12\x16\n\x08sequence\x18\x03 \x01(\x03\x42\x04\xe2\x41\x01\x01\x12\x33\n\rperturbations\x18\x04 \x03(\x0b\x32\x16.sinew.v1.PerturbationB\x04\xe2\x41\x01\x02\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\x12\x1b\n\rvalidate_only\x18\x0e \x01(\x08\x42\x04\xe2\x41\x01\x01\"*\n\x1a\x41pplyPerturbationsResponse\x12\x0c\n\x04tick\x18\x01 \x01(\x03\"\\\n\x19\x43learPerturbationsRequest\x12%\n\x06\x66igure\x18\x01 \x01(\tB\x15\xe2\x41\x01\x02\xfa\x41\x0e\n\x0csinew/Figure\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"*\n\x1a\x43learPerturbationsResponse\x12\x0c\n\x04tick\x18\x01 \x01(\x03\x32\xe3\x01\n\x13PerturbationService\x12\x65\n\x12\x41pplyPerturbations\x12#.sinew.v1.ApplyPerturbationsRequest\x1a$.sinew.v1.ApplyPerturbationsResponse\"\x04\xe8\xe0\x18\x02\x12\x65\n\x12\x43learPerturbations\x12#.sinew.v1.ClearPerturbationsRequest\x1a$.sinew.v1.ClearPerturbationsResponse\"\x04\xe8\xe0\x18\x02\x62\x06proto3')
+DESCRIPTOR = _descriptor_pool.Default().AddSerializedFile(b'\n\x1bsinew/v1/perturbation.proto\x12\x08sinew.v1\x1a\x1fgoogle/api/field_behavior.proto\x1a\x19google/api/resource.proto\x1a\x16sinew/v1/options.proto\x1a\x14sinew/v1/types.proto\"\xbf\x02\n\x04Load\x12\x15\n\x07segment\x18\x01 \x01(\tB\x04\xe2\x41\x01\x02\x12(\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12\x15\n\x07mass_kg\x18\x03 \x01(\x01\x42\x04\xe2\x41\x01\x02\x12\x18\n\nduration_s\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12-\n\x0cvelocity_mps\x18\x05 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12\x1c\n\x0esecond_segment\x18\x06 \x01(\tB\x04\xe2\x41\x01\x01\x12/\n\x0esecond_point_m\x18\x07 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12\x1a\n\x0cgrip_newtons\x18\x08 \x01(\x01\x42\x04\xe2\x41\x01\x01\x12+\n\ttwo_hands\x18\t \x01(\x0e\x32\x12.sinew.v1.TwoHandsB\x04\xe2\x41\x01\x01\"\x9d\x01\n\x07Impulse\x12\x15\n\x07segment\x18\x01 \x01(\tB\x04\xe2\x41\x01\x02\x12(\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12\x37\n\x16impulse_newton_seconds\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x02\x12\x18\n\nduration_s\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\"\x92\x01\n\x05\x46orce\x12\x15\n\x07segment\x18\x01 \x01(\tB\x04\xe2\x41\x01\x02\x12(\n\x07point_m\x18\x02 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x01\x12.\n\rforce_newtons\x18\x03 \x01(\x0b\x32\x11.sinew.v1.Vector3B\x04\xe2\x41\x01\x02\x12\x18\n\nduration_s\x18\x04 \x01(\x01\x42\x04\xe2\x41\x01\x01\"\xb9\x01\n\x0cPerturbation\x12\x17\n\tfigure_id\x18\x01 \x01(\tB\x04\xe2\x41\x01\x02\x12\x17\n\x04tick\x18\x02 \x01(\x03\x42\x04\xe2\x41\x01\x01H\x01\x88\x01\x01\x12\x1e\n\x04load\x18\x03 \x01(\x0b\x32\x0e.sinew.v1.LoadH\x00\x12$\n\x07impulse\x18\x04 \x01(\x0b\x32\x11.sinew.v1.ImpulseH\x00\x12 \n\x05\x66orce\x18\x05 \x01(\x0b\x32\x0f.sinew.v1.ForceH\x00\x42\x06\n\x04kindB\x07\n\x05_tick\"\xdd\x01\n\x19\x41pplyPerturbationsRequest\x12#\n\x05world\x18\x01 \x01(\tB\x14\xe2\x41\x01\x02\xfa\x41\r\n\x0bsinew/World\x12\x17\n\tclient_id\x18\x02 \x01(\tB\x04\xe2\x41\x01\x01\x12\x16\n\x08sequence\x18\x03 \x01(\x03\x42\x04\xe2\x41\x01\x01\x12\x33\n\rperturbations\x18\x04 \x03(\x0b\x32\x16.sinew.v1.PerturbationB\x04\xe2\x41\x01\x02\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\x12\x1b\n\rvalidate_only\x18\x0e \x01(\x08\x42\x04\xe2\x41\x01\x01\"*\n\x1a\x41pplyPerturbationsResponse\x12\x0c\n\x04tick\x18\x01 \x01(\x03\"\\\n\x19\x43learPerturbationsRequest\x12%\n\x06\x66igure\x18\x01 \x01(\tB\x15\xe2\x41\x01\x02\xfa\x41\x0e\n\x0csinew/Figure\x12\x18\n\nrequest_id\x18\r \x01(\tB\x04\xe2\x41\x01\x01\"*\n\x1a\x43learPerturbationsResponse\x12\x0c\n\x04tick\x18\x01 \x01(\x03*d\n\x08TwoHands\x12\x19\n\x15TWO_HANDS_UNSPECIFIED\x10\x00\x12\x13\n\x0fTWO_HANDS_NEVER\x10\x01\x12\x12\n\x0eTWO_HANDS_AUTO\x10\x02\x12\x14\n\x10TWO_HANDS_ALWAYS\x10\x03\x32\xe3\x01\n\x13PerturbationService\x12\x65\n\x12\x41pplyPerturbations\x12#.sinew.v1.ApplyPerturbationsRequest\x1a$.sinew.v1.ApplyPerturbationsResponse\"\x04\xe8\xe0\x18\x02\x12\x65\n\x12\x43learPerturbations\x12#.sinew.v1.ClearPerturbationsRequest\x1a$.sinew.v1.ClearPerturbationsResponse\"\x04\xe8\xe0\x18\x02\x62\x06proto3')
 
 _globals = globals()
 _builder.BuildMessageAndEnumDescriptors(DESCRIPTOR, _globals)
@@ -51,6 +51,8 @@ if not _descriptor._USE_C_DESCRIPTORS:
   _globals['_LOAD'].fields_by_name['second_point_m']._serialized_options = b'\342A\001\001'
   _globals['_LOAD'].fields_by_name['grip_newtons']._loaded_options = None
   _globals['_LOAD'].fields_by_name['grip_newtons']._serialized_options = b'\342A\001\001'
+  _globals['_LOAD'].fields_by_name['two_hands']._loaded_options = None
+  _globals['_LOAD'].fields_by_name['two_hands']._serialized_options = b'\342A\001\001'
   _globals['_IMPULSE'].fields_by_name['segment']._loaded_options = None
   _globals['_IMPULSE'].fields_by_name['segment']._serialized_options = b'\342A\001\002'
   _globals['_IMPULSE'].fields_by_name['point_m']._loaded_options = None
@@ -91,22 +93,24 @@ if not _descriptor._USE_C_DESCRIPTORS:
   _globals['_PERTURBATIONSERVICE'].methods_by_name['ApplyPerturbations']._serialized_options = b'\350\340\030\002'
   _globals['_PERTURBATIONSERVICE'].methods_by_name['ClearPerturbations']._loaded_options = None
   _globals['_PERTURBATIONSERVICE'].methods_by_name['ClearPerturbations']._serialized_options = b'\350\340\030\002'
+  _globals['_TWOHANDS']._serialized_start=1372
+  _globals['_TWOHANDS']._serialized_end=1472
   _globals['_LOAD']._serialized_start=148
-  _globals['_LOAD']._serialized_end=422
-  _globals['_IMPULSE']._serialized_start=425
-  _globals['_IMPULSE']._serialized_end=582
-  _globals['_FORCE']._serialized_start=585
-  _globals['_FORCE']._serialized_end=731
-  _globals['_PERTURBATION']._serialized_start=734
-  _globals['_PERTURBATION']._serialized_end=919
-  _globals['_APPLYPERTURBATIONSREQUEST']._serialized_start=922
-  _globals['_APPLYPERTURBATIONSREQUEST']._serialized_end=1143
-  _globals['_APPLYPERTURBATIONSRESPONSE']._serialized_start=1145
-  _globals['_APPLYPERTURBATIONSRESPONSE']._serialized_end=1187
-  _globals['_CLEARPERTURBATIONSREQUEST']._serialized_start=1189
-  _globals['_CLEARPERTURBATIONSREQUEST']._serialized_end=1281
-  _globals['_CLEARPERTURBATIONSRESPONSE']._serialized_start=1283
-  _globals['_CLEARPERTURBATIONSRESPONSE']._serialized_end=1325
-  _globals['_PERTURBATIONSERVICE']._serialized_start=1328
-  _globals['_PERTURBATIONSERVICE']._serialized_end=1555
+  _globals['_LOAD']._serialized_end=467
+  _globals['_IMPULSE']._serialized_start=470
+  _globals['_IMPULSE']._serialized_end=627
+  _globals['_FORCE']._serialized_start=630
+  _globals['_FORCE']._serialized_end=776
+  _globals['_PERTURBATION']._serialized_start=779
+  _globals['_PERTURBATION']._serialized_end=964
+  _globals['_APPLYPERTURBATIONSREQUEST']._serialized_start=967
+  _globals['_APPLYPERTURBATIONSREQUEST']._serialized_end=1188
+  _globals['_APPLYPERTURBATIONSRESPONSE']._serialized_start=1190
+  _globals['_APPLYPERTURBATIONSRESPONSE']._serialized_end=1232
+  _globals['_CLEARPERTURBATIONSREQUEST']._serialized_start=1234
+  _globals['_CLEARPERTURBATIONSREQUEST']._serialized_end=1326
+  _globals['_CLEARPERTURBATIONSRESPONSE']._serialized_start=1328
+  _globals['_CLEARPERTURBATIONSRESPONSE']._serialized_end=1370
+  _globals['_PERTURBATIONSERVICE']._serialized_start=1475
+  _globals['_PERTURBATIONSERVICE']._serialized_end=1702
 # @@protoc_insertion_point(module_scope)

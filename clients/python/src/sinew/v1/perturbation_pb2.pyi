@@ -7,6 +7,7 @@ from collections import abc as _abc
 from google.protobuf import descriptor as _descriptor
 from google.protobuf import message as _message
 from google.protobuf.internal import containers as _containers
+from google.protobuf.internal import enum_type_wrapper as _enum_type_wrapper
 from sinew.v1 import types_pb2 as _types_pb2
 import builtins as _builtins
 import sys
@@ -18,6 +19,44 @@ else:
     from typing_extensions import TypeAlias as _TypeAlias, Never as _Never
 
 DESCRIPTOR: _descriptor.FileDescriptor
+
+class _TwoHands:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _TwoHandsEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_TwoHands.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    TWO_HANDS_UNSPECIFIED: _TwoHands.ValueType  # 0
+    """As `second_segment` says."""
+    TWO_HANDS_NEVER: _TwoHands.ValueType  # 1
+    """It does not. `second_segment` must be empty."""
+    TWO_HANDS_AUTO: _TwoHands.ValueType  # 2
+    """It reaches for the load when one arm is too weak to hold it where the motion has it, now or in the next 0.6 s, and
+    lets go when one arm is clearly enough again. It does only while it is free: it holds no load, touches nothing, no
+    constraint is on its arm, and the figure keeps its balance; and only where its joints let it get there.
+    `segment` must be `l_hand` or `r_hand`, `second_segment` empty. FAILED_PRECONDITION (`OTHER_HAND_HOLDS_LOAD`) if
+    the other hand holds another load at that time. The events LOAD_SHARED and LOAD_UNSHARED tell it.
+    """
+    TWO_HANDS_ALWAYS: _TwoHands.ValueType  # 3
+    """The same, but it reaches for the load as soon as it can, and does not let go of it while it is free."""
+
+class TwoHands(_TwoHands, metaclass=_TwoHandsEnumTypeWrapper):
+    """Whether the other hand helps to hold a load that is in one hand."""
+
+TWO_HANDS_UNSPECIFIED: TwoHands.ValueType  # 0
+"""As `second_segment` says."""
+TWO_HANDS_NEVER: TwoHands.ValueType  # 1
+"""It does not. `second_segment` must be empty."""
+TWO_HANDS_AUTO: TwoHands.ValueType  # 2
+"""It reaches for the load when one arm is too weak to hold it where the motion has it, now or in the next 0.6 s, and
+lets go when one arm is clearly enough again. It does only while it is free: it holds no load, touches nothing, no
+constraint is on its arm, and the figure keeps its balance; and only where its joints let it get there.
+`segment` must be `l_hand` or `r_hand`, `second_segment` empty. FAILED_PRECONDITION (`OTHER_HAND_HOLDS_LOAD`) if
+the other hand holds another load at that time. The events LOAD_SHARED and LOAD_UNSHARED tell it.
+"""
+TWO_HANDS_ALWAYS: TwoHands.ValueType  # 3
+"""The same, but it reaches for the load as soon as it can, and does not let go of it while it is free."""
+Global___TwoHands: _TypeAlias = TwoHands  # noqa: Y015
 
 @_typing.final
 class Load(_message.Message):
@@ -33,6 +72,7 @@ class Load(_message.Message):
     SECOND_SEGMENT_FIELD_NUMBER: _builtins.int
     SECOND_POINT_M_FIELD_NUMBER: _builtins.int
     GRIP_NEWTONS_FIELD_NUMBER: _builtins.int
+    TWO_HANDS_FIELD_NUMBER: _builtins.int
     segment: _builtins.str
     """Segment name, for example `r_hand`. Required."""
     mass_kg: _builtins.float
@@ -45,6 +85,8 @@ class Load(_message.Message):
     """
     grip_newtons: _builtins.float
     """Force at one hand beyond which the load slips, N, up to 1000000. 0 or absent: never."""
+    two_hands: Global___TwoHands.ValueType
+    """Whether the other hand helps. Default: as `second_segment` says."""
     @_builtins.property
     def point_m(self) -> _types_pb2.Vector3:
         """Where, segment frame, m, each component within ±2. Absent: the palm of a hand, else the segment's centre of mass."""
@@ -70,10 +112,11 @@ class Load(_message.Message):
         second_segment: _builtins.str = ...,
         second_point_m: _types_pb2.Vector3 | None = ...,
         grip_newtons: _builtins.float = ...,
+        two_hands: Global___TwoHands.ValueType = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["point_m", b"point_m", "second_point_m", b"second_point_m", "velocity_mps", b"velocity_mps"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["duration_s", b"duration_s", "grip_newtons", b"grip_newtons", "mass_kg", b"mass_kg", "point_m", b"point_m", "second_point_m", b"second_point_m", "second_segment", b"second_segment", "segment", b"segment", "velocity_mps", b"velocity_mps"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["duration_s", b"duration_s", "grip_newtons", b"grip_newtons", "mass_kg", b"mass_kg", "point_m", b"point_m", "second_point_m", b"second_point_m", "second_segment", b"second_segment", "segment", b"segment", "two_hands", b"two_hands", "velocity_mps", b"velocity_mps"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

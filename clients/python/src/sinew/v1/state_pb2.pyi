@@ -50,6 +50,10 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """A load was dropped."""
     EVENT_TYPE_LOAD_SLIPPED: _EventType.ValueType  # 30
     """A load slipped from a hand: the force exceeded its grip."""
+    EVENT_TYPE_LOAD_SHARED: _EventType.ValueType  # 47
+    """The other hand took hold of a load too (`other_segment`): one arm is too weak for it, or it was asked to."""
+    EVENT_TYPE_LOAD_UNSHARED: _EventType.ValueType  # 48
+    """It let go of it: one arm is enough, or the hand is needed elsewhere."""
     EVENT_TYPE_PUSHED: _EventType.ValueType  # 46
     """The figure was pushed: an impulse was applied to the segment."""
     EVENT_TYPE_QUARANTINED: _EventType.ValueType  # 10
@@ -126,6 +130,10 @@ EVENT_TYPE_LOAD_DROPPED: EventType.ValueType  # 9
 """A load was dropped."""
 EVENT_TYPE_LOAD_SLIPPED: EventType.ValueType  # 30
 """A load slipped from a hand: the force exceeded its grip."""
+EVENT_TYPE_LOAD_SHARED: EventType.ValueType  # 47
+"""The other hand took hold of a load too (`other_segment`): one arm is too weak for it, or it was asked to."""
+EVENT_TYPE_LOAD_UNSHARED: EventType.ValueType  # 48
+"""It let go of it: one arm is enough, or the hand is needed elsewhere."""
 EVENT_TYPE_PUSHED: EventType.ValueType  # 46
 """The figure was pushed: an impulse was applied to the segment."""
 EVENT_TYPE_QUARANTINED: EventType.ValueType  # 10
@@ -433,6 +441,8 @@ class Event(_message.Message):
     OTHER_FIELD_NUMBER: _builtins.int
     OTHER_SEGMENT_FIELD_NUMBER: _builtins.int
     IMPULSE_NEWTON_SECONDS_FIELD_NUMBER: _builtins.int
+    NEED_ALONE_FIELD_NUMBER: _builtins.int
+    NEED_SHARED_FIELD_NUMBER: _builtins.int
     type: Global___EventType.ValueType
     """What happened."""
     tick: _builtins.int
@@ -452,9 +462,15 @@ class Event(_message.Message):
     other: _builtins.str
     """What is touched, added or removed: `figures/{figure}` or `obstacles/{obstacle}`, where there is one."""
     other_segment: _builtins.str
-    """Name of the segment of the other figure, where there is one."""
+    """Name of the segment of the other figure, or of the hand that helps with a load, where there is one."""
     impulse_newton_seconds: _builtins.float
     """Size of a push, N·s."""
+    need_alone: _builtins.float
+    """Of a load that is shared: share of its strength that the hardest joint of the arm needs to hold it still
+    without the other hand, in the motion of the moment and of the next 0.6 s. 1 is all of it.
+    """
+    need_shared: _builtins.float
+    """The same with the other hand's help, of the harder of both arms."""
     def __init__(
         self,
         *,
@@ -469,10 +485,12 @@ class Event(_message.Message):
         other: _builtins.str = ...,
         other_segment: _builtins.str = ...,
         impulse_newton_seconds: _builtins.float = ...,
+        need_alone: _builtins.float = ...,
+        need_shared: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["detail", b"detail", "dof", b"dof", "figure_id", b"figure_id", "impulse_newton_seconds", b"impulse_newton_seconds", "mass_kg", b"mass_kg", "other", b"other", "other_segment", b"other_segment", "segment", b"segment", "tick", b"tick", "time_s", b"time_s", "type", b"type"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["detail", b"detail", "dof", b"dof", "figure_id", b"figure_id", "impulse_newton_seconds", b"impulse_newton_seconds", "mass_kg", b"mass_kg", "need_alone", b"need_alone", "need_shared", b"need_shared", "other", b"other", "other_segment", b"other_segment", "segment", b"segment", "tick", b"tick", "time_s", b"time_s", "type", b"type"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -1905,7 +1905,7 @@ export const MotionService: GenService<{
    * figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
    * further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
    * gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
-   * figure that holds one load in both hands.
+   * figure that holds one load in both hands, or may.
    *
    * @generated from rpc sinew.v1.MotionService.RehearseClip
    */

@@ -2,8 +2,8 @@
 // @generated from file sinew/v1/perturbation.proto (package sinew.v1, syntax proto3)
 /* eslint-disable */
 
-import type { GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
-import { fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
+import type { GenEnum, GenFile, GenMessage, GenService } from "@bufbuild/protobuf/codegenv2";
+import { enumDesc, fileDesc, messageDesc, serviceDesc } from "@bufbuild/protobuf/codegenv2";
 import { file_google_api_field_behavior } from "../../google/api/field_behavior_pb.js";
 import { file_google_api_resource } from "../../google/api/resource_pb.js";
 import { file_sinew_v1_options } from "./options_pb.js";
@@ -15,7 +15,7 @@ import type { Message } from "@bufbuild/protobuf";
  * Describes the file sinew/v1/perturbation.proto.
  */
 export const file_sinew_v1_perturbation: GenFile = /*@__PURE__*/
-  fileDesc("ChtzaW5ldy92MS9wZXJ0dXJiYXRpb24ucHJvdG8SCHNpbmV3LnYxIpICCgRMb2FkEhUKB3NlZ21lbnQYASABKAlCBOJBAQISKAoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQESFQoHbWFzc19rZxgDIAEoAUIE4kEBAhIYCgpkdXJhdGlvbl9zGAQgASgBQgTiQQEBEi0KDHZlbG9jaXR5X21wcxgFIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQESHAoOc2Vjb25kX3NlZ21lbnQYBiABKAlCBOJBAQESLwoOc2Vjb25kX3BvaW50X20YByABKAsyES5zaW5ldy52MS5WZWN0b3IzQgTiQQEBEhoKDGdyaXBfbmV3dG9ucxgIIAEoAUIE4kEBASKdAQoHSW1wdWxzZRIVCgdzZWdtZW50GAEgASgJQgTiQQECEigKB3BvaW50X20YAiABKAsyES5zaW5ldy52MS5WZWN0b3IzQgTiQQEBEjcKFmltcHVsc2VfbmV3dG9uX3NlY29uZHMYAyABKAsyES5zaW5ldy52MS5WZWN0b3IzQgTiQQECEhgKCmR1cmF0aW9uX3MYBCABKAFCBOJBAQEikgEKBUZvcmNlEhUKB3NlZ21lbnQYASABKAlCBOJBAQISKAoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQESLgoNZm9yY2VfbmV3dG9ucxgDIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQISGAoKZHVyYXRpb25fcxgEIAEoAUIE4kEBASK5AQoMUGVydHVyYmF0aW9uEhcKCWZpZ3VyZV9pZBgBIAEoCUIE4kEBAhIXCgR0aWNrGAIgASgDQgTiQQEBSAGIAQESHgoEbG9hZBgDIAEoCzIOLnNpbmV3LnYxLkxvYWRIABIkCgdpbXB1bHNlGAQgASgLMhEuc2luZXcudjEuSW1wdWxzZUgAEiAKBWZvcmNlGAUgASgLMg8uc2luZXcudjEuRm9yY2VIAEIGCgRraW5kQgcKBV90aWNrIt0BChlBcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0EiMKBXdvcmxkGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIXCgljbGllbnRfaWQYAiABKAlCBOJBAQESFgoIc2VxdWVuY2UYAyABKANCBOJBAQESMwoNcGVydHVyYmF0aW9ucxgEIAMoCzIWLnNpbmV3LnYxLlBlcnR1cmJhdGlvbkIE4kEBAhIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQEiKgoaQXBwbHlQZXJ0dXJiYXRpb25zUmVzcG9uc2USDAoEdGljaxgBIAEoAyJcChlDbGVhclBlcnR1cmJhdGlvbnNSZXF1ZXN0EiUKBmZpZ3VyZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiKgoaQ2xlYXJQZXJ0dXJiYXRpb25zUmVzcG9uc2USDAoEdGljaxgBIAEoAzLjAQoTUGVydHVyYmF0aW9uU2VydmljZRJlChJBcHBseVBlcnR1cmJhdGlvbnMSIy5zaW5ldy52MS5BcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0GiQuc2luZXcudjEuQXBwbHlQZXJ0dXJiYXRpb25zUmVzcG9uc2UiBOjgGAISZQoSQ2xlYXJQZXJ0dXJiYXRpb25zEiMuc2luZXcudjEuQ2xlYXJQZXJ0dXJiYXRpb25zUmVxdWVzdBokLnNpbmV3LnYxLkNsZWFyUGVydHVyYmF0aW9uc1Jlc3BvbnNlIgTo4BgCYgZwcm90bzM", [file_google_api_field_behavior, file_google_api_resource, file_sinew_v1_options, file_sinew_v1_types]);
+  fileDesc("ChtzaW5ldy92MS9wZXJ0dXJiYXRpb24ucHJvdG8SCHNpbmV3LnYxIr8CCgRMb2FkEhUKB3NlZ21lbnQYASABKAlCBOJBAQISKAoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQESFQoHbWFzc19rZxgDIAEoAUIE4kEBAhIYCgpkdXJhdGlvbl9zGAQgASgBQgTiQQEBEi0KDHZlbG9jaXR5X21wcxgFIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQESHAoOc2Vjb25kX3NlZ21lbnQYBiABKAlCBOJBAQESLwoOc2Vjb25kX3BvaW50X20YByABKAsyES5zaW5ldy52MS5WZWN0b3IzQgTiQQEBEhoKDGdyaXBfbmV3dG9ucxgIIAEoAUIE4kEBARIrCgl0d29faGFuZHMYCSABKA4yEi5zaW5ldy52MS5Ud29IYW5kc0IE4kEBASKdAQoHSW1wdWxzZRIVCgdzZWdtZW50GAEgASgJQgTiQQECEigKB3BvaW50X20YAiABKAsyES5zaW5ldy52MS5WZWN0b3IzQgTiQQEBEjcKFmltcHVsc2VfbmV3dG9uX3NlY29uZHMYAyABKAsyES5zaW5ldy52MS5WZWN0b3IzQgTiQQECEhgKCmR1cmF0aW9uX3MYBCABKAFCBOJBAQEikgEKBUZvcmNlEhUKB3NlZ21lbnQYASABKAlCBOJBAQISKAoHcG9pbnRfbRgCIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQESLgoNZm9yY2VfbmV3dG9ucxgDIAEoCzIRLnNpbmV3LnYxLlZlY3RvcjNCBOJBAQISGAoKZHVyYXRpb25fcxgEIAEoAUIE4kEBASK5AQoMUGVydHVyYmF0aW9uEhcKCWZpZ3VyZV9pZBgBIAEoCUIE4kEBAhIXCgR0aWNrGAIgASgDQgTiQQEBSAGIAQESHgoEbG9hZBgDIAEoCzIOLnNpbmV3LnYxLkxvYWRIABIkCgdpbXB1bHNlGAQgASgLMhEuc2luZXcudjEuSW1wdWxzZUgAEiAKBWZvcmNlGAUgASgLMg8uc2luZXcudjEuRm9yY2VIAEIGCgRraW5kQgcKBV90aWNrIt0BChlBcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0EiMKBXdvcmxkGAEgASgJQhTiQQEC+kENCgtzaW5ldy9Xb3JsZBIXCgljbGllbnRfaWQYAiABKAlCBOJBAQESFgoIc2VxdWVuY2UYAyABKANCBOJBAQESMwoNcGVydHVyYmF0aW9ucxgEIAMoCzIWLnNpbmV3LnYxLlBlcnR1cmJhdGlvbkIE4kEBAhIYCgpyZXF1ZXN0X2lkGA0gASgJQgTiQQEBEhsKDXZhbGlkYXRlX29ubHkYDiABKAhCBOJBAQEiKgoaQXBwbHlQZXJ0dXJiYXRpb25zUmVzcG9uc2USDAoEdGljaxgBIAEoAyJcChlDbGVhclBlcnR1cmJhdGlvbnNSZXF1ZXN0EiUKBmZpZ3VyZRgBIAEoCUIV4kEBAvpBDgoMc2luZXcvRmlndXJlEhgKCnJlcXVlc3RfaWQYDSABKAlCBOJBAQEiKgoaQ2xlYXJQZXJ0dXJiYXRpb25zUmVzcG9uc2USDAoEdGljaxgBIAEoAypkCghUd29IYW5kcxIZChVUV09fSEFORFNfVU5TUEVDSUZJRUQQABITCg9UV09fSEFORFNfTkVWRVIQARISCg5UV09fSEFORFNfQVVUTxACEhQKEFRXT19IQU5EU19BTFdBWVMQAzLjAQoTUGVydHVyYmF0aW9uU2VydmljZRJlChJBcHBseVBlcnR1cmJhdGlvbnMSIy5zaW5ldy52MS5BcHBseVBlcnR1cmJhdGlvbnNSZXF1ZXN0GiQuc2luZXcudjEuQXBwbHlQZXJ0dXJiYXRpb25zUmVzcG9uc2UiBOjgGAISZQoSQ2xlYXJQZXJ0dXJiYXRpb25zEiMuc2luZXcudjEuQ2xlYXJQZXJ0dXJiYXRpb25zUmVxdWVzdBokLnNpbmV3LnYxLkNsZWFyUGVydHVyYmF0aW9uc1Jlc3BvbnNlIgTo4BgCYgZwcm90bzM", [file_google_api_field_behavior, file_google_api_resource, file_sinew_v1_options, file_sinew_v1_types]);
 
 /**
  * A mass that a segment carries.
@@ -80,6 +80,13 @@ export type Load = Message<"sinew.v1.Load"> & {
    * @generated from field: double grip_newtons = 8;
    */
   gripNewtons: number;
+
+  /**
+   * Whether the other hand helps. Default: as `second_segment` says.
+   *
+   * @generated from field: sinew.v1.TwoHands two_hands = 9;
+   */
+  twoHands: TwoHands;
 };
 
 /**
@@ -360,6 +367,51 @@ export type ClearPerturbationsResponse = Message<"sinew.v1.ClearPerturbationsRes
  */
 export const ClearPerturbationsResponseSchema: GenMessage<ClearPerturbationsResponse> = /*@__PURE__*/
   messageDesc(file_sinew_v1_perturbation, 7);
+
+/**
+ * Whether the other hand helps to hold a load that is in one hand.
+ *
+ * @generated from enum sinew.v1.TwoHands
+ */
+export enum TwoHands {
+  /**
+   * As `second_segment` says.
+   *
+   * @generated from enum value: TWO_HANDS_UNSPECIFIED = 0;
+   */
+  UNSPECIFIED = 0,
+
+  /**
+   * It does not. `second_segment` must be empty.
+   *
+   * @generated from enum value: TWO_HANDS_NEVER = 1;
+   */
+  NEVER = 1,
+
+  /**
+   * It reaches for the load when one arm is too weak to hold it where the motion has it, now or in the next 0.6 s, and
+   * lets go when one arm is clearly enough again. It does only while it is free: it holds no load, touches nothing, no
+   * constraint is on its arm, and the figure keeps its balance; and only where its joints let it get there.
+   * `segment` must be `l_hand` or `r_hand`, `second_segment` empty. FAILED_PRECONDITION (`OTHER_HAND_HOLDS_LOAD`) if
+   * the other hand holds another load at that time. The events LOAD_SHARED and LOAD_UNSHARED tell it.
+   *
+   * @generated from enum value: TWO_HANDS_AUTO = 2;
+   */
+  AUTO = 2,
+
+  /**
+   * The same, but it reaches for the load as soon as it can, and does not let go of it while it is free.
+   *
+   * @generated from enum value: TWO_HANDS_ALWAYS = 3;
+   */
+  ALWAYS = 3,
+}
+
+/**
+ * Describes the enum sinew.v1.TwoHands.
+ */
+export const TwoHandsSchema: GenEnum<TwoHands> = /*@__PURE__*/
+  enumDesc(file_sinew_v1_perturbation, 0);
 
 /**
  * Disturbs figures: loads in the hand, pushes, forces.
