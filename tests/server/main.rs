@@ -23,6 +23,7 @@ mod pages;
 mod raw;
 mod reasons;
 mod sharing;
+mod strength;
 mod support;
 mod watching;
 mod wire_faults;

@@ -13,6 +13,7 @@ use crate::evaluate::experiments::touching::{Against, Prop, hand_support, reach}
 use crate::evaluate::strip::View;
 use crate::sim::body::{Body, Profile, Sex};
 use crate::sim::motion::builtin::builtin;
+use crate::sim::support::sharing::{ALONG_REST, LEAST_WEIGHT};
 use anyhow::Result;
 use std::sync::Arc;
 
@@ -35,14 +36,20 @@ pub fn write(mut page: Page, body: &Arc<Body>) -> Result<()> {
 
 fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.say("## A hand as a support");
-    page.say(
+    page.say(&format!(
         "Figure 3 of the paper: the figure leans further than its feet can balance, and a hand on a table, on a desk \
          with a slope of 20° or on a wall stops the rotation about the foot's edge. Equation (2) takes the normal of \
          each surface. Forces are means over the last of four seconds. *Ratio*: that of the hand, its mean over the \
          half of the time with the centre of mass far from the hand's side and over the other half. By (2) a hand \
-         that is higher than the centre of mass, as on this wall, carries nothing; statics says otherwise, and the \
-         sharing (S2) of the reaction follows statics.",
-    );
+         that is higher than the centre of mass, as on this wall, carries nothing: its ratio is 0. Statics says \
+         otherwise. The paper's controller then gives it the least weight that a support has in the sharing (S2), {} \
+         % in place of its ratio, and {} % of that for forces along the wall. The smallest forces in that norm which \
+         have the total wrench of the reaction are what it counts on, and that wrench needs the hand. The modern \
+         controller does not use (2): a wall's reaction of the last ticks is a given force to it, and against a table \
+         it pushes as its convex problem finds.",
+        100.0 * LEAST_WEIGHT,
+        100.0 * ALONG_REST,
+    ));
     let mut rows = Vec::new();
     let mut strips = Vec::new();
     for pair in [Pair::paper_torque(), Pair::modern(), Pair::motors()] {

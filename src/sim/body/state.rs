@@ -171,6 +171,16 @@ impl State<f64> {
         self.posture.is_finite() && self.velocity.iter().all(|v| v.is_finite())
     }
 
+    /// True if every number is finite and every rotation is one.
+    pub fn is_valid(&self) -> bool {
+        let unit = |q: &Quat| {
+            let square: f64 = q.to_xyzw().iter().map(|x| x * x).sum();
+            (0.999..=1.001).contains(&square)
+        };
+        let p = &self.posture;
+        self.is_finite() && unit(&p.root_rotation) && p.ball.iter().all(unit)
+    }
+
     /// Slows all velocities alike, so that kinetic energy only falls, until none is above `fastest` (rad/s, m/s); true
     /// if one was.
     pub fn brake(&mut self, fastest: f64) -> bool {

@@ -62,6 +62,13 @@ impl Masses {
         out
     }
 
+    /// False if no body with loads that it may carry is like that.
+    fn is_valid(&self) -> bool {
+        let number = |x: f64| x.abs() <= 1e6;
+        self.mass.iter().all(|m| *m > 0.0 && number(*m))
+            && self.moment.iter().flat_map(|v| v.to_array()).all(number)
+    }
+
     fn is_near(&self, other: &Self) -> bool {
         (0..SEGMENT_COUNT).all(|s| {
             (self.mass[s] - other.mass[s]).abs() < SAME_LOAD
@@ -100,6 +107,12 @@ impl LoadCompensation {
             effect: unloaded,
             habits: None,
         }
+    }
+
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let masses = [&self.unloaded, &self.halfway, &self.effect];
+        masses.iter().all(|m| m.is_valid()) && self.habits.iter().flatten().all(Habit::is_valid)
     }
 
     /// What the left and the right hand of a figure that steps feel, kg. One that stays where it is lifts its loads as

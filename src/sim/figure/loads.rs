@@ -7,6 +7,7 @@ use crate::sim::dynamics::crba::CompositeInertia;
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{Kinematics, MassMatrix, Terms, crba, factor, solve};
+use crate::sim::figure::params::second_hand::AHEAD;
 use crate::sim::figure::second_hand::Help;
 use crate::sim::math::Vec3;
 use crate::sim::setup::{HeldLoad, Perturbation, SecondHand};
@@ -53,10 +54,26 @@ impl Scheduled {
         helped.into_iter().flatten().chain(alone)
     }
 
-    /// True if the other hand may help.
-    fn is_helpable(&self) -> bool {
-        matches!(self.what, Perturbation::Helped { .. }) && self.carried
+    /// True if the other hand may help with what is carried at `time`, s, or is taken soon.
+    fn is_helpable(&self, time: f64) -> bool {
+        let Perturbation::Helped { load, .. } = self.what else {
+            return false;
+        };
+        time < load.to && (self.carried || load.from - time <= AHEAD)
     }
+}
+
+/// A load that the other hand may help with.
+#[derive(Clone, Copy, Debug)]
+pub struct Helpable {
+    /// The load.
+    pub load: HeldLoad,
+    /// When it does.
+    pub when: SecondHand,
+    /// What it does now.
+    pub help: Option<Help>,
+    /// The load is carried already.
+    pub carried: bool,
 }
 
 /// A part of a load that goes from one hand over to the other.
@@ -156,19 +173,24 @@ impl Disturbances {
             .flat_map(Scheduled::shares)
     }
 
-    /// The load that the other hand helps with, or else the heaviest that it may help with; with when it does and what
-    /// it does now.
-    pub fn helpable(&self) -> Option<(HeldLoad, SecondHand, Option<Help>)> {
-        let s = &self.scheduled[self.helped()?];
+    /// The load that the other hand helps with at `time`, s, or else the heaviest that it may help with.
+    pub fn helpable(&self, time: f64) -> Option<Helpable> {
+        let s = &self.scheduled[self.helped(time)?];
         let Perturbation::Helped { load, when } = s.what else {
             return None;
         };
-        Some((load, when, s.help))
+        Some(Helpable {
+            load,
+            when,
+            help: s.help,
+            carried: s.carried,
+        })
     }
 
     /// Index of the load of [`Self::helpable`].
-    fn helped(&self) -> Option<usize> {
-        let all = || (0..self.scheduled.len()).filter(|i| self.scheduled[*i].is_helpable());
+    fn helped(&self, time: f64) -> Option<usize> {
+        let may = |i: &usize| self.scheduled[*i].is_helpable(time);
+        let all = || (0..self.scheduled.len()).filter(may);
         let mass = |i: usize| self.scheduled[i].what.load().map_or(0.0, |l| l.mass);
         let held = all().find(|i| self.scheduled[*i].help.is_some());
         // The first of equals.
@@ -176,10 +198,22 @@ impl Disturbances {
     }
 
     /// What the other hand does for the load of [`Self::helpable`] from the next tick on.
-    pub fn help(&mut self, help: Option<Help>) {
-        if let Some(i) = self.helped() {
+    pub fn help(&mut self, time: f64, help: Option<Help>) {
+        if let Some(i) = self.helped(time) {
             self.scheduled[i].wish = help;
         }
+    }
+
+    /// The other hand lets go of whatever it helps with, at the next tick.
+    pub fn stop_help(&mut self) {
+        for s in &mut self.scheduled {
+            s.wish = None;
+        }
+    }
+
+    /// What the other hand does for a load, while it holds it.
+    pub fn present_help(&self) -> Option<Help> {
+        self.scheduled.iter().find_map(|s| s.help)
     }
 
     /// True if one of these segments carries something other than its part of a load that the other hand holds too.

@@ -9,7 +9,7 @@
 
 mod effort;
 
-use super::loads::Disturbances;
+use super::loads::{Disturbances, Helpable};
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::palm::load_point;
 use crate::sim::body::topology::{
@@ -29,7 +29,7 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::arm_ik::{ARMS, Arm, reach};
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::motion::{Target, TargetPair};
-use crate::sim::setup::{HeldLoad, SecondHand as When};
+use crate::sim::setup::SecondHand as When;
 use crate::sim::strength::{MuscleScale, Strength};
 use effort::Efforts;
 use serde::{Deserialize, Serialize};
@@ -78,10 +78,11 @@ pub(super) struct Sight<'a> {
     pub ahead: &'a dyn Fn(f64) -> Posture,
     /// Left and right hand have nothing else to do.
     pub free: [bool; 2],
+    /// Beginning and length of the tick, s.
+    pub time: f64,
+    pub dt: f64,
     /// m/s².
     pub gravity: f64,
-    /// s.
-    pub dt: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -151,9 +152,12 @@ fn from_chest(poses: &[(Vec3, Quat)], segment: SegmentId, point: Vec3) -> Vec3 {
 impl SecondHand {
     /// False if it cannot be what was written into a checkpoint.
     pub fn is_valid(&self) -> bool {
-        let numbers = [self.way, self.spread, self.since, self.pause];
+        let times = [self.since, self.pause];
         let vectors = [self.load, self.off, self.apart];
-        numbers.iter().all(|x| x.is_finite()) && vectors.iter().all(|v| v.is_finite())
+        (0.0..=1.0).contains(&self.way)
+            && self.spread.abs() <= 4.0
+            && times.iter().all(|t| (0.0..=1e6).contains(t))
+            && vectors.iter().all(|v| v.norm() <= 100.0)
     }
 
     /// The hand that does not do what the motion has it do: 0 left, 1 right.
@@ -175,27 +179,27 @@ impl SecondHand {
     }
 
     /// Decides what the hand does in this tick, and changes the desired motion of its arm. No allocation; nothing is
-    /// done without a load that it may help with.
+    /// done without a load that it may help with, now or soon.
     pub fn update(&mut self, see: &Sight<'_>, loads: &mut Disturbances, target: &mut TargetPair) {
-        let found = loads.helpable().and_then(|(load, when, help)| {
-            let right = match load.segment {
+        let found = loads.helpable(see.time).and_then(|found| {
+            let right = match found.load.segment {
                 L_HAND => true,
                 R_HAND => false,
                 _ => return None,
             };
-            Some((load, when, help, right))
+            Some((found, right))
         });
         self.pause = (self.pause - see.dt).max(0.0);
         match found {
             None if self.stage == Stage::Away => return,
             None => self.stage = Stage::Back,
-            Some((.., right)) if self.stage != Stage::Away && right != self.right => {
-                loads.help(None);
+            Some((_, right)) if self.stage != Stage::Away && right != self.right => {
+                loads.stop_help();
                 self.stage = Stage::Back;
             }
-            Some((load, when, help, right)) => {
-                (self.right, self.load) = (right, load.point);
-                self.decide(see, loads, &target.now.posture, (&load, when, help));
+            Some((found, right)) => {
+                (self.right, self.load) = (right, found.load.point);
+                self.decide(see, loads, &target.now.posture, &found);
             }
         }
         let step = see.dt / REACH_TIME;
@@ -230,68 +234,66 @@ impl SecondHand {
         see: &Sight<'_>,
         loads: &mut Disturbances,
         now: &Posture,
-        (load, when, help): (&HeldLoad, When, Option<Help>),
+        found: &Helpable,
     ) {
         let free = see.free[self.index()];
         if self.stage == Stage::Away && (!free || self.pause > 0.0) {
             return;
         }
-        // The hardest moment of the coming motion.
-        let mut worst = *now;
-        let mut alone = self.need(see, now, load, help).alone();
-        for k in 1..LOOKS {
-            let posture = (see.ahead)(AHEAD * k as f64 / (LOOKS - 1) as f64);
-            let need = self.need(see, &posture, load, help).alone();
+        // The hardest moment of the coming motion with the load.
+        let (mut worst, mut alone) = (*now, 0.0);
+        for k in 0..LOOKS {
+            let seconds = AHEAD * k as f64 / (LOOKS - 1) as f64;
+            if see.time + seconds < found.load.from && k + 1 < LOOKS {
+                continue;
+            }
+            let posture = if k == 0 { *now } else { (see.ahead)(seconds) };
+            let need = self.need(see, &posture, found).alone();
             if need > alone {
                 (alone, worst) = (need, posture);
             }
         }
-        let (weak, enough) = match when {
+        let (weak, enough) = match found.when {
             When::Always => (true, false),
             When::Auto => (alone > WEAK, alone < ENOUGH),
         };
         match self.stage {
             Stage::Away | Stage::Back => {
                 if free && self.pause == 0.0 && weak {
-                    self.set_out(see, (now, &worst), (load, when, help));
+                    self.set_out(see, (now, &worst), found);
                 }
             }
             Stage::Reach => {
                 if !free || enough {
                     self.stage = Stage::Back;
-                } else if self.way >= 1.0 {
-                    self.take(see, loads, (now, &worst), load);
+                } else if self.way >= 1.0 && found.carried {
+                    self.take(see, loads, (now, &worst), found);
                 }
             }
             Stage::Hold => {
-                let still = free && help.is_some();
+                let still = free && found.help.is_some();
                 if !still || self.is_beyond_reach(see, now) {
-                    loads.help(None);
+                    loads.stop_help();
                     (self.stage, self.pause) = (Stage::Back, PAUSE);
                     return;
                 }
                 self.since = if enough { self.since + see.dt } else { 0.0 };
-                let Some(help) = help else { return };
-                self.share(see, loads, &worst, (load, help));
+                self.share(see, loads, &worst, found);
             }
         }
     }
 
     /// What both arms need in a posture; that of the other arm with its hand at the load.
-    fn need(
-        &self,
-        see: &Sight<'_>,
-        posture: &Posture,
-        load: &HeldLoad,
-        help: Option<Help>,
-    ) -> Efforts {
+    fn need(&self, see: &Sight<'_>, posture: &Posture, found: &Helpable) -> Efforts {
+        let (load, help) = (&found.load, found.help);
         let mut held = *posture;
         self.reach_in(see.body, posture)
             .0
             .hold(&mut held, self.arm());
         let other = help.map_or_else(|| self.palm(see.body), |h| h.point);
         let own = help.map_or(0.0, |h| h.share) * load.mass;
-        Efforts::new(see, &held, self.index(), (load, other, own))
+        let rest = if found.carried { load.mass - own } else { 0.0 };
+        Efforts::new(see, &held, self.index(), (load, other, [rest, own]))
     }
 
     fn palm(&self, body: &Body) -> Vec3 {
@@ -324,12 +326,7 @@ impl SecondHand {
 
     /// Begins to reach if the joints of the arm allow it on arrival and at the hardest moment, if nothing of the body
     /// is in the way, and if it helps.
-    fn set_out(
-        &mut self,
-        see: &Sight<'_>,
-        (now, worst): (&Posture, &Posture),
-        (load, when, help): (&HeldLoad, When, Option<Help>),
-    ) {
+    fn set_out(&mut self, see: &Sight<'_>, (now, worst): (&Posture, &Posture), found: &Helpable) {
         let before = self.clone();
         let arrival = (see.ahead)(REACH_TIME);
         if self.stage == Stage::Away {
@@ -342,14 +339,14 @@ impl SecondHand {
         } else {
             SPREADS
         };
-        let found = spreads.into_iter().find(|spread| {
-            self.spread = *spread;
+        let allowed = spreads.into_iter().any(|spread| {
+            self.spread = spread;
             self.allows(see, &arrival) && self.allows(see, worst) && self.is_clear(see)
         });
-        let efforts = self.need(see, worst, load, help);
-        let helps = when == When::Always
+        let efforts = self.need(see, worst, found);
+        let helps = found.when == When::Always
             || efforts.together(efforts.best_share()) < efforts.alone() - WORTH;
-        if found.is_some() && helps {
+        if allowed && helps {
             self.stage = Stage::Reach;
             self.since = 0.0;
         } else {
@@ -425,21 +422,22 @@ impl SecondHand {
         see: &Sight<'_>,
         loads: &mut Disturbances,
         (now, worst): (&Posture, &Posture),
-        load: &HeldLoad,
+        found: &Helpable,
     ) {
         let poses = forward(see.body, &see.state.posture);
         let palm = self.palm(see.body);
         let hand = self.arm()[2];
         let apart = from_chest(&poses, hand, palm) - from_chest(&poses, self.carrying(), self.load);
         if (apart - self.apart).norm() < NEAR {
-            let efforts = self.need(see, worst, load, None);
+            let efforts = self.need(see, worst, found);
             let share = see.dt / SHARE_TIME;
-            loads.help(Some(Help {
+            let help = Help {
                 hand,
                 point: palm,
                 share,
                 need: [efforts.alone(), efforts.together(efforts.best_share())],
-            }));
+            };
+            loads.help(see.time, Some(help));
             // What is missing of the load's place stays as it is; the hand holds where it is.
             self.apart = apart;
             (self.stage, self.since) = (Stage::Hold, 0.0);
@@ -457,23 +455,25 @@ impl SecondHand {
         see: &Sight<'_>,
         loads: &mut Disturbances,
         worst: &Posture,
-        (load, help): (&HeldLoad, Help),
+        found: &Helpable,
     ) {
+        let Some(help) = found.help else { return };
         let leaves = self.since > CALM;
-        let efforts = self.need(see, worst, load, Some(help));
+        let efforts = self.need(see, worst, found);
         let best = efforts.best_share();
         let wanted = if leaves { 0.0 } else { best };
         let change = wanted - help.share;
         if leaves && help.share == 0.0 {
-            loads.help(None);
+            loads.stop_help();
             self.stage = Stage::Back;
         } else if leaves || change.abs() > SAME_SHARE {
             let most = see.dt / SHARE_TIME;
-            loads.help(Some(Help {
+            let help = Help {
                 share: (help.share + change.clamp(-most, most)).clamp(0.0, 1.0),
                 need: [efforts.alone(), efforts.together(best)],
                 ..help
-            }));
+            };
+            loads.help(see.time, Some(help));
         }
     }
 

@@ -54,6 +54,11 @@ impl Arm {
         [h[e], h[e + 1], h[w], h[w + 1]] = self.hinge;
     }
 
+    /// False if an angle is none.
+    pub fn is_finite(&self) -> bool {
+        self.shoulder.is_finite() && self.hinge.iter().all(|a| a.is_finite())
+    }
+
     /// So much of the way to another.
     pub fn toward(&self, to: &Self, share: f64) -> Self {
         Self {

@@ -23,9 +23,9 @@ const CUT_OFF: f64 = 1e-6;
 const TOE_WEIGHT: f64 = 0.2;
 /// Weight of forces along the surface of what a part rests on, relative to the force into it: a hand pushes on a table,
 /// and friction does not carry what soles could.
-const ALONG_REST: f64 = 0.1;
+pub const ALONG_REST: f64 = 0.1;
 /// Least weight of a support, so that a ratio of zero does not remove it.
-const LEAST_WEIGHT: f64 = 0.02;
+pub const LEAST_WEIGHT: f64 = 0.02;
 /// Most solutions on the way to forces that only push.
 pub const MOST_ROUNDS: usize = 8;
 /// A point pulls if its normal force is below minus this part of the total.

@@ -19,7 +19,7 @@ pub fn write(page: &mut Page) -> Result<()> {
     page.say("## The second hand");
     page.say(
         "The lift with the right hand, by people of median strength with the default controller. *One*: the right \
-         hand alone. *Two*: the left one reaches for the load as soon as it is taken (`two_hands: ALWAYS`). *Auto*: \
+         hand alone. *Two*: the left one reaches for the load in any case (`two_hands: ALWAYS`). *Auto*: \
          it does so while the right arm needs more than its strength to hold the load still where the motion has it, \
          now or in the next 0.6 s (`two_hands: AUTO`, `--load 8@r_hand+auto`). *Need*: what the hardest joint of the \
          arm needs of its strength when the other hand takes hold, alone and with help. The last three columns are \
@@ -66,7 +66,7 @@ pub fn write(page: &mut Page) -> Result<()> {
         &rows,
     );
     for (body, name, r, title) in strips {
-        page.strip(&name, &body, &r.record, View::ThreeQuarter, &title)?;
+        page.strip(&name, &body, &r.record, View::Front, &title)?;
     }
     Ok(())
 }

@@ -29,6 +29,11 @@ pub(super) struct Habit {
 }
 
 impl Habit {
+    /// False if it cannot be what was written into a checkpoint.
+    pub(super) fn is_valid(&self) -> bool {
+        (0.0..=1.0).contains(&self.hangs) && self.held.is_finite()
+    }
+
     /// Of an arm that has always been as in `posture`.
     pub(super) fn of(body: &Body, posture: &Posture, arm: [SegmentId; 3]) -> Self {
         let (_, [elbow, _]) = joints(arm);

@@ -64,13 +64,13 @@ impl Efforts {
     /// In a posture in which both hands are at the load.
     ///
     /// * `other`: index in [`ARMS`] of the arm that helps.
-    /// * `load`, the point of the other hand that holds it (segment frame, m), and how much of it that hand holds now,
-    ///   kg.
+    /// * `load`, the point of the other hand that holds it (segment frame, m), and how much of it the carrying and the
+    ///   other hand hold now, kg.
     pub fn new(
         see: &Sight<'_>,
         posture: &Posture,
         other: usize,
-        (load, point, own): (&HeldLoad, Vec3, f64),
+        (load, point, held): (&HeldLoad, Vec3, [f64; 2]),
     ) -> Self {
         let mut kin = Kinematics::default();
         kin.set_posture(see.links, posture);
@@ -107,8 +107,8 @@ impl Efforts {
             }
         };
         Self {
-            carrying: arm(1 - other, load.point, load.mass - own),
-            other: arm(other, point, own),
+            carrying: arm(1 - other, load.point, held[0]),
+            other: arm(other, point, held[1]),
             mass: load.mass,
         }
     }

@@ -152,7 +152,7 @@ impl Figure {
     }
     /// What the other hand does for a load, while it holds it.
     pub fn help(&self) -> Option<Help> {
-        self.surroundings.disturbances.helpable()?.2
+        self.surroundings.disturbances.present_help()
     }
     /// Lets go of all loads and stops all pushes at the next tick.
     pub fn clear_perturbations(&mut self) {
@@ -176,7 +176,7 @@ impl Figure {
         self.desired.tracker.reset();
         self.desired.load_compensation.reset();
         self.desired.second_hand = SecondHand::default();
-        self.surroundings.disturbances.help(None);
+        self.surroundings.disturbances.stop_help();
         self.physical.com_acceleration = Vec3::zero();
         self.surroundings.support.reset();
         self.surroundings.touches = Touches::default();

@@ -129,8 +129,8 @@ impl Figure {
         } = saved;
         let setup = setup.into_owned();
         let physical = physical.into_owned();
-        if !(physical.state.is_finite() && physical.last_good.is_finite()) {
-            return Err("a state that is not finite");
+        if !(physical.state.is_valid() && physical.last_good.is_valid() && before.is_valid()) {
+            return Err("a state that no body has");
         }
         if !physical.links.is_valid() {
             return Err("masses that no body has");
@@ -152,8 +152,8 @@ impl Figure {
         if !(desired.tracker.is_valid() && desired.get_up.is_valid()) {
             return Err("steps or a way of getting up that cannot be");
         }
-        if !desired.second_hand.is_valid() {
-            return Err("a hand that cannot be anywhere");
+        if !(desired.second_hand.is_valid() && desired.load_compensation.is_valid()) {
+            return Err("loads, or a hand that helps with one, that cannot be");
         }
         let surroundings = surroundings.into_owned();
         let counts = surroundings.touches.is_valid() && surroundings.disturbances.is_valid();

@@ -8,8 +8,9 @@ use crate::sim::motion::arm_ik::ARMS;
 impl Figure {
     /// Changes the desired motion of an arm whose hand helps with a load.
     pub(super) fn lead_second_hand(&mut self, world: &TickContext) {
-        let helps = self.surroundings.disturbances.helpable().is_some();
-        if !helps && self.desired.second_hand.led().is_none() {
+        let time = world.time();
+        let helps = self.surroundings.disturbances.helpable(time);
+        if helps.is_none() && self.desired.second_hand.led().is_none() {
             return;
         }
         let muscles = self.available_strength();
@@ -20,7 +21,7 @@ impl Figure {
         let source = self.motion.source();
         let ahead = |seconds: f64| {
             if goes_on {
-                let at = world.time() - lag + seconds;
+                let at = time - lag + seconds;
                 source.pair(at, at).now.posture
             } else {
                 now
@@ -35,6 +36,7 @@ impl Figure {
             state: &self.physical.state,
             ahead: &ahead,
             free,
+            time,
             gravity: world.gravity,
             dt: world.dt,
         };
