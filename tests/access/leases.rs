@@ -18,15 +18,15 @@ use tonic::{Code, Status, Streaming};
 const FALLEN: i32 = 1 << 6;
 
 /// A paused world of `owner` with figure `a`, which `alice`, `bob` and `rival` may drive.
-struct Scene {
+pub struct Scene {
     server: Guarded,
-    owner: Client,
-    world: String,
-    figure: String,
+    pub owner: Client,
+    pub world: String,
+    pub figure: String,
 }
 
 impl Scene {
-    async fn new(paused: bool) -> Self {
+    pub async fn new(paused: bool) -> Self {
         let server = Guarded::start(&[]).await;
         let owner = server.client("owner", &[Role::Creator], None).await;
         let world = world(&owner, "w", paused).await;
@@ -46,7 +46,7 @@ impl Scene {
         }
     }
 
-    async fn someone(&self, name: &str) -> Client {
+    pub async fn someone(&self, name: &str) -> Client {
         self.server.client(name, &[], None).await
     }
 
@@ -70,7 +70,7 @@ impl Scene {
             .map(tonic::Response::into_inner)
     }
 
-    fn header(&self, driver: &str, tokens: &[&str]) -> pb::DriveHeader {
+    pub fn header(&self, driver: &str, tokens: &[&str]) -> pb::DriveHeader {
         pb::DriveHeader {
             world: self.world.clone(),
             figure_ids: vec!["a".into()],
@@ -112,7 +112,28 @@ impl Scene {
         Events(stream)
     }
 
-    async fn step(&self, ticks: i32) {
+    /// Whether the figure has fallen, and how fast it moves over the floor, m/s.
+    pub async fn seen(&self) -> (bool, f64) {
+        let view = pb::View {
+            fields: Some(prost_types::FieldMask {
+                paths: vec!["status".into(), "velocity".into()],
+            }),
+            ..Default::default()
+        };
+        let request = pb::GetWorldFrameRequest {
+            world: self.world.clone(),
+            tick: None,
+            view: Some(view),
+        };
+        let got = self.owner.states().get_world_frame(request).await.unwrap();
+        let frame = got.into_inner().frame.unwrap();
+        let f = &frame.figures[0];
+        let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
+        let flags = f.status.as_ref().unwrap().flags;
+        (flags & FALLEN != 0, v[3].hypot(v[4]))
+    }
+
+    pub async fn step(&self, ticks: i32) {
         let request = pb::StepWorldRequest {
             name: self.world.clone(),
             tick_count: ticks,
@@ -495,25 +516,25 @@ async fn a_driver_without_a_lease_has_its_figure_for_itself_all_the_same() {
 }
 
 /// A walk in the middle of its way, as one who captures it at another place sends it: frames of 120 per second.
-struct Walker<'a> {
-    header: pb::DriveHeader,
-    posture: &'a (dyn Fn(f64) -> Posture + Sync),
+pub struct Walker<'a> {
+    pub header: pb::DriveHeader,
+    pub posture: &'a (dyn Fn(f64) -> Posture + Sync),
     /// Where his stage lies.
-    place: PlanarTransform,
+    pub place: PlanarTransform,
     /// What his clock shows at the start, s.
-    clock: f64,
-    sent: i64,
+    pub clock: f64,
+    pub sent: i64,
 }
 
 impl Walker<'_> {
-    /// Sends what was captured until `now`, s.
-    async fn send(
+    /// Sends what was captured until `now`, s. Returns what the server says then.
+    pub async fn send(
         &mut self,
         scene: &Scene,
         client: &Client,
         from: f64,
         now: f64,
-    ) -> Result<(), Status> {
+    ) -> Result<pb::DriveFeedback, Status> {
         let mut frames = Vec::new();
         while from + self.sent as f64 / 120.0 <= now {
             let t = from + self.sent as f64 / 120.0;
@@ -534,7 +555,7 @@ impl Walker<'_> {
                 Err(e) if e.code() == Code::ResourceExhausted => {
                     tokio::time::sleep(Duration::from_millis(20)).await;
                 }
-                other => return other.map(|_| ()),
+                other => return other,
             }
         }
     }
@@ -668,27 +689,12 @@ async fn hand_over(offered: f64, phase: f64) -> f64 {
             second.send(&scene, &bob, begins, now).await.unwrap();
         }
         scene.step(3).await;
-        let view = pb::View {
-            fields: Some(prost_types::FieldMask {
-                paths: vec!["status".into(), "velocity".into()],
-            }),
-            ..Default::default()
-        };
-        let request = pb::GetWorldFrameRequest {
-            world: scene.world.clone(),
-            tick: None,
-            view: Some(view),
-        };
-        let got = scene.owner.states().get_world_frame(request).await.unwrap();
-        let frame = got.into_inner().frame.unwrap();
-        let f = &frame.figures[0];
-        assert_eq!(
-            f.status.as_ref().unwrap().flags & FALLEN,
-            0,
+        let (fallen, speed) = scene.seen().await;
+        assert!(
+            !fallen,
             "handed over at {offered} s, {phase} s ahead: fell at {now} s"
         );
-        let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
-        last = v[3].hypot(v[4]);
+        last = speed;
         if now > 2.0 {
             slowest = slowest.min(last);
         }

@@ -5,6 +5,7 @@
 #[allow(dead_code)] // not every function
 #[path = "../common/corpus.rs"]
 mod corpus;
+mod entering;
 mod identity;
 mod leases;
 mod page;

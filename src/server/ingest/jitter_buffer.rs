@@ -300,6 +300,11 @@ impl JitterBuffer {
             .map_or(&self.last.posture, |f| &f.posture)
     }
 
+    /// Length of a tick, s.
+    pub fn tick(&self) -> f64 {
+        self.tick
+    }
+
     /// Counters.
     pub fn counts(&self) -> Counts {
         self.counts

@@ -1,6 +1,6 @@
 //! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
 
-use super::scene::{PlayerKey, Scene};
+use super::scene::{PlayerKey, Scene, Window};
 use crate::server::ingest::jitter_buffer::{Counts, Frame};
 use crate::server::ingest::mailbox::{DriverId, Mailbox};
 use crate::wire::status::Fault;
@@ -177,7 +177,8 @@ impl Drive {
                         applied_sequence: applied.map_or(-1, |a| a.0),
                         applied_source_ns: applied.map_or(0, |a| a.1),
                         buffered: s.buffer.buffered(),
-                        delay: s.buffer.delay() + s.window.as_ref().map_or(0.0, |w| w.length),
+                        delay: s.buffer.delay()
+                            + s.window.as_ref().map_or(0.0, |w| w.length + w.behind()),
                         jitter: s.buffer.jitter(),
                         supply: s.buffer.supply(),
                         ticks: counts.ticks,
@@ -185,7 +186,7 @@ impl Drive {
                         stale: counts.stale,
                         overflow: counts.overflow,
                         resyncs: counts.resyncs,
-                        behind: s.buffer.behind(),
+                        behind: s.buffer.behind() + s.window.as_ref().map_or(0.0, Window::behind),
                         window: s.window.as_ref().map_or(0.0, |w| w.length),
                     }
                 })

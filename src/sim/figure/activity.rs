@@ -14,7 +14,7 @@
 
 use super::drive::{Drive, QueuedClip};
 use super::rehearsed::RehearsedPlayback;
-use super::tick::ExitPlan;
+use super::tick::{ExitPlan, StreamEntryPlan};
 use crate::sim::body::Posture;
 use serde::{Deserialize, Serialize};
 
@@ -42,11 +42,13 @@ pub(super) struct Switch {
     pub stops: bool,
     /// The clip that begins next.
     pub next: Option<Box<QueuedClip>>,
+    /// The way into a stream that begins in motion, while it is planned.
+    pub stream: Option<Box<StreamEntryPlan>>,
 }
 
 impl Switch {
     fn is_empty(&self) -> bool {
-        self.exit.is_none() && !self.stops && self.next.is_none()
+        self.exit.is_none() && !self.stops && self.next.is_none() && self.stream.is_none()
     }
 }
 
@@ -68,7 +70,9 @@ impl MotionState {
 
     /// False if it cannot be what was written into a checkpoint.
     pub fn is_valid(&self) -> bool {
-        self.source.is_valid() && self.next().is_none_or(QueuedClip::is_valid)
+        let next = self.next().is_none_or(QueuedClip::is_valid);
+        let entry = self.stream_entry().is_none_or(StreamEntryPlan::is_valid);
+        self.source.is_valid() && next && entry
     }
 
     /// Source of the desired motion.
@@ -126,6 +130,11 @@ impl MotionState {
         self.switch()?.next.as_deref()
     }
 
+    /// The way into a stream that is planned.
+    pub fn stream_entry(&self) -> Option<&StreamEntryPlan> {
+        self.switch()?.stream.as_deref()
+    }
+
     /// Changes the switch. A figure that stands or moves has the activity that results.
     fn change<T>(&mut self, change: impl FnOnce(&mut Switch) -> T) -> T {
         let mut switch = match &mut self.activity {
@@ -163,7 +172,28 @@ impl MotionState {
 
     /// A clip is to begin next.
     pub fn queue(&mut self, next: QueuedClip) {
-        self.change(|s| s.next = Some(Box::new(next)));
+        self.change(|s| {
+            s.next = Some(Box::new(next));
+            s.stream = None;
+        });
+    }
+
+    /// The way into a stream is planned: that is what is to begin next.
+    pub fn plan_stream_entry(&mut self, entry: StreamEntryPlan) {
+        self.change(|s| {
+            s.next = None;
+            s.stream = Some(Box::new(entry));
+        });
+    }
+
+    /// Changes the way into a stream that is planned.
+    pub fn update_stream_entry(&mut self, update: impl FnOnce(&mut StreamEntryPlan)) {
+        self.change(|s| s.stream.as_deref_mut().map(update));
+    }
+
+    /// Takes the way into a stream that is planned, to follow it or to forget it.
+    pub fn take_stream_entry(&mut self) -> Option<StreamEntryPlan> {
+        self.change(|s| s.stream.take()).map(|entry| *entry)
     }
 
     /// Changes the clip that begins next.

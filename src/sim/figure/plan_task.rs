@@ -100,6 +100,11 @@ impl<T: Clone + Send + Sync + 'static> PlanTask<T> {
         self.0.result.get()?.as_ref()
     }
 
+    /// Works the result out, unless it is there.
+    pub fn settle(&self) {
+        self.0.solve();
+    }
+
     /// The result, worked out now if it is not there. Never waits for another thread that is at it.
     pub fn take(self) -> T {
         match self.result() {

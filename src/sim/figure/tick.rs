@@ -22,9 +22,11 @@ mod reporting;
 mod saved;
 mod second_hand;
 mod state;
+mod stream_entry;
 
 pub(super) use motion_switch::ExitPlan;
 pub(crate) use saved::SavedFigure;
+pub(super) use stream_entry::StreamEntryPlan;
 
 use crate::sim::figure::params::support::REST_SHARE;
 use state::{
@@ -207,6 +209,7 @@ impl Figure {
         self.leave_broken_stream(world.time());
         self.follow_exit_if_due(world);
         self.begin_next_if_ready(world);
+        self.settle_stream_entry_if_due(world);
         self.outcome.told_late = LatePlans::default();
         self.update_get_up(world.time());
         self.begin_rehearsal_if_due(world);

@@ -134,7 +134,7 @@ pub fn consistency(
 }
 
 /// Force and moment that a motion asks for from nothing, root mean squares over weight (and 1 m) added.
-pub(super) fn infeasibility(
+pub(crate) fn infeasibility(
     body: &Body,
     postures: &[Posture],
     label: &[[bool; 2]],

@@ -2,8 +2,9 @@
 
 use crate::sim::body::Posture;
 use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_THIGH, L_UPPER_ARM};
-use crate::sim::math::Vec3;
-use crate::sim::plan::params::{likeness, stop};
+use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::GRAVITY;
+use crate::sim::plan::params::{likeness, stop, stream, transition};
 
 /// Unlikeness of the postures and their rates, rad rms over trunk and legs. Of each motion three samples, 1/60 s apart;
 /// the middle ones are compared.
@@ -32,4 +33,40 @@ pub fn unlike(a: &[Posture; 3], b: &[Posture; 3]) -> f64 {
     let height = p.root_position.z - q.root_position.z;
     sum += likeness::TILT_WEIGHT * tilt.dot(tilt) + likeness::HEIGHT_WEIGHT * height * height;
     (sum / (DOF_COUNT - arms.len()) as f64).sqrt()
+}
+
+/// What it costs to go on at a moment of a stream that is like the one at which a motion is left, and whether a body
+/// bears it.
+#[derive(Clone, Copy, Debug)]
+pub struct Seam {
+    /// Cost.
+    pub cost: f64,
+    /// A body bears it.
+    pub fits: bool,
+}
+
+impl Seam {
+    /// * `left`, `entered`: of each motion three samples, 1/60 s apart.
+    /// * `hip`: height of the pelvis of a body that stands, m.
+    /// * `delay`: how far what is entered then is from where it should be, s.
+    pub fn new(left: &[Posture; 3], entered: &[Posture; 3], hip: f64, delay: f64) -> Self {
+        let most_speed = transition::MOST_CAPTURE * (GRAVITY / hip).sqrt();
+        let unlike = unlike(left, entered) / likeness::CLOSED_CYCLE;
+        let speed = drift(left, entered) / most_speed;
+        Self {
+            cost: unlike * unlike + speed * speed + stream::DELAY_COST * delay * delay,
+            fits: unlike <= 1.0 && speed <= 1.0,
+        }
+    }
+}
+
+/// Difference of the velocities over the floor, seen from the pelvis, m/s.
+fn drift(a: &[Posture; 3], b: &[Posture; 3]) -> f64 {
+    let speed = |m: &[Posture; 3]| {
+        let v = (m[2].root_position - m[0].root_position) * (0.5 * stream::RATE);
+        let turn = Quat::exp(Vec3::Z * -m[1].root_rotation.heading());
+        turn.rotate(v)
+    };
+    let d = speed(a) - speed(b);
+    (d.x * d.x + d.y * d.y).sqrt()
 }

@@ -5,13 +5,16 @@
 //! over the foot that stands, where the other foot is, and the joints ([`candidates`]). At such a moment the second
 //! motion is put on the standing foot, the difference between the two fades, and both are prepared together as one
 //! draft, so that no planted foot slides and the zero-moment point stays in the support ([`seam`]). A body that stands,
-//! but not as the clip begins, is led into the clip from there ([`from_stand`]).
+//! but not as the clip begins, is led into the clip from there ([`from_stand`]), and so is one whose stream begins in
+//! motion ([`into_stream`]).
 
 mod candidates;
 mod from_stand;
+mod into_stream;
 mod seam;
 
 pub use candidates::Moment;
+pub use into_stream::{StreamBeginning, StreamEntry};
 
 pub(crate) use super::params::stop::RATE;
 pub(crate) use super::params::transition::{AHEAD, BEYOND, RUN_UP};

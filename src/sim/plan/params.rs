@@ -679,6 +679,14 @@ pub mod stream {
         MOVING_SPEED: f64 = 0.1, "m/s", 0.02..=0.3, "docs/locomotion.md#streams";
         /// Samples over which that speed is averaged, about.
         SPEED_AVERAGED: f64 = 4.0, "samples", 1..=20, "docs/locomotion.md#streams";
+        /// A moment to which a figure is led from a stand is looked for in so much of a stream: a step.
+        ENTRY_SEARCH: f64 = 0.7, "s", 0..=2.0, "docs/locomotion.md#streams";
+        /// Samples between the moments that are tried.
+        ENTRY_STRIDE: usize = 7, "samples", 1..=30, "docs/locomotion.md#streams";
+        /// What a second of delay costs where a stream is taken up: it matters where all moments are alike.
+        DELAY_COST: f64 = 0.3, "1/s²", 0..=3.0, "docs/locomotion.md#streams";
+        /// Delay that is not worth a seam.
+        LEAST_CATCH_UP: f64 = 0.1, "s", 0.02..=1.0, "docs/locomotion.md#streams";
     }
 }
 

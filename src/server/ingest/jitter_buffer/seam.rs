@@ -7,10 +7,7 @@
 
 use super::{JitterBuffer, Supply};
 use crate::sim::body::Posture;
-use crate::sim::math::Quat;
-use crate::sim::motion::GRAVITY;
-use crate::sim::plan::likeness::unlike;
-use crate::sim::plan::params::{likeness, transition};
+use crate::sim::plan::likeness;
 
 /// Most that is played older than its delay has it, s: a stride, so that there is a like moment in every walk. Two
 /// hundredths of time make up for it.
@@ -21,8 +18,6 @@ const MOST_NEWER: f64 = 0.75;
 const PATIENCE: f64 = 1.5;
 /// Moments that are compared for each sample of the grid: between them the best is interpolated.
 const MOMENTS: i64 = 1;
-/// What a second of delay costs: it matters where all moments are alike, as of somebody who stands.
-const DELAY_COST: f64 = 0.3;
 
 /// How a stream goes on from another one in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,14 +73,11 @@ impl JitterBuffer {
         let otherwise = if waits { Seam::Later } else { Seam::Nowhere };
         let at = |k: i64| self.at(p + ahead + k as f64 * stride).target.posture;
         let postures: Vec<Posture> = (first - 3 * MOMENTS..=end - MOMENTS).map(at).collect();
-        let most_speed = transition::MOST_CAPTURE * (GRAVITY / self.stand.root_position.z).sqrt();
+        let hip = self.stand.root_position.z;
         let like = |k: i64| {
             let around = [0, 1, 2].map(|n| postures[(k - first + n * MOMENTS) as usize]);
-            let unlike = unlike(&last, &around) / likeness::CLOSED_CYCLE;
-            let speed = drift(&last, &around, rate) / most_speed;
-            let delay = k as f64 * stride;
-            let cost = unlike * unlike + speed * speed + DELAY_COST * delay * delay;
-            (cost, unlike <= 1.0 && speed <= 1.0)
+            let seam = likeness::Seam::new(&last, &around, hip, k as f64 * stride);
+            (seam.cost, seam.fits)
         };
         let costs: Vec<(f64, bool)> = (first..=end).map(like).collect();
         let best = (0..costs.len()).min_by(|a, b| costs[*a].0.total_cmp(&costs[*b].0));
@@ -128,17 +120,6 @@ impl JitterBuffer {
         self.grid.next = entry.next;
         self.grid.joins = false;
     }
-}
-
-/// Difference of the velocities over the floor, seen from the pelvis, m/s.
-fn drift(a: &[Posture; 3], b: &[Posture; 3], rate: f64) -> f64 {
-    let speed = |m: &[Posture; 3]| {
-        let v = (m[2].root_position - m[0].root_position) * (0.5 * rate);
-        let turn = Quat::exp(crate::sim::math::Vec3::Z * -m[1].root_rotation.heading());
-        turn.rotate(v)
-    };
-    let d = speed(a) - speed(b);
-    (d.x * d.x + d.y * d.y).sqrt()
 }
 
 #[cfg(test)]

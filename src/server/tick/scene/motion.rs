@@ -92,6 +92,9 @@ impl Scene {
             player.takeover = None;
             let (key, figure) = (player.key, player.figure);
             // Who was there before ends here.
+            let plays = |p: &&Player| p.figure == figure && p.key != key && p.takeover.is_none();
+            let before = self.players.iter().find(plays);
+            let late = before.and_then(|p| Some(p.window.as_ref()?.late()));
             self.players.retain(|p| {
                 let stays = p.figure != figure || p.key == key || p.takeover.is_some();
                 if !stays {
@@ -101,7 +104,7 @@ impl Scene {
             });
             let player = self.players.iter_mut().find(|p| p.key == key);
             if let (Some(p), Some(f)) = (player, self.world.figure_mut(figure)) {
-                p.join(f, now, blend, seam);
+                p.join(f, now, blend, seam, late.unwrap_or_default());
             }
             // Others have moved up.
             i = 0;

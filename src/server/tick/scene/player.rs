@@ -9,6 +9,7 @@ use crate::server::ingest::jitter_buffer::{Due, JitterBuffer, Now, Seam};
 use crate::sim::body::{Body, Posture, State};
 use crate::sim::motion::TargetPair;
 use crate::sim::plan::StreamPlan;
+use crate::sim::plan::motion_transition::StreamBeginning;
 use crate::sim::plan::stream::RATE;
 use crate::wire::types::Supply;
 use serde::{Deserialize, Serialize};
@@ -18,6 +19,8 @@ use std::sync::Arc;
 const LEAD_IN: usize = 6;
 /// A stream waits so long at most for its figure to stand, s: a step or two, and some sway.
 const MOST_STOPPING: f64 = 5.0;
+/// Samples from one look for a moment at which to catch up to the next.
+const CATCH_UP_STRIDE: i64 = 10;
 
 /// What plays live motion to one figure.
 #[derive(Debug, Serialize, Deserialize)]
@@ -47,6 +50,24 @@ pub struct Window {
     begun: bool,
     /// It comes to a stand before that; from this world time on it is not waited for any more, s.
     stands: Option<f64>,
+    /// How far the figure is behind the window, because it was led into a stream that began in motion.
+    late: Late,
+}
+
+/// How far a figure is behind the window of its stream.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct Late {
+    /// So much, s.
+    by: f64,
+    /// Sample from which on it follows the stream itself.
+    from: i64,
+}
+
+impl Late {
+    /// False if it cannot be what was written into a checkpoint.
+    fn is_valid(self) -> bool {
+        (0.0..=60.0).contains(&self.by) && self.from.unsigned_abs() < 1 << 41
+    }
 }
 
 impl Window {
@@ -61,7 +82,18 @@ impl Window {
             })),
             begun: false,
             stands: None,
+            late: Late::default(),
         }
+    }
+
+    /// How far its figure is behind it, s.
+    pub fn behind(&self) -> f64 {
+        self.late.by
+    }
+
+    /// The same, for one that takes its figure over.
+    pub fn late(&self) -> Late {
+        self.late
     }
 
     /// A window that begins once its figure stands, which has been told to stop at world time `time`, s.
@@ -86,6 +118,40 @@ impl Window {
         false
     }
 
+    /// Leads the figure into a stream that begins in motion: by steps to a moment of it, once enough of it has come.
+    /// The window's newest playout time is `head` (s), `next` samples of the grid are over. False: not yet.
+    fn leads_in(&mut self, figure: &mut Figure, (head, next): (f64, i64), time: f64) -> bool {
+        let Some(live) = &mut self.waiting else {
+            return true;
+        };
+        if let Some(found) = figure.take_stream_entry() {
+            let Some(way) = found else {
+                // What comes later may be within its reach.
+                *self = Self::after_stop(figure.body(), self.length, time);
+                return false;
+            };
+            live.motion = live.motion.led_in(LEAD_IN, &way);
+            self.late = Late {
+                by: head - self.length + (live.motion.fed() - next) as f64 / RATE,
+                from: (LEAD_IN + way.samples.len()) as i64,
+            };
+            live.offset = -time;
+            return true;
+        }
+        if figure.plans_stream_entry() {
+            return false;
+        }
+        if !figure.can_be_led() || !live.motion.begins_in_motion(LEAD_IN) {
+            return true;
+        }
+        let needed = StreamBeginning::needed();
+        let came: Vec<_> = (live.motion.waiting().skip(LEAD_IN).take(needed)).collect();
+        if came.len() == needed {
+            figure.plan_stream_entry(came, time);
+        }
+        false
+    }
+
     /// Continues from what is asked of the figure now: a stream that begins elsewhere is moved there.
     fn lead_in(&mut self, posture: &Posture) {
         if let Some(live) = &mut self.waiting {
@@ -105,7 +171,8 @@ impl Player {
         let window = self.window.as_ref();
         waits
             && window.is_none_or(|w| {
-                (0.0..=2.0).contains(&w.length) && w.stands.is_none_or(f64::is_finite)
+                let known = (0.0..=2.0).contains(&w.length) && w.late.is_valid();
+                known && w.stands.is_none_or(f64::is_finite)
             })
             && self.takeover.is_none_or(|t| (0.0..=1e3).contains(&t))
             && self.buffer.complete(figure.body(), dt)
@@ -130,7 +197,9 @@ impl Player {
     }
 
     /// Takes a figure over from another player, in the middle of what it does, over `blend` seconds.
-    pub fn join(&mut self, figure: &mut Figure, now: Now, blend: f64, seam: Seam) {
+    ///
+    /// * `late`: how far the figure is behind the window of that one.
+    pub fn join(&mut self, figure: &mut Figure, now: Now, blend: f64, seam: Seam, late: Late) {
         self.buffer.begin_from(figure.target().next.clone(), blend);
         let Some(window) = &mut self.window else {
             return; // the buffer goes over by itself
@@ -141,6 +210,7 @@ impl Player {
                 live.motion.join(blend);
                 window.waiting = None;
                 window.begun = true;
+                window.late = late;
             }
             _ => {
                 // It finishes its step, and is led in from a stand.
@@ -186,20 +256,38 @@ impl Player {
             None => figure.stream_mut()?,
         };
         let motion = &mut live.motion;
-        let mut silent = false;
-        let (head, next) = self.buffer.feed(now, (RATE, length), |due| match due {
-            Due::Sample(posture, planted) => motion.push(posture, planted),
+        let (mut given, mut silent) = (0, false);
+        let tick = self.buffer.tick();
+        let all = length + window.late.by;
+        let (head, next) = self.buffer.feed(now, (RATE, all), |due| match due {
+            Due::Sample(posture, planted) => {
+                motion.push(posture, planted);
+                given += 1;
+            }
             Due::Silence => silent = true,
         })?;
         if silent {
-            // It finishes its step and stands.
-            if !waits {
-                figure.stop(time);
+            if waits {
+                return None;
             }
-            return None;
+            // What has come before still plays.
+            window.late.by -= tick;
+            if window.late.by <= 0.0 {
+                // It finishes its step and stands.
+                window.late.by = 0.0;
+                figure.stop(time);
+                return None;
+            }
         }
-        live.offset = head - length + (motion.fed() - next) as f64 / RATE - time;
-        let begins = waits && live.stream_time(time) >= 0.0;
+        let late = &mut window.late;
+        let due = next.rem_euclid(CATCH_UP_STRIDE) < given;
+        if !waits && due && late.by > 0.0 && motion.taken() >= late.from {
+            late.by = (late.by - motion.catch_up(late.by)).max(0.0);
+        }
+        live.offset = head - length + (motion.fed() - next) as f64 / RATE - time - late.by;
+        let begins = waits
+            && live.stream_time(time) >= 0.0
+            && (!window.begun || window.leads_in(figure, (head, next), time));
         let mut live = window.waiting.take_if(|_| begins)?;
         live.motion.advance(live.stream_time(time) + 1.0 / RATE);
         let first = live.motion.sample(live.stream_time(time));

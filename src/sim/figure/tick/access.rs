@@ -1,7 +1,7 @@
 //! A figure from outside: what it is, what it does, and changes between ticks.
 
 use super::state::rested;
-use super::{ExitPlan, Figure};
+use super::{ExitPlan, Figure, StreamEntryPlan};
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, SegmentId, State};
 use crate::sim::collide::shape::BodyShape;
@@ -89,7 +89,9 @@ impl Figure {
     pub(crate) fn plan_requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
         let exit = self.motion.exit().into_iter().flat_map(ExitPlan::requests);
         let entry = self.motion.next().and_then(QueuedClip::request);
+        let stream = self.motion.stream_entry();
         exit.chain(entry)
+            .chain(stream.and_then(StreamEntryPlan::request))
     }
     /// Plans that the last tick needed and that were not there.
     pub fn late_plans(&self) -> LatePlans {

@@ -301,6 +301,7 @@ impl Figure {
     /// it is. The steps are worked out aside, while the motion goes on. Allocates.
     pub fn stop(&mut self, time: f64) {
         self.motion.take_next();
+        self.motion.take_stream_entry();
         // Stops may have been left out for a way over.
         let exit = self.motion.take_exit().filter(|l| !l.leads_over());
         self.motion.plan_exit(exit);

@@ -11,6 +11,7 @@
 //! (the window).
 
 mod foot;
+mod late_entry;
 mod momentum;
 mod receding_horizon;
 mod repeated_samples;

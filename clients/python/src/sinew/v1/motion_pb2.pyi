@@ -1539,9 +1539,9 @@ class FigureFeedback(_message.Message):
     behind. The figure stands until there is motion again. An event says why.
     """
     behind_ms: _builtins.float
-    """How far the stream is behind because its world leaves ticks out, or because it took another one over in the middle
-    of a walk, ms; contained in `playout_delay_ms`. It is played in world time, never faster than the body moves, and
-    begins anew when it is 2 s behind.
+    """How far the stream is behind because its world leaves ticks out, because it took another one over in the middle of
+    a walk, or because the figure had to be led into it by steps, ms; contained in `playout_delay_ms`. It is played in
+    world time, never faster than the body moves, and begins anew when its world has left 2 s of it out.
     """
     def __init__(
         self,

@@ -1567,9 +1567,9 @@ export type FigureFeedback = Message<"sinew.v1.FigureFeedback"> & {
   resyncCount: bigint;
 
   /**
-   * How far the stream is behind because its world leaves ticks out, or because it took another one over in the middle
-   * of a walk, ms; contained in `playout_delay_ms`. It is played in world time, never faster than the body moves, and
-   * begins anew when it is 2 s behind.
+   * How far the stream is behind because its world leaves ticks out, because it took another one over in the middle of
+   * a walk, or because the figure had to be led into it by steps, ms; contained in `playout_delay_ms`. It is played in
+   * world time, never faster than the body moves, and begins anew when its world has left 2 s of it out.
    *
    * @generated from field: double behind_ms = 18;
    */

@@ -1,0 +1,113 @@
+//! From a stand into a stream that begins in motion. The way is worked out aside, and taken in a tick that is fixed
+//! when it is asked for; whoever feeds the stream puts it before what comes.
+
+use super::{Figure, TickContext};
+use crate::sim::body::Posture;
+use crate::sim::figure::params::switch::MOST_LEAD;
+use crate::sim::figure::plan_task::{PlanRequest, PlanTask, Planning};
+use crate::sim::plan::motion_transition::{StreamBeginning, StreamEntry};
+use crate::sim::plan::splice;
+use serde::{Deserialize, Serialize, Serializer};
+
+/// The way into a stream, while it is planned.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(from = "StreamEntryProblem")]
+pub(in crate::sim::figure) struct StreamEntryPlan {
+    problem: StreamEntryProblem,
+    task: PlanTask<Option<StreamEntry>>,
+}
+
+/// What it is planned from.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct StreamEntryProblem {
+    beginning: StreamBeginning,
+    /// World time at which it is taken, s.
+    due: f64,
+    /// It can be taken.
+    settled: bool,
+}
+
+impl From<StreamEntryProblem> for StreamEntryPlan {
+    fn from(problem: StreamEntryProblem) -> Self {
+        let beginning = problem.beginning.clone();
+        Self {
+            problem,
+            task: PlanTask::new(move || beginning.way()),
+        }
+    }
+}
+
+impl Serialize for StreamEntryPlan {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        self.problem.serialize(to)
+    }
+}
+
+impl StreamEntryPlan {
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        self.problem.due.is_finite() && self.problem.beginning.is_valid()
+    }
+
+    /// Asks for the way.
+    pub fn request(&self) -> Option<PlanRequest> {
+        self.task.request()
+    }
+}
+
+impl Figure {
+    /// True if it stands and can be led into a stream by steps.
+    pub fn can_be_led(&self) -> bool {
+        self.steps() && !self.crouches()
+    }
+
+    /// Begins to work out the way from its stand into a stream.
+    ///
+    /// * `came`: the beginning of the stream, at least [`StreamBeginning::needed`] samples, in its own place.
+    pub fn plan_stream_entry(&mut self, came: Vec<(Posture, Option<[bool; 2]>)>, time: f64) {
+        let stand = self.desired.target.next.posture;
+        self.motion.plan_stream_entry(
+            StreamEntryProblem {
+                beginning: StreamBeginning::new(&self.setup.body, came, stand),
+                // It stands meanwhile: nothing is lost but time.
+                due: time + MOST_LEAD as f64 / splice::RATE,
+                settled: false,
+            }
+            .into(),
+        );
+    }
+
+    /// True while the way into a stream is planned.
+    pub fn plans_stream_entry(&self) -> bool {
+        self.motion.stream_entry().is_some()
+    }
+
+    /// The way into a stream, once it was worked out: `Some(None)` if there is none.
+    pub fn take_stream_entry(&mut self) -> Option<Option<StreamEntry>> {
+        self.motion
+            .stream_entry()
+            .filter(|entry| entry.problem.settled)?;
+        Some(self.motion.take_stream_entry()?.task.take())
+    }
+
+    /// Lets the way into a stream be taken when it is due. A tick that does not wait for plans puts that off.
+    pub(super) fn settle_stream_entry_if_due(&mut self, world: &TickContext) {
+        let open = |e: &&StreamEntryPlan| !e.problem.settled;
+        let Some(entry) = self.motion.stream_entry().filter(open) else {
+            return;
+        };
+        if world.time() + world.dt <= entry.problem.due + 1e-9 {
+            return;
+        }
+        let missing = world.planning == Planning::Aside && !entry.task.is_ready();
+        if missing || self.outcome.told_late.entry {
+            self.outcome.late.entry = true;
+            let due = world.time() + MOST_LEAD as f64 / splice::RATE;
+            self.motion.update_stream_entry(|e| e.problem.due = due);
+            return;
+        }
+        entry.task.settle();
+        self.motion
+            .update_stream_entry(|e| e.problem.settled = true);
+    }
+}

@@ -1,0 +1,125 @@
+//! From a stand into a stream that begins in motion.
+//!
+//! What has come of it is taken for a clip, and the moment of its first step is looked for to which steps from the
+//! stand lead with the least that no ground can give ([`super::from_stand`]). The stream goes on behind that way.
+
+use super::NextClip;
+use crate::sim::body::{Body, Posture};
+use crate::sim::motion::clip::Clip;
+use crate::sim::plan::StreamPlan;
+use crate::sim::plan::cycle::relabel_prepared;
+use crate::sim::plan::feasibility::infeasibility;
+use crate::sim::plan::params::{stop, stream, transition};
+use crate::sim::plan::splice::Sample;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// A posture, and the planted feet if the sender knows.
+pub type Came = (Posture, Option<[bool; 2]>);
+
+/// The beginning of a stream, and a figure that stands.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct StreamBeginning {
+    #[serde(with = "crate::sim::saved::definition")]
+    body: Arc<Body>,
+    came: Vec<Came>,
+    stand: Posture,
+}
+
+/// The way from a stand into a stream.
+#[derive(Clone, Debug)]
+pub struct StreamEntry {
+    /// It, in the place of the stream, 1/[`stream::RATE`] s apart.
+    pub samples: Vec<Sample>,
+    /// Sample of the stream that follows it.
+    pub goes_on: usize,
+}
+
+/// Samples that come after the moment to which the steps lead: they are prepared with them.
+fn samples_after() -> usize {
+    ((stop::BLEND_TIME + stop::PREPARED_TIME) * stream::RATE).ceil() as usize
+}
+
+impl StreamBeginning {
+    /// Samples of a stream that are needed.
+    pub fn needed() -> usize {
+        (stream::ENTRY_SEARCH * stream::RATE) as usize + samples_after() + 1
+    }
+
+    /// * `came`: at least [`Self::needed`] samples, 1/[`stream::RATE`] s apart.
+    /// * `stand`: how the figure stands.
+    pub fn new(body: &Arc<Body>, came: Vec<Came>, stand: Posture) -> Self {
+        Self {
+            body: Arc::clone(body),
+            came,
+            stand,
+        }
+    }
+
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        (1..=2 * Self::needed()).contains(&self.came.len())
+            && self.stand.is_finite()
+            && self.came.iter().all(|(p, _)| p.is_finite())
+    }
+
+    /// Feet on the floor, as the window of a stream finds them.
+    fn labelled(&self) -> Vec<[bool; 2]> {
+        let mut plan = StreamPlan::new(Arc::clone(&self.body), stream::SHORTEST_WINDOW);
+        for (posture, planted) in &self.came {
+            plan.push(posture, *planted);
+        }
+        let came = self.came.len();
+        plan.advance(came as f64 / stream::RATE - plan.window());
+        let (_, known) = plan.known(0.0, came as i64);
+        let mut labels: Vec<_> = known.into_iter().map(|s| s.1).collect();
+        labels.resize(came, labels.last().copied().unwrap_or([true; 2]));
+        labels
+    }
+
+    /// The way; `None` if a body cannot go any. Allocates.
+    pub fn way(&self) -> Option<StreamEntry> {
+        let body = &*self.body;
+        let postures = self.came.iter().map(|c| c.0).collect();
+        let clip = Clip::from_postures("stream", stream::RATE, postures, self.labelled()).ok()?;
+        let next = NextClip {
+            clip: Arc::new(clip),
+            speed: 1.0,
+            looped: false,
+        };
+        let latest = self.came.len().checked_sub(samples_after() + 1)?;
+        let mut best = None;
+        // The later, the less the figure is behind.
+        for entered in (0..=latest).rev().step_by(stream::ENTRY_STRIDE) {
+            let first = entered as f64 / stream::RATE;
+            let Some(way) = next.from_stand(body, first, &self.stand) else {
+                continue;
+            };
+            let (postures, planted): (Vec<_>, Vec<_>) =
+                way.clip.samples().map(|(p, f)| (*p, f)).unzip();
+            let label = relabel_prepared(body, stop::RATE, &postures, &planted);
+            let asks = infeasibility(body, &postures, &label, stop::RATE);
+            if best.as_ref().is_none_or(|(least, _)| asks < *least) {
+                best = Some((asks, way));
+            }
+            if asks < stop::EASY {
+                break;
+            }
+        }
+        let (asks, way) = best?;
+        if asks > transition::MOST_INFEASIBLE {
+            return None;
+        }
+        let goes_on = (way.until * stream::RATE).round() as usize;
+        let until = goes_on as f64 / stream::RATE;
+        let count = ((until - way.begin) * stream::RATE + 1e-6).floor() as usize;
+        let sample = |k: usize| {
+            let t = way.clip.sample(until - k as f64 / stream::RATE - way.begin);
+            (t.posture, t.planted)
+        };
+        Some(StreamEntry {
+            samples: (1..=count).rev().map(sample).collect(),
+            goes_on,
+        })
+    }
+}

@@ -1,0 +1,83 @@
+//! A stream that a figure comes into later than it began: what leads into it is played before, and what it is behind
+//! for that is left out where the stream comes to a moment like the present one again.
+
+use super::{RATE, StreamPlan};
+use crate::sim::body::Posture;
+use crate::sim::motion::leg_ik::{center_of_mass, forward};
+use crate::sim::plan::likeness::Seam;
+use crate::sim::plan::motion_transition::StreamEntry;
+use crate::sim::plan::params::{stop, stream, transition};
+use std::sync::Arc;
+
+impl StreamPlan {
+    /// Samples that wait to be prepared, with the labels that came with them.
+    pub fn waiting(&self) -> impl Iterator<Item = (Posture, Option<[bool; 2]>)> + '_ {
+        self.input.pending.iter().map(|r| (r.posture, r.planted))
+    }
+
+    /// Number of samples that were taken.
+    pub fn taken(&self) -> i64 {
+        self.count
+    }
+
+    /// True if what waits, behind its first `lead` samples, begins in motion: no body that stands is there with a
+    /// step less. False while that is not known.
+    pub fn begins_in_motion(&self, lead: usize) -> bool {
+        let after = (stop::MEASURED_TIME * RATE).ceil() as usize;
+        let came = &self.input.pending;
+        let (Some(a), Some(b)) = (came.get(lead), came.get(lead + after)) else {
+            return false;
+        };
+        let [p, q] = [a, b].map(|r| center_of_mass(&self.body, &forward(&self.body, &r.posture)));
+        let (x, y) = (q.x - p.x, q.y - p.y);
+        let upright = a.posture.root_position.z > stop::UPRIGHT * self.body.standing_root_height();
+        upright && (x * x + y * y).sqrt() * RATE > stop::STANDING_SPEED * after as f64
+    }
+
+    /// The same stream, begun by a way into it from a stand: of the samples that wait, the first `lead` ones, the way,
+    /// and the rest of the stream. Allocates.
+    pub fn led_in(&self, lead: usize, way: &StreamEntry) -> Self {
+        let mut out = Self::new(Arc::clone(&self.body), self.window());
+        for r in self.input.pending.iter().take(lead) {
+            out.push(&r.posture, r.planted);
+        }
+        for (posture, planted) in &way.samples {
+            out.push(posture, Some(*planted));
+        }
+        for r in self.input.pending.iter().skip(lead + way.goes_on) {
+            out.push(&r.posture, r.planted);
+        }
+        out
+    }
+
+    /// Leaves out what waits up to a moment that is like the present one, at most `most` seconds. Returns how much
+    /// that is, s; 0 if there is none.
+    pub fn catch_up(&mut self, most: f64) -> f64 {
+        let waiting = &self.input.pending;
+        let end = ((most * RATE) as usize).min(waiting.len().saturating_sub(3));
+        // A stride, so that there is a like moment in every walk.
+        let first = end.saturating_sub((transition::AHEAD * RATE) as usize);
+        let first = first.max((stream::LEAST_CATCH_UP * RATE).ceil() as usize);
+        // Another stream that is to go on from here does so first.
+        if self.count < 3 || first >= end || self.placement.join.is_some() {
+            return 0.0;
+        }
+        let left = [3, 2, 1].map(|k| self.at(self.count - k).raw);
+        let hip = self.body.standing_root_height();
+        // Going on as it is costs what it is behind.
+        let goes_on = stream::DELAY_COST * most * most;
+        let seam = |k: usize| {
+            // The sample that would come next is the one after those that are compared.
+            let entered = [3, 2, 1].map(|back| waiting[k - back].posture);
+            let seam = Seam::new(&left, &entered, hip, (end - k) as f64 / RATE);
+            (seam.fits && seam.cost < goes_on).then_some((seam.cost, k))
+        };
+        let best = (first.max(3)..=end).filter_map(seam);
+        let Some((_, k)) = best.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return 0.0;
+        };
+        self.input.pending.drain(..k);
+        self.placement.join = Some((self.count, transition::BLEND_TIME));
+        k as f64 / RATE
+    }
+}
