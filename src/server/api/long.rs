@@ -17,7 +17,7 @@ pub(super) type Messages<M> = ReceiverStream<Result<M, Status>>;
 /// Messages that wait for a client that reads slowly.
 const QUEUE: usize = 4;
 /// How long the last message waits for a client that does not read.
-const LAST_WORD: Duration = Duration::from_secs(30);
+pub(super) const LAST_WORD: Duration = Duration::from_secs(30);
 /// Bytes of frames, and time, after which a message of a stream is sent.
 pub(super) const PART: (usize, Duration) = (64 * 1024, Duration::from_millis(100));
 /// How long work waits for a client that does not read before it is given up.
@@ -51,7 +51,7 @@ pub(super) fn hand_over<M>(out: &Out<M>, message: M, turn: &Turn) -> Result<(), 
         if begun.elapsed() > PATIENCE {
             return Err(Fault::Aborted {
                 reason: "SLOW_READER",
-                message: "frames were not read for half a minute".into(),
+                message: "what was sent was not read for half a minute".into(),
             });
         }
         std::thread::sleep(LOOK);

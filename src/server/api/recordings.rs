@@ -1,7 +1,7 @@
 //! `RecordingService`.
 
 use super::history::journal;
-use super::{Api, answer, client, refusal};
+use super::{Api, answer, client, long, refusal};
 use crate::server::export::{Format, export};
 use crate::server::recordings::{NewRecording, Recording, end_name};
 use crate::wire::convert::names::RECORDING;
@@ -162,7 +162,7 @@ impl RecordingService for Api {
             let to = send.clone();
             let done = pool.run(&client, move |turn| {
                 let recorded = recording.now();
-                let mut waiting = Vec::new();
+                let (mut waiting, mut refused) = (Vec::new(), None);
                 let mut give = |piece: Vec<u8>, ticks: u64| {
                     // Small pieces are put together; a client that is gone takes none.
                     waiting.extend(piece);
@@ -175,21 +175,26 @@ impl RecordingService for Api {
                             data,
                             done_tick_count: ticks as i64,
                         };
-                        taken = to.blocking_send(Ok(message)).is_ok();
+                        // One that does not read does not hold the worker for ever.
+                        refused = long::hand_over(&to, message, turn).err();
+                        taken = refused.is_none();
                     }
                     taken
                 };
-                export(
+                let done = export(
                     &recording.world,
                     &recorded,
                     format,
                     &|| turn.stop(),
                     &mut give,
-                )
+                );
+                refused.map_or(done, Err)
             });
             if let Err(fault) = done.await {
-                // Nobody may be there to hear it.
-                let _ = send.send(Err(refusal(fault))).await;
+                // Nobody may be there to hear it, or to read it.
+                let _ = send
+                    .send_timeout(Err(refusal(fault)), long::LAST_WORD)
+                    .await;
             }
         });
         Ok(Response::new(ReceiverStream::new(receive)))

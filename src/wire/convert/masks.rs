@@ -20,7 +20,7 @@ impl Fields<'_> {
     /// for `*`.
     ///
     /// # Errors
-    /// A path is none of the fields, or one that is set at creation; `*` is not alone.
+    /// A path is none of the fields, one that is set at creation, or a part of a field; `*` is not alone.
     pub fn taken(&self, mask: Option<&FieldMask>) -> Result<Vec<&'static str>, Fault> {
         let paths = mask.map(|m| m.paths.as_slice()).unwrap_or_default();
         let settable = || self.settable.iter().map(|(name, _)| *name);
@@ -35,15 +35,26 @@ impl Fields<'_> {
         let mut taken = Vec::with_capacity(self.settable.len());
         for (i, path) in paths.iter().enumerate() {
             let refused = |problem| Err(Fault::invalid(format!("update_mask.paths[{i}]"), problem));
-            if let Some(name) = settable().find(|n| n == path) {
+            // A part of a field is what the field is.
+            let (whole, part) = match path.split_once('.') {
+                Some((whole, part)) => (whole, Some(part)),
+                None => (path.as_str(), None),
+            };
+            if let Some(name) = settable().find(|n| *n == whole) {
+                if part.is_some() {
+                    return refused(format!(
+                        "a mask names whole fields: {name} changes as a whole, got {:?}",
+                        shortened(path)
+                    ));
+                }
                 if !taken.contains(&name) {
                     taken.push(name);
                 }
-            } else if self.fixed.contains(&path.as_str()) {
+            } else if self.fixed.contains(&whole) {
                 return refused(format!("{path} is set at creation and does not change"));
             } else if path == "*" {
                 return refused("* must be the only path".to_owned());
-            } else if !self.output.contains(&path.as_str()) {
+            } else if !self.output.contains(&whole) {
                 return refused(format!(
                     "must be * or one of {}, got {:?}",
                     settable().collect::<Vec<_>>().join(", "),
@@ -80,7 +91,7 @@ mod tests {
             taken(Some(&["display_name", "tick", "display_name"])).unwrap(),
             ["display_name"]
         );
-        assert_eq!(taken(Some(&["name"])).unwrap(), [""; 0]);
+        assert_eq!(taken(Some(&["name", "tick.count"])).unwrap(), [""; 0]);
     }
 
     #[test]
@@ -90,6 +101,11 @@ mod tests {
             (&["speed", "*"], 1, "only"),
             (&["colour"], 0, "speed, display_name"),
             (&[""], 0, "speed, display_name"),
+            (&["speed", "speed.x"], 1, "whole"),
+            (&["display_name.a.b"], 0, "whole"),
+            (&["rate_hz.x"], 0, "creation"),
+            (&["colour.red"], 0, "speed, display_name"),
+            (&["*.x"], 0, "speed, display_name"),
         ] {
             let Err(Fault::Invalid { field, problem }) = taken(Some(paths)) else {
                 panic!("{paths:?} was taken");
