@@ -160,6 +160,12 @@ def test_the_past_of_a_world_is_gone_back_to_and_kept(server: sinew.Client) -> N
         first = world.record(0.5)["anna"]
         oldest, newest = world.history()
         assert oldest <= start and newest >= start + 30
+        past = world.read_history(first_tick=start + 1, last_tick=start + 30)["anna"]
+        assert (past.torque == first.torque).all() and (past.root_pose == first.root_pose).all()
+        with world.frames(fields=["root_pose"], resume_tick=start) as late:
+            assert next(late).tick == start + 1
+        with pytest.raises(sinew.InvalidArgumentError):
+            world.read_history(first_tick=10_000)
         again = world.replay(first_tick=start)
         assert again.compared_tick_count >= 30 and not again.HasField("difference")
         assert world.stop_recording(kept).last_tick >= start + 30

@@ -1,13 +1,23 @@
 // The TypeScript client: typed calls over gRPC-Web, and numbers of frames as arrays. Works in browsers and in Node.
 import { BinaryReader, WireType } from "@bufbuild/protobuf/wire";
-import { Code, ConnectError, createClient, type Client, type Interceptor, type Transport } from "@connectrpc/connect";
+import type { MessageInitShape } from "@bufbuild/protobuf";
+import {
+  Code,
+  ConnectError,
+  createClient,
+  type CallOptions,
+  type Client,
+  type Interceptor,
+  type Transport,
+} from "@connectrpc/connect";
 import { createGrpcWebTransport } from "@connectrpc/connect-web";
 import { AccessService } from "./gen/sinew/v1/access_pb.js";
 import { BodyService } from "./gen/sinew/v1/body_pb.js";
 import { CheckpointService } from "./gen/sinew/v1/checkpoint_pb.js";
 import { ControlService } from "./gen/sinew/v1/control_pb.js";
 import { FigureService } from "./gen/sinew/v1/figure_pb.js";
-import { HistoryService } from "./gen/sinew/v1/history_pb.js";
+import type { WorldFrame } from "./gen/sinew/v1/frame_pb.js";
+import { HistoryService, type ReadHistoryRequestSchema } from "./gen/sinew/v1/history_pb.js";
 import { MotionService } from "./gen/sinew/v1/motion_pb.js";
 import { ObstacleService } from "./gen/sinew/v1/obstacle_pb.js";
 import { OperationService } from "./gen/sinew/v1/operation_pb.js";
@@ -15,7 +25,7 @@ import { PerturbationService } from "./gen/sinew/v1/perturbation_pb.js";
 import { RecordingService } from "./gen/sinew/v1/recording_pb.js";
 import { ServerService } from "./gen/sinew/v1/server_pb.js";
 import { SimulationService } from "./gen/sinew/v1/simulation_pb.js";
-import { StateService } from "./gen/sinew/v1/state_pb.js";
+import { StateService, type Roster, type WatchWorldRequestSchema } from "./gen/sinew/v1/state_pb.js";
 import type { Numbers } from "./gen/sinew/v1/types_pb.js";
 import { WorldService } from "./gen/sinew/v1/world_pb.js";
 
@@ -101,6 +111,42 @@ export class Sinew {
     this.simulations = createClient(SimulationService, transport);
     this.state = createClient(StateService, transport);
     this.worlds = createClient(WorldService, transport);
+  }
+}
+
+/** A frame, and who its figures are. */
+export interface FrameOf {
+  readonly frame: WorldFrame;
+  readonly roster: Roster;
+}
+
+/**
+ * The past of a world from `firstTick` to `lastTick`, as far as it is held: frames as they come, some at a time. To go
+ * on from there without a gap: `watchWorld` with `resumeTick`.
+ */
+export async function* readHistory(
+  api: Sinew,
+  request: MessageInitShape<typeof ReadHistoryRequestSchema>,
+  options?: CallOptions,
+): AsyncGenerator<FrameOf[]> {
+  let roster: Roster | undefined;
+  for await (const part of api.history.readHistory(request, options)) {
+    roster = part.roster ?? roster;
+    const known = roster;
+    if (known) yield part.frames.map((frame) => ({ frame, roster: known }));
+  }
+}
+
+/** Frames of a world as they come; those after `resumeTick` first, as far as they are held. */
+export async function* watchWorld(
+  api: Sinew,
+  request: MessageInitShape<typeof WatchWorldRequestSchema>,
+  options?: CallOptions,
+): AsyncGenerator<FrameOf> {
+  let roster: Roster | undefined;
+  for await (const { message } of api.state.watchWorld(request, options)) {
+    if (message.case === "roster") roster = message.value;
+    else if (message.case === "frame" && roster) yield { frame: message.value, roster };
   }
 }
 

@@ -1,7 +1,7 @@
 // The last minutes of one world: frames that this page has seen, frames that the server simulates again for it, and
 // what happened. Frames are kept up to a bound; what is missing is asked for in pieces, the one looked at first.
 import { Code, ConnectError } from "@connectrpc/connect";
-import { details, isConnectionLoss, message, type Sinew } from "./client.js";
+import { details, isConnectionLoss, message, readHistory, type FrameOf, type Sinew } from "./client.js";
 import type { WorldFrame } from "./gen/sinew/v1/frame_pb.js";
 import { EventType, type Event, type Roster } from "./gen/sinew/v1/state_pb.js";
 
@@ -20,11 +20,8 @@ const LOOK_MS = 5000;
 /** Events that are kept. */
 const MOST_EVENTS = 512;
 
-/** A frame, and who its figures are. */
-export interface Kept {
-  readonly frame: WorldFrame;
-  readonly roster: Roster;
-}
+/** A frame that is kept. */
+export type Kept = FrameOf;
 
 /** The frames around a moment. */
 export interface Around {
@@ -228,7 +225,8 @@ export class Past {
     const last = Math.min((piece + 1) * size, this.newest);
     let again = true;
     try {
-      const answer = this.api.history.readHistory(
+      const answer = readHistory(
+        this.api,
         {
           name: this.world,
           view: { fields: { paths: this.fields }, rateDivisor: this.divisor },
@@ -237,11 +235,9 @@ export class Past {
         },
         { signal: reading.stop.signal },
       );
-      let roster: Roster | undefined;
       for await (const part of answer) {
-        roster = part.roster ?? roster;
-        if (reading.stop.signal.aborted || !roster) break;
-        this.merge(part.frames, roster);
+        if (reading.stop.signal.aborted) break;
+        this.merge(part);
       }
       this.trouble = "";
     } catch (error) {
@@ -266,12 +262,11 @@ export class Past {
     return false;
   }
 
-  private merge(frames: WorldFrame[], roster: Roster): void {
-    if (!frames.length) return;
-    const [from, until] = [tickOf(frames[0]), tickOf(frames[frames.length - 1])];
+  private merge(fresh: FrameOf[]): void {
+    if (!fresh.length) return;
+    const [from, until] = [tickOf(fresh[0].frame), tickOf(fresh[fresh.length - 1].frame)];
     const a = this.first(from);
     const b = this.first(until + 1);
-    const fresh = frames.map((frame) => ({ frame, roster }));
     this.kept = [...this.kept.slice(0, a), ...fresh, ...this.kept.slice(b)];
     this.bound();
     this.version++;

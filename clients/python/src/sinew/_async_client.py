@@ -733,6 +733,34 @@ class World:
         held = await self.client._ask(self.client.history_stub.GetHistory, request)
         return held.oldest_tick, held.newest_tick
 
+    async def read_history(
+        self,
+        *,
+        first_tick: int | None = None,
+        last_tick: int | None = None,
+        figures: Iterable[str] = (),
+        fields: Sequence[str] = RECORDED,
+        encoding: Encoding = "double",
+    ) -> Recordings:
+        """What happened from one tick to another (`None`: as far as it is held), by figure; the world goes on
+        meanwhile. Of those who came or went in that time there is what was there. To go on from there without a gap:
+        `frames` with `resume_tick=last_tick`.
+        """
+        view = requests.view(fields, figures=figures, numbers=encoding)
+        request = history_pb2.ReadHistoryRequest(
+            name=self.resource, view=view, first_tick=first_tick, last_tick=last_tick
+        )
+        frames: list[frame_pb2.WorldFrame] = []
+        roster = state_pb2.Roster()
+        async with Stream(self.client.history_stub.ReadHistory, request) as stream:
+            async for message in stream:
+                if message.HasField("roster"):
+                    roster.MergeFrom(message.roster)
+                frames.extend(message.frames)
+        await self.client._learn(roster)
+        names = {e.figure_index: (e.figure_id, self.client._bodies[e.body]) for e in roster.figures}
+        return collect(frames, names, self.rate_hz)
+
     async def seek(self, tick: int) -> None:
         """Goes back to a tick that is held; what came after it is dropped, and drives end."""
         request = history_pb2.SeekWorldRequest(name=self.resource, tick=tick)
@@ -948,7 +976,7 @@ class World:
         never a backlog.
 
         `figures` (names; all if empty) and `fields` choose what they hold. `rate_divisor` n sends one frame for every n
-        ticks; `resume_tick` continues after a tick while the next ones are held.
+        ticks; `resume_tick` continues after a tick, also of the past, as far as the next ones are held.
 
         A paused world sends no more frames until it is resumed or stepped. Waiting for the next one then raises
         `WorldPausedError` after about half a second, also when the world is paused later on; the iteration can go on
