@@ -124,3 +124,21 @@ def test_a_load_of_two_hands_is_carried_in_both_palms(server: sinew.Client) -> N
     assert a == b == 2.0
     np.testing.assert_allclose(right * (1, -1, 1), left, atol=1e-12)
     assert right[1] > 0.005
+
+
+def test_the_other_hand_helps_with_what_is_too_heavy_for_one_arm(server: sinew.Client) -> None:
+    with server.create_world() as world:
+        figure = world.add_figure("anna", body="adult-woman")
+        figure.play("lift", reset=True)
+        figure.carry(8.0, "r_hand", start_s=1.7, two_hands="auto")
+        with world.events(types=["load_shared"]) as events:
+            world.step(180)
+            event = next(events)
+        r = figure.record(0.1)
+    assert (event.segment, event.other_segment, event.mass_kg) == ("r_hand", "l_hand", 8.0)
+    alone, shared = event.need
+    assert alone > 1.0 > shared
+    masses = [mass for _, _, mass in r.loads(-1)]
+    assert len(masses) == 2 and min(masses) > 2.0 and abs(sum(masses) - 8.0) < 1e-9
+    with pytest.raises(ValueError, match="two hands 'maybe' is none of never, auto, always"):
+        figure.carry(1.0, two_hands="maybe")
