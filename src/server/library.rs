@@ -2,7 +2,7 @@
 
 use super::config::Config;
 use super::engine::{self, BUILTIN_NAMES, Clip};
-use super::rehearsals::Rehearsed;
+use super::rehearsals::{Rehearsed, Score};
 use super::shares::check_part;
 use super::workers::Turn;
 use crate::sim::body::{Body, Posture};
@@ -13,6 +13,7 @@ use crate::wire::pb;
 use crate::wire::status::Fault;
 use crate::wire::types::{BodyRef, ClipInfo, FollowSettings, MotionSource};
 use std::collections::{BTreeMap, HashMap};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
@@ -108,6 +109,8 @@ impl Manner {
 
 /// A stored motion.
 struct Stored {
+    /// Which of all that have had its name it is.
+    number: u64,
     info: ClipInfo,
     source: Option<MotionSource>,
     bytes: u64,
@@ -136,7 +139,9 @@ pub struct Clips {
     most_bytes: u64,
     share: f64,
     held: Mutex<BTreeMap<String, Arc<Stored>>>,
-    next: std::sync::atomic::AtomicU64,
+    next: AtomicU64,
+    /// Clips so far.
+    count: AtomicU64,
 }
 
 /// Bytes of a prepared frame: posture, velocity and acceleration.
@@ -177,6 +182,7 @@ impl Clips {
             held.insert(
                 name.to_owned(),
                 Arc::new(Stored {
+                    number: 0,
                     info,
                     source: None,
                     bytes: 0,
@@ -190,7 +196,8 @@ impl Clips {
             most_bytes: config.max_clip_total_bytes,
             share: config.max_client_share,
             held: Mutex::new(held),
-            next: std::sync::atomic::AtomicU64::new(1),
+            next: AtomicU64::new(1),
+            count: AtomicU64::new(0),
         })
     }
 
@@ -258,7 +265,7 @@ impl Clips {
     fn free_id(&self, held: &BTreeMap<String, Arc<Stored>>, new: &NewClip) -> String {
         new.id.clone().unwrap_or_else(|| {
             loop {
-                let n = self.next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+                let n = self.next.fetch_add(1, Ordering::Relaxed);
                 let id = format!("clip-{n}");
                 if !held.contains_key(&id) {
                     return id;
@@ -345,6 +352,7 @@ impl Clips {
             ..info
         };
         let stored = Stored {
+            number: self.number(),
             info: info.clone(),
             source: Some(source),
             bytes,
@@ -391,6 +399,7 @@ impl Clips {
         let mut held = locked(&self.held);
         self.room(&held, &new, bytes)?;
         let stored = Stored {
+            number: self.number(),
             info,
             source: Some(source),
             bytes,
@@ -425,6 +434,7 @@ impl Clips {
             let mut prepared = locked(&stored.prepared).clone();
             prepared.insert(key, Arc::new(clip));
             let stored = Stored {
+                number: stored.number,
                 info,
                 source: Some(source),
                 bytes: stored.bytes,
@@ -549,29 +559,61 @@ impl Clips {
         Ok(prepared.entry(key).or_insert(clip).clone())
     }
 
-    /// What a clip was made of; `None` for one that comes with the server.
+    /// What a clip is rehearsed from.
     ///
     /// # Errors
     /// There is none of that name.
-    pub fn source(&self, id: &str) -> Result<Option<MotionSource>, Fault> {
-        Ok(self.stored(id)?.source.clone())
+    pub fn score(&self, id: &str) -> Result<Score, Fault> {
+        let stored = self.stored(id)?;
+        Ok(Score {
+            id: id.to_owned(),
+            source: stored.source.clone(),
+            number: stored.number,
+        })
     }
 
-    /// Keeps a rehearsal of a clip, in the place of one for the same figure.
+    /// True while the clip is there of which this was the score.
+    pub fn holds(&self, score: &Score) -> bool {
+        let stored = self.stored(&score.id);
+        stored.is_ok_and(|s| s.number == score.number)
+    }
+
+    fn number(&self) -> u64 {
+        1 + self.count.fetch_add(1, Ordering::Relaxed)
+    }
+
+    /// Keeps a rehearsal of a clip, in the place of one for the same figure, or else of the oldest if there are too
+    /// many. Returns those.
     ///
     /// # Errors
-    /// There is no clip of that name any more, or no room.
-    pub fn keep_rehearsed(&self, id: &str, rehearsed: Rehearsed) -> Result<(), Fault> {
-        let stored = self.stored(id)?;
+    /// The clip is there no more, or there is no room.
+    pub fn keep_rehearsed(
+        &self,
+        score: &Score,
+        rehearsed: &Arc<Rehearsed>,
+    ) -> Result<Vec<Arc<Rehearsed>>, Fault> {
+        let stored = self.stored(&score.id)?;
+        if stored.number != score.number {
+            let name = format!("clips/{}", score.id);
+            return Err(Fault::not_found("clip", name));
+        }
         let held = locked(&self.held);
         self.space(&held, rehearsed.bytes())?;
         let mut all = locked(&stored.rehearsed);
-        all.retain(|r| !r.performer.is_like(&rehearsed.performer));
+        let like = |r: &mut Arc<Rehearsed>| r.performer.is_like(&rehearsed.performer);
+        let mut gone: Vec<_> = all.extract_if(.., like).collect();
         if all.len() >= MAX_REHEARSED {
-            all.remove(0);
+            gone.push(all.remove(0));
         }
-        all.push(Arc::new(rehearsed));
-        Ok(())
+        all.push(Arc::clone(rehearsed));
+        Ok(gone)
+    }
+
+    /// Forgets a rehearsal.
+    pub fn forget_rehearsed(&self, id: &str, rehearsed: &Arc<Rehearsed>) {
+        if let Ok(stored) = self.stored(id) {
+            locked(&stored.rehearsed).retain(|r| !Arc::ptr_eq(r, rehearsed));
+        }
     }
 
     /// The rehearsals of a clip.

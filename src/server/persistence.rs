@@ -12,10 +12,12 @@ use super::durable::local::LocalStore;
 use super::durable::marks::Marks;
 use super::durable::recovery::{Recovered, recover};
 use super::durable::store::{
-    self, ClipRecord, Durability, History, Item, Retention, StoreError, WorldKey, WorldRecord,
+    self, ClipRecord, Durability, History, Item, RehearsalRecord, Retention, StoreError, WorldKey,
+    WorldRecord,
 };
 use super::library::NewClip;
 use super::recordings::{Recordings, StoredRecording};
+use super::rehearsals::Rehearsed;
 use super::tick::command::Origin;
 use super::tick::journal::{self, Logged, Segment};
 use super::tick::replay::Replay;
@@ -249,6 +251,9 @@ impl Persistence {
                 }
                 Err(why) => tracing::error!(clip = clip.name, %why, "clip is not brought back"),
             }
+        }
+        for (clip, why) in restore_rehearsals(app, &recovered.rehearsals) {
+            tracing::error!(clip, %why, "a rehearsal is not brought back: the clip has to be rehearsed again");
         }
         // Each waits for ticks of its own; together they wait once.
         let worlds = recovered.worlds.iter().map(|(record, history)| async move {
@@ -626,6 +631,46 @@ impl Persistence {
         done.map_err(storage)
     }
 
+    /// Writes a rehearsal of a clip down, in the place of others.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub async fn rehearsed(
+        &self,
+        clip: &str,
+        found: &Arc<Rehearsed>,
+        instead_of: &[Arc<Rehearsed>],
+    ) -> Result<(), Fault> {
+        let (clip, found) = (clip.to_owned(), Arc::clone(found));
+        let figure = found.figure();
+        let gone: Vec<String> = instead_of.iter().map(|r| r.figure()).collect();
+        let write = move |store: &mut dyn store::CheckpointStore| {
+            store.put_rehearsal(&RehearsalRecord {
+                clip: clip.clone(),
+                figure: figure.clone(),
+                content: found.to_bytes().into(),
+            })?;
+            for other in gone.iter().filter(|other| **other != figure) {
+                store.delete_rehearsal(&clip, other)?;
+            }
+            Ok(())
+        };
+        self.keeper.call(write).await.map_err(storage)
+    }
+
+    /// Forgets a rehearsal of a clip.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub async fn forget_rehearsal(&self, clip: &str, found: &Rehearsed) -> Result<(), Fault> {
+        let (clip, figure) = (clip.to_owned(), found.figure());
+        let done = self
+            .keeper
+            .call(move |store| store.delete_rehearsal(&clip, &figure))
+            .await;
+        done.map_err(storage)
+    }
+
     /// Works out again what is not stored of a clip: how its file was understood, and what will come of it.
     fn complete_clip(&self, app: &Arc<App>, name: String) {
         let app = app.clone();
@@ -768,6 +813,24 @@ fn at_rest(settings: &[u8]) -> Option<Described> {
         };
     }
     Some(described)
+}
+
+/// Brings rehearsals back, the oldest first. Returns those that cannot be used, and why.
+fn restore_rehearsals<'a>(app: &App, all: &'a [RehearsalRecord]) -> Vec<(&'a str, Fault)> {
+    let (mut whole, mut left_out) = (Vec::new(), Vec::new());
+    for record in all {
+        match Rehearsed::from_bytes(&record.content) {
+            Ok(found) => whole.push((&*record.clip, Arc::new(found))),
+            Err(why) => left_out.push((&*record.clip, why)),
+        }
+    }
+    whole.sort_by_key(|(_, found)| found.found_ms);
+    for (clip, found) in whole {
+        let kept = app.clips.score(clip);
+        let kept = kept.and_then(|score| app.clips.keep_rehearsed(&score, &found));
+        left_out.extend(kept.err().map(|why| (clip, why)));
+    }
+    left_out
 }
 
 fn restore_clip(app: &Arc<App>, clip: &ClipRecord) -> Result<(), Fault> {

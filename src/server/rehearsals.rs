@@ -5,7 +5,7 @@ use super::workers::Turn;
 use crate::evaluate::follow as evaluation;
 use crate::evaluate::forecast::forecast;
 use crate::evaluate::survey::{Conditions, Reference};
-use crate::sim::body::{Body, Links};
+use crate::sim::body::{Body, Links, Profile};
 use crate::sim::figure::rehearsed::RootStep;
 use crate::sim::figure::{FigureOptions, HeldLoad, Perturbation, StrengthScale};
 use crate::sim::motion::{Bvh, Target};
@@ -17,7 +17,11 @@ use crate::wire::status::Fault;
 use crate::wire::types::{
     BvhReading, Follow, FollowSettings, FollowWay, MotionSource, RehearsalInfo,
 };
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use std::borrow::Cow;
 use std::sync::Arc;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Whom a clip is rehearsed for: a figure as it is, in its world.
 #[derive(Clone, Debug)]
@@ -67,11 +71,16 @@ impl Performer {
 
     /// True if what is rehearsed for the one is so for the other.
     pub fn is_like(&self, other: &Self) -> bool {
-        let world = |w: &WorldParams| [w.rate_hz, f64::from(w.substeps), w.gravity, w.friction];
         self.body.profile == other.body.profile
             && self.links == other.links
             && self.strength == other.strength
-            && world(&self.world) == world(&other.world)
+            && self.decisive() == other.decisive()
+    }
+
+    /// What of its world counts.
+    fn decisive(&self) -> [f64; 4] {
+        let w = &self.world;
+        [w.rate_hz, f64::from(w.substeps), w.gravity, w.friction]
     }
 
     fn conditions(&self) -> Conditions {
@@ -100,9 +109,84 @@ pub struct Rehearsed {
     pub helps: bool,
     /// What is played.
     pub motion: Arc<RehearsedMotion>,
+    /// When it was found, ms since 1970: of many the oldest go first.
+    pub found_ms: u64,
 }
 
+/// A rehearsal as it is stored.
+#[derive(Serialize, Deserialize)]
+struct Stored<'a> {
+    /// Version of the server that has found it: what it adds is for that simulator.
+    version: Cow<'a, str>,
+    profile: Profile,
+    links: Cow<'a, Links>,
+    strength: Cow<'a, StrengthScale>,
+    loads: Cow<'a, [Perturbation]>,
+    world: WorldParams,
+    helps: bool,
+    found_ms: u64,
+    motion: Cow<'a, RehearsedMotion>,
+}
+
+/// This version.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
 impl Rehearsed {
+    /// As it is stored.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let p = &self.performer;
+        postcard::to_stdvec(&Stored {
+            version: VERSION.into(),
+            profile: p.body.profile,
+            links: Cow::Borrowed(&p.links),
+            strength: Cow::Borrowed(&p.strength),
+            loads: Cow::Borrowed(&p.loads),
+            world: p.world,
+            helps: self.helps,
+            found_ms: self.found_ms,
+            motion: Cow::Borrowed(&self.motion),
+        })
+        .expect("values in memory can be written")
+    }
+
+    /// What was stored.
+    ///
+    /// # Errors
+    /// It cannot have been written, or another version has found it.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Fault> {
+        let cannot = |why: &str| Fault::Internal(format!("a rehearsal that cannot be used: {why}"));
+        // It stands first: what follows is of that version.
+        let (version, _): (Cow<'_, str>, _) =
+            postcard::take_from_bytes(bytes).map_err(|e| cannot(&e.to_string()))?;
+        if version != VERSION {
+            return Err(cannot(&format!("version {version:.20} has found it")));
+        }
+        let stored: Stored<'_> = postcard::from_bytes(bytes).map_err(|e| cannot(&e.to_string()))?;
+        if !(stored.links.is_valid() && stored.motion.is_valid()) {
+            return Err(cannot("no rehearsal is like that"));
+        }
+        Ok(Self {
+            performer: Performer {
+                body: Arc::new(engine::build_body(stored.profile)?),
+                links: stored.links.into_owned(),
+                strength: stored.strength.into_owned(),
+                loads: stored.loads.into_owned(),
+                world: stored.world,
+            },
+            helps: stored.helps,
+            motion: Arc::new(stored.motion.into_owned()),
+            found_ms: stored.found_ms,
+        })
+    }
+
+    /// A short name of whom it is for, the same for all that are alike ([`Performer::is_like`]).
+    pub fn figure(&self) -> String {
+        let p = &self.performer;
+        let like = (&p.body.profile, &p.links, &p.strength, p.decisive());
+        let bytes = postcard::to_stdvec(&like).expect("values in memory can be written");
+        hex::encode(&Sha256::digest(bytes)[..8])
+    }
+
     /// Bytes in memory, near enough.
     pub fn bytes(&self) -> u64 {
         let m = &self.motion;
@@ -124,6 +208,8 @@ pub struct Score {
     pub id: String,
     /// What it was made of; `None`: it comes with the server.
     pub source: Option<MotionSource>,
+    /// Which of all that have had this name it is.
+    pub number: u64,
 }
 
 impl Score {
@@ -214,6 +300,9 @@ pub fn rehearse(
         performer: performer.clone(),
         helps: info.way == FollowWay::Helped,
         motion,
+        found_ms: SystemTime::now()
+            .duration_since(UNIX_EPOCH)
+            .map_or(0, |d| d.as_millis() as u64),
     });
     Ok((info, rehearsed))
 }

@@ -22,6 +22,7 @@ mod pages;
 #[path = "../common/raw.rs"]
 mod raw;
 mod reasons;
+mod rehearsals;
 mod sharing;
 mod strength;
 mod support;

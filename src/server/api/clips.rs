@@ -5,7 +5,7 @@ use crate::server::access::caller::Caller;
 use crate::server::access::roles::{Role, Roles};
 use crate::server::library::NewClip;
 use crate::server::progress::Progress;
-use crate::server::rehearsals::{self, Rehearsed, Score};
+use crate::server::rehearsals::{self, Rehearsed};
 use crate::server::shares::Client;
 use crate::server::tick::command::Origin;
 use crate::server::workers::Turn;
@@ -128,21 +128,36 @@ pub(super) async fn rehearse(
         progress.tell(0.0, 1.0);
         let begun = Instant::now();
         let stop = || turn.stop();
-        let source = app.clips.source(&id)?;
-        let score = Score { id, source };
+        let score = app.clips.score(&id)?;
         let mut go_on = |share: f64| {
             progress.tell(share, 1.0);
             begun.elapsed() < budget && !turn.stop()
         };
         let (info, found) = rehearsals::rehearse(&score, &performer, settings, &stop, &mut go_on)?;
-        if let Some(found) = found {
-            app.clips.keep_rehearsed(&score.id, found)?;
-        }
-        Ok(pb::RehearseClipResponse {
-            rehearsal: Some(motion::rehearsal_out(&info)),
-        })
+        let kept = match found.map(Arc::new) {
+            Some(found) => {
+                let gone = app.clips.keep_rehearsed(&score, &found)?;
+                Some((score, found, gone))
+            }
+            None => None,
+        };
+        Ok((info, kept))
     };
-    api.simulations.run(&client, work).await
+    let (info, kept) = api.simulations.run(&client, work).await?;
+    if let (Some(persistence), Some((score, found, gone))) = (&api.persistence, kept) {
+        let written = persistence.rehearsed(&score.id, &found, &gone).await;
+        if let Err(fault) = written {
+            api.clips.forget_rehearsed(&score.id, &found);
+            return Err(fault);
+        }
+        // Deleted meanwhile: another clip of that name is not to have it.
+        if !api.clips.holds(&score) {
+            persistence.forget_rehearsal(&score.id, &found).await?;
+        }
+    }
+    Ok(pb::RehearseClipResponse {
+        rehearsal: Some(motion::rehearsal_out(&info)),
+    })
 }
 
 /// The rehearsals of a clip that may be played at this speed.

@@ -8,8 +8,8 @@ use super::files::{self, Packed, Unpacked};
 use super::log::Log;
 use super::marks::Marks;
 use super::store::{
-    CheckpointStore, ClipRecord, Durability, Entry, Found, History, Loss, Retention, StoreError,
-    Usage, WorldKey, WorldRecord,
+    CheckpointStore, ClipRecord, Durability, Entry, Found, History, Loss, RehearsalRecord,
+    Retention, StoreError, Usage, WorldKey, WorldRecord,
 };
 use bytes::Bytes;
 use sha2::{Digest, Sha256};
@@ -33,6 +33,7 @@ const WORLD: u8 = b'W';
 const STATE: u8 = b'S';
 const CLIP: u8 = b'C';
 const CONTENT: u8 = b'M';
+const REHEARSAL: u8 = b'R';
 const END: u8 = b'E';
 
 /// Extension of the file of a world that is being deleted.
@@ -127,7 +128,7 @@ impl LocalStore {
         if dir.exists() && !dir.is_dir() {
             return Err(unusable("data_dir must be a directory".to_owned()));
         }
-        for sub in ["", "worlds", "clips", "contents"] {
+        for sub in ["", "worlds", "clips", "contents", "rehearsals"] {
             std::fs::create_dir_all(dir.join(sub))
                 .map_err(|e| unusable(format!("the directory cannot be made: {e}")))?;
         }
@@ -188,9 +189,43 @@ impl LocalStore {
     }
 
     fn clip_path(&self, name: &str) -> PathBuf {
-        // Names are as long as clients like, and of their letters.
-        let name = hex::encode(&Sha256::digest(name)[..16]);
-        self.dir.join("clips").join(format!("{name}.clip"))
+        let file = format!("{}.clip", file_name(name));
+        self.dir.join("clips").join(file)
+    }
+
+    fn rehearsal_path(&self, clip: &str, figure: &str) -> PathBuf {
+        let file = format!("{}-{}.rehearsal", file_name(clip), file_name(figure));
+        self.dir.join("rehearsals").join(file)
+    }
+
+    fn read_rehearsal(path: &Path) -> Result<RehearsalRecord, StoreError> {
+        let bytes = files::read(path, REHEARSAL, FORMAT).map_err(|e| match e {
+            StoreError::Damaged(why) => {
+                StoreError::Damaged(format!("{why}: a clip has to be rehearsed again"))
+            }
+            other => other,
+        })?;
+        let mut fields = Unpacked(&bytes);
+        (|| {
+            Some(RehearsalRecord {
+                clip: fields.text()?.to_owned(),
+                figure: fields.text()?.to_owned(),
+                content: Bytes::copy_from_slice(fields.bytes()?),
+            })
+        })()
+        .ok_or_else(|| StoreError::Damaged(format!("{}: fields are missing", path.display())))
+    }
+
+    /// Forgets the rehearsals of a clip, damaged ones too.
+    fn delete_rehearsals(&self, clip: &str) -> Result<(), StoreError> {
+        let of_clip = format!("{}-", file_name(clip));
+        for path in files::list(&self.dir.join("rehearsals"), "rehearsal")? {
+            let name = path.file_name().and_then(|n| n.to_str());
+            if name.is_some_and(|n| n.starts_with(&of_clip)) {
+                files::remove(&path)?;
+            }
+        }
+        Ok(())
     }
 
     fn content_path(&self, hash: &[u8]) -> PathBuf {
@@ -344,6 +379,11 @@ impl LocalStore {
         }
         Ok(used)
     }
+}
+
+/// What the file of something is called: names are as long as clients like, and of their letters.
+fn file_name(name: &str) -> String {
+    hex::encode(&Sha256::digest(name)[..16])
 }
 
 fn found<T>(
@@ -536,6 +576,7 @@ impl CheckpointStore for LocalStore {
     }
 
     fn put_clip(&mut self, clip: &ClipRecord) -> Result<(), StoreError> {
+        self.delete_rehearsals(&clip.name)?;
         let hash = Sha256::digest(&clip.content);
         let content = self.content_path(&hash);
         // What is there may be damaged: it is not taken for the same.
@@ -554,7 +595,26 @@ impl CheckpointStore for LocalStore {
         files::write(&self.clip_path(&clip.name), CLIP, FORMAT, &packed.0)
     }
 
+    fn rehearsals(&mut self) -> Result<Found<RehearsalRecord>, StoreError> {
+        let paths = files::list(&self.dir.join("rehearsals"), "rehearsal")?;
+        found(paths, Self::read_rehearsal)
+    }
+
+    fn put_rehearsal(&mut self, r: &RehearsalRecord) -> Result<(), StoreError> {
+        let packed = Packed::default()
+            .bytes(r.clip.as_bytes())
+            .bytes(r.figure.as_bytes())
+            .bytes(&r.content);
+        let path = self.rehearsal_path(&r.clip, &r.figure);
+        files::write(&path, REHEARSAL, FORMAT, &packed.0)
+    }
+
+    fn delete_rehearsal(&mut self, clip: &str, figure: &str) -> Result<(), StoreError> {
+        files::remove(&self.rehearsal_path(clip, figure))
+    }
+
     fn delete_clip(&mut self, name: &str) -> Result<(), StoreError> {
+        self.delete_rehearsals(name)?;
         files::remove(&self.clip_path(name))?;
         // With a clip that cannot be read it is not known what the others need.
         let Ok(used) = self.contents() else {

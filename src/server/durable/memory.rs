@@ -2,8 +2,8 @@
 //! fail.
 
 use super::store::{
-    CheckpointStore, ClipRecord, Entry, Found, History, Item, Logged, Loss, Retention, StoreError,
-    Usage, WorldKey, WorldRecord,
+    CheckpointStore, ClipRecord, Entry, Found, History, Item, Logged, Loss, RehearsalRecord,
+    Retention, StoreError, Usage, WorldKey, WorldRecord,
 };
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -17,6 +17,7 @@ pub struct Disk(Arc<Mutex<Content>>);
 struct Content {
     worlds: BTreeMap<WorldKey, WorldRecord>,
     clips: BTreeMap<String, ClipRecord>,
+    rehearsals: BTreeMap<(String, String), RehearsalRecord>,
     log: Vec<Entry>,
     fault: Option<StoreError>,
     commit_time: Duration,
@@ -173,14 +174,35 @@ impl CheckpointStore for MemoryStore {
     }
 
     fn put_clip(&mut self, clip: &ClipRecord) -> Result<(), StoreError> {
-        self.writable()?
-            .clips
-            .insert(clip.name.clone(), clip.clone());
+        let mut content = self.writable()?;
+        content.clips.insert(clip.name.clone(), clip.clone());
+        content.rehearsals.retain(|(c, _), _| *c != clip.name);
         Ok(())
     }
 
     fn delete_clip(&mut self, name: &str) -> Result<(), StoreError> {
-        self.writable()?.clips.remove(name);
+        let mut content = self.writable()?;
+        content.clips.remove(name);
+        content.rehearsals.retain(|(clip, _), _| clip != name);
+        Ok(())
+    }
+
+    fn rehearsals(&mut self) -> Result<Found<RehearsalRecord>, StoreError> {
+        Ok(Found {
+            whole: self.0.content().rehearsals.values().cloned().collect(),
+            damaged: Vec::new(),
+        })
+    }
+
+    fn put_rehearsal(&mut self, r: &RehearsalRecord) -> Result<(), StoreError> {
+        let key = (r.clip.clone(), r.figure.clone());
+        self.writable()?.rehearsals.insert(key, r.clone());
+        Ok(())
+    }
+
+    fn delete_rehearsal(&mut self, clip: &str, figure: &str) -> Result<(), StoreError> {
+        let key = (clip.to_owned(), figure.to_owned());
+        self.writable()?.rehearsals.remove(&key);
         Ok(())
     }
 

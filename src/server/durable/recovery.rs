@@ -2,7 +2,9 @@
 //! is named, and what crashed the process twice stays out.
 
 use super::local::LocalStore;
-use super::store::{CheckpointStore, ClipRecord, History, StoreError, WorldRecord};
+use super::store::{
+    CheckpointStore, ClipRecord, History, RehearsalRecord, StoreError, WorldRecord,
+};
 
 /// What was found.
 #[derive(Debug, Default)]
@@ -13,6 +15,8 @@ pub struct Recovered {
     pub quarantined: Vec<WorldRecord>,
     /// Clips.
     pub clips: Vec<ClipRecord>,
+    /// What they were rehearsed for.
+    pub rehearsals: Vec<RehearsalRecord>,
     /// What is damaged and could not be read at all.
     pub damaged: Vec<String>,
 }
@@ -53,5 +57,8 @@ pub fn recover(store: &mut LocalStore, release: &[&str]) -> Result<Recovered, St
     let clips = store.clips()?;
     out.damaged.extend(clips.damaged);
     out.clips = clips.whole;
+    let rehearsals = store.rehearsals()?;
+    out.damaged.extend(rehearsals.damaged);
+    out.rehearsals = rehearsals.whole;
     Ok(out)
 }

@@ -81,6 +81,17 @@ pub struct ClipRecord {
     pub content: Bytes,
 }
 
+/// A clip rehearsed for a figure.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RehearsalRecord {
+    /// Name of the clip.
+    pub clip: String,
+    /// Whom for, as a short name of letters and digits: one clip has one rehearsal of each.
+    pub figure: String,
+    /// It, in the encoding of who stores it.
+    pub content: Bytes,
+}
+
 /// What is written of a world.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Item {
@@ -338,17 +349,35 @@ pub trait CheckpointStore: Send {
     /// The directory cannot be read.
     fn clips(&mut self) -> Result<Found<ClipRecord>, StoreError>;
 
-    /// Writes a clip.
+    /// Writes a clip, which has no rehearsals then.
     ///
     /// # Errors
     /// It could not be written.
     fn put_clip(&mut self, clip: &ClipRecord) -> Result<(), StoreError>;
 
-    /// Forgets a clip.
+    /// Forgets a clip and its rehearsals.
     ///
     /// # Errors
     /// It could not be done.
     fn delete_clip(&mut self, name: &str) -> Result<(), StoreError>;
+
+    /// All rehearsals.
+    ///
+    /// # Errors
+    /// The directory cannot be read.
+    fn rehearsals(&mut self) -> Result<Found<RehearsalRecord>, StoreError>;
+
+    /// Writes a rehearsal, in place of one of the same clip for the same figure.
+    ///
+    /// # Errors
+    /// It could not be written.
+    fn put_rehearsal(&mut self, rehearsal: &RehearsalRecord) -> Result<(), StoreError>;
+
+    /// Forgets a rehearsal.
+    ///
+    /// # Errors
+    /// It could not be done.
+    fn delete_rehearsal(&mut self, clip: &str, figure: &str) -> Result<(), StoreError>;
 
     /// Notes that this end is orderly. Nothing is written afterwards.
     ///

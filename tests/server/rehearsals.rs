@@ -1,0 +1,203 @@
+//! Goal: what a clip was rehearsed for is played by a figure like that, seen in its frames, and outlives the server
+//! that stores it. Method: a body that slides on its soles as nobody can without help; short, so that help is found
+//! soon; then the directory is damaged.
+
+use crate::support::TestServer;
+use sinew::sim::body::Body;
+use sinew::sim::motion::builtin::at_ease;
+use sinew::wire::convert::motion::figure_motion;
+use sinew::wire::frame::values;
+use sinew::wire::pb;
+use std::path::{Path, PathBuf};
+
+const FIGURE: &str = "worlds/w/figures/a";
+/// Frames of the clip, 60 per second.
+const FRAMES: i64 = 40;
+/// Those in which it would come to a stand: it ends before, in motion.
+const MOVES: f64 = 50.0;
+/// Ticks in which it is over.
+const TICKS: usize = 240;
+/// Largest help, in weights.
+const HELP: f64 = 2.0;
+/// Paths closer than this are one, and those farther apart are two, m.
+const SAME: f64 = 1e-3;
+const OTHER: f64 = 0.05;
+/// Bit of `status.flags`.
+const FALLEN: i32 = 1 << 6;
+
+/// A body at ease that slides forward faster than it could walk, from a stand on.
+fn slide(id: &str) -> pb::CreateClipRequest {
+    let body = Body::adult_man();
+    let frame = |i: i64| {
+        let mut posture = at_ease(&body);
+        let u = (i as f64 / MOVES).min(1.0);
+        posture.root_position.x += 1.35 * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        let mut motion = figure_motion("", &posture, &[0.0; 45], None);
+        motion.velocity.clear();
+        motion
+    };
+    pb::CreateClipRequest {
+        clip_id: id.into(),
+        source: Some(pb::create_clip_request::Source::Frames(pb::FrameSource {
+            rate_hz: 60.0,
+            frames: (0..FRAMES).map(frame).collect(),
+        })),
+        follow: pb::Follow::Assisted.into(),
+        max_help_weights: Some(HELP),
+        ..Default::default()
+    }
+}
+
+/// A server with a world that stands still and a figure in it.
+async fn start(settings: &[(&str, &str)]) -> TestServer {
+    let server = TestServer::with(settings).await;
+    server.app.restore().await;
+    server
+}
+
+/// Rehearses a clip until something is found: how much time that takes depends on what else the machine does.
+async fn rehearse(server: &TestServer, clip: &str) -> pb::Rehearsal {
+    for seconds in [10, 20, 40] {
+        let found = rehearse_for(server, clip, seconds).await;
+        if found.way() != pb::FollowWay::Lost {
+            return found;
+        }
+    }
+    rehearse_for(server, clip, 80).await
+}
+
+async fn rehearse_for(server: &TestServer, clip: &str, seconds: i64) -> pb::Rehearsal {
+    let request = pb::RehearseClipRequest {
+        clip: format!("clips/{clip}"),
+        figure: FIGURE.into(),
+        budget: Some(prost_types::Duration { seconds, nanos: 0 }),
+        ..Default::default()
+    };
+    let done = server.client.motions().rehearse_clip(request).await;
+    done.unwrap().into_inner().rehearsal.unwrap()
+}
+
+/// A clip as it was played.
+#[derive(Clone, Debug)]
+struct Played {
+    /// Pose of the pelvis after each tick.
+    path: Vec<f64>,
+    /// What helped it most, N·m or N.
+    help: f64,
+    fallen: bool,
+}
+
+impl Played {
+    /// How far it is from another one at most within the first ticks, m or parts of a quaternion.
+    fn off(&self, other: &Self, ticks: usize) -> f64 {
+        let pairs = self.path.iter().zip(&other.path).take(7 * ticks);
+        pairs.fold(0.0, |m, (a, b)| m.max((a - b).abs()))
+    }
+
+    /// True if it is the same. What falls makes much of how the time of the world is rounded, so it is not compared to
+    /// its end.
+    fn is(&self, other: &Self) -> bool {
+        self.off(other, 100) < SAME
+    }
+}
+
+/// Plays a clip from the same stand each time.
+async fn played(server: &TestServer, clip: &str, follow: pb::Follow) -> Played {
+    let reset = pb::ResetFigureRequest {
+        name: FIGURE.into(),
+        ..Default::default()
+    };
+    server.client.figures().reset_figure(reset).await.unwrap();
+    let request = pb::PlayClipRequest {
+        figure: FIGURE.into(),
+        clip: format!("clips/{clip}"),
+        follow: follow.into(),
+        ..Default::default()
+    };
+    server.client.motions().play_clip(request).await.unwrap();
+    let mut out = Played {
+        path: Vec::new(),
+        help: 0.0,
+        fallen: false,
+    };
+    for _ in 0..TICKS {
+        server.step("worlds/w", 1).await;
+        let fields = ["root_pose", "assist", "status"];
+        let frame = server.frame("worlds/w", &fields).await;
+        let f = &frame.figures[0];
+        out.path.extend(values(f.root_pose.as_ref().unwrap()));
+        let help = values(f.assist.as_ref().unwrap());
+        out.help = help.iter().fold(out.help, |m, x| m.max(x.abs()));
+        out.fallen |= f.status.as_ref().unwrap().flags & FALLEN != 0;
+    }
+    out
+}
+
+/// The files of rehearsals in a data directory.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let all = std::fs::read_dir(folder.join("rehearsals")).unwrap();
+    all.map(|f| f.unwrap().path()).collect()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_figure_does_what_was_rehearsed_for_it_also_after_a_restart() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rehearsals");
+    let _ = std::fs::remove_dir_all(&folder); // of an earlier run
+    let settings = [("data_dir", folder.to_str().unwrap())];
+    let first = start(&settings).await;
+    first.paused_world("w").await;
+    first.figure("worlds/w", "a").await;
+    let made = first.client.motions().create_clip(slide("slide")).await;
+    made.unwrap();
+    let plain = played(&first, "slide", pb::Follow::Assisted).await;
+    let found = rehearse(&first, "slide").await;
+    let way = found.way();
+    assert!(
+        matches!(way, pb::FollowWay::Helped | pb::FollowWay::Rehearsed),
+        "{found:?}"
+    );
+    assert!(found.reason.starts_with("plain tracking loses it"));
+    assert!(found.help_peak_newtons <= HELP * 900.0);
+
+    // It does as it was rehearsed, which frames show where it is helped, and as before where that is not asked for.
+    let helped = way == pb::FollowWay::Helped;
+    let follows = played(&first, "slide", pb::Follow::Assisted).await;
+    let off = follows.off(&plain, TICKS);
+    assert!(off > OTHER, "{off}");
+    assert_eq!(helped, follows.help > 20.0, "{}", follows.help);
+    let strict = played(&first, "slide", pb::Follow::Strict).await;
+    assert!(strict.is(&plain) && strict.help == 0.0);
+    let strong = played(&first, "slide", pb::Follow::Rehearsed).await;
+    assert!(strong.is(if helped { &plain } else { &follows }));
+    assert_eq!(files(&folder).len(), 1);
+    first.stop().await;
+
+    let second = start(&settings).await;
+    let again = played(&second, "slide", pb::Follow::Assisted).await;
+    assert!(again.is(&follows), "{}", again.off(&follows, 100));
+    assert_eq!(again.fallen, follows.fallen);
+    second.stop().await;
+
+    // A damaged one is left out. The clip is there, and can be rehearsed again, which mends the file.
+    let file = files(&folder).remove(0);
+    let mut bytes = std::fs::read(&file).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 4;
+    std::fs::write(&file, &bytes).unwrap();
+    let third = start(&settings).await;
+    let without = played(&third, "slide", pb::Follow::Assisted).await;
+    assert!(without.is(&plain));
+    rehearse(&third, "slide").await;
+    let again = played(&third, "slide", pb::Follow::Assisted).await;
+    assert!(again.off(&plain, TICKS) > OTHER);
+    assert_eq!(files(&folder), [file]);
+
+    // They go with their clip, and another one of its name has none.
+    let delete = pb::DeleteClipRequest {
+        name: "clips/slide".into(),
+        ..Default::default()
+    };
+    third.client.motions().delete_clip(delete).await.unwrap();
+    assert!(files(&folder).is_empty());
+    third.stop().await;
+}
