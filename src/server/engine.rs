@@ -547,12 +547,13 @@ pub fn provenance(body: &Body) -> Vec<(&'static str, Provenance)> {
 }
 
 /// Names of the controllers and steppers that work in this build.
-pub const CAPABILITIES: [&str; 5] = [
+pub const CAPABILITIES: [&str; 6] = [
     "CONTROLLER_PAPER",
     "CONTROLLER_MODERN",
     "CONTROLLER_MOTORS",
     "STEPPER_TORQUE",
     "STEPPER_KINEMATIC",
+    "STEPPER_STAGED",
 ];
 
 /// Adds a figure, standing still at its place.

@@ -140,6 +140,66 @@ async fn a_world_goes_back_and_two_futures_part_by_what_is_done_to_them() {
     server.stop().await;
 }
 
+/// A figure with the paper's collisions walks into a box; a fork in the middle of that goes on bit for bit.
+#[tokio::test(flavor = "multi_thread")]
+async fn collisions_in_stages_are_forked_as_well() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    let request = pb::CreateFigureRequest {
+        parent: world.clone(),
+        figure_id: "a".into(),
+        figure: Some(pb::Figure {
+            controller: pb::Controller::Paper.into(),
+            stepper: pb::Stepper::Staged.into(),
+            ..Default::default()
+        }),
+        ..Default::default()
+    };
+    let made = server.client.figures().create_figure(request).await;
+    let made = made.unwrap().into_inner().figure.unwrap();
+    assert_eq!(made.stepper(), pb::Stepper::Staged);
+    let vector = |x, y, z| Some(pb::Vector3 { x, y, z });
+    let wall = pb::Obstacle {
+        shape: Some(pb::obstacle::Shape::Box(pb::BoxShape {
+            half_m: vector(0.1, 1.0, 1.0),
+        })),
+        pose: Some(pb::Pose {
+            position_m: vector(0.55, 0.0, 1.0),
+            ..Default::default()
+        }),
+        ..Default::default()
+    };
+    let request = pb::CreateObstacleRequest {
+        parent: world.clone(),
+        obstacle_id: "wall".into(),
+        obstacle: Some(wall),
+        ..Default::default()
+    };
+    let added = server.client.obstacles().create_obstacle(request).await;
+    added.unwrap();
+    server
+        .play(&format!("{world}/figures/a"), "clips/lift", true)
+        .await;
+    let mut touched = 0;
+    for _ in 0..150 {
+        server.step(&world, 1).await;
+        let frame = server.frame(&world, &["touches"]).await;
+        let touches = frame.figures[0].touches.as_ref();
+        touched += usize::from(touches.is_some_and(|t| !t.segment.is_empty()));
+        if touched == 5 {
+            break;
+        }
+    }
+    assert_eq!(touched, 5, "the figure meets the wall");
+    server
+        .fork("same", From::World(world.clone()))
+        .await
+        .unwrap();
+    let future = server.hashes(&world, 40).await;
+    assert_eq!(server.hashes("worlds/same", 40).await, future);
+    server.stop().await;
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn viewers_see_the_jump_and_drivers_are_told() {
     let server = TestServer::start().await;

@@ -474,6 +474,7 @@ export class Panel {
     const steppers: [Stepper, string, string][] = [
       [Stepper.TORQUE, "torque", "STEPPER_TORQUE"],
       [Stepper.KINEMATIC, "kinematic", "STEPPER_KINEMATIC"],
+      [Stepper.STAGED, "staged", "STEPPER_STAGED"],
     ];
     fill(
       this.stepper,

@@ -61,7 +61,7 @@ export function cast(p: Person): Cast {
     clip: id(p.clip),
     x: rounded(f.placement?.xM ?? 0),
     y: rounded(f.placement?.yM ?? 0),
-    stepper: f.stepper === Stepper.KINEMATIC ? "kinematic" : "",
+    stepper: f.stepper === Stepper.KINEMATIC ? "kinematic" : f.stepper === Stepper.STAGED ? "staged" : "",
     assist: rounded(f.assist),
     preset: f.paper?.preset === PaperPreset.PAPER_PRESET_2000 ? "2000" : "",
     fatigue: rounded(f.fatigueTimeScale),
@@ -148,7 +148,7 @@ function controllerOf(word: string): Controller {
 
 /** Stepper of a word of an address; the default when it is none. */
 function stepperOf(word: string): Stepper {
-  return word === "kinematic" ? Stepper.KINEMATIC : Stepper.UNSPECIFIED;
+  return word === "kinematic" ? Stepper.KINEMATIC : word === "staged" ? Stepper.STAGED : Stepper.UNSPECIFIED;
 }
 
 /** The settings of a figure of an address, as a server takes them. */

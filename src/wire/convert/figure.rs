@@ -33,6 +33,7 @@ pub fn stepper(field: &str, value: i32) -> Result<StepperKind, Fault> {
     match pb::Stepper::try_from(value) {
         Ok(pb::Stepper::Unspecified | pb::Stepper::Torque) => Ok(StepperKind::Torque),
         Ok(pb::Stepper::Kinematic) => Ok(StepperKind::Kinematic),
+        Ok(pb::Stepper::Staged) => Ok(StepperKind::Staged),
         Err(_) => Err(Fault::invalid(field, format!("{value} is not a stepper"))),
     }
 }
@@ -277,8 +278,8 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         .into(),
         stepper: match s.stepper {
             StepperKind::Torque => pb::Stepper::Torque,
-            // The contract knows one stepper of accelerations; clients cannot ask for the other.
-            StepperKind::Kinematic | StepperKind::Staged => pb::Stepper::Kinematic,
+            StepperKind::Kinematic => pb::Stepper::Kinematic,
+            StepperKind::Staged => pb::Stepper::Staged,
         }
         .into(),
         placement: Some(place_out(s.place)),

@@ -6153,6 +6153,10 @@ pub enum Stepper {
     Torque = 1,
     /// Accelerations are applied as they are; torques take over while that cannot go on (frame flag HANDED_OVER).
     Kinematic = 2,
+    /// The same, with the collisions of the paper's section 3: an impact changes velocities by a linear system over both
+    /// bodies, then angles are corrected until nothing overlaps. Such contacts have no friction. It holds between figures
+    /// that are all moved so, and with obstacles that do not move freely; anything else meets as with STEPPER_KINEMATIC.
+    Staged = 3,
 }
 impl Stepper {
     /// String value of the enum field names used in the ProtoBuf definition.
@@ -6164,6 +6168,7 @@ impl Stepper {
             Self::Unspecified => "STEPPER_UNSPECIFIED",
             Self::Torque => "STEPPER_TORQUE",
             Self::Kinematic => "STEPPER_KINEMATIC",
+            Self::Staged => "STEPPER_STAGED",
         }
     }
     /// Creates an enum from field names used in the ProtoBuf definition.
@@ -6172,6 +6177,7 @@ impl Stepper {
             "STEPPER_UNSPECIFIED" => Some(Self::Unspecified),
             "STEPPER_TORQUE" => Some(Self::Torque),
             "STEPPER_KINEMATIC" => Some(Self::Kinematic),
+            "STEPPER_STAGED" => Some(Self::Staged),
             _ => None,
         }
     }

@@ -33,7 +33,7 @@ Vector: TypeAlias = Sequence[float]
 """Three numbers x, y, z: forward, left, up. In world axes unless it is said otherwise."""
 Controller: TypeAlias = Literal["modern", "paper", "motors"]
 """Controllers: what computes the torques."""
-Stepper: TypeAlias = Literal["torque", "kinematic"]
+Stepper: TypeAlias = Literal["torque", "kinematic", "staged"]
 """How a figure is moved: by its torques, or by its accelerations as they are demanded."""
 Encoding: TypeAlias = Literal["float", "double", "fixed16"]
 """How numbers of frames travel: 32 bits, 64 bits, or 16 bits with a scale per array."""

@@ -62,6 +62,11 @@ class _StepperEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Stepper.Value
     """Joint torques drive rigid-body dynamics with ground contact."""
     STEPPER_KINEMATIC: _Stepper.ValueType  # 2
     """Accelerations are applied as they are; torques take over while that cannot go on (frame flag HANDED_OVER)."""
+    STEPPER_STAGED: _Stepper.ValueType  # 3
+    """The same, with the collisions of the paper's section 3: an impact changes velocities by a linear system over both
+    bodies, then angles are corrected until nothing overlaps. Such contacts have no friction. It holds between figures
+    that are all moved so, and with obstacles that do not move freely; anything else meets as with STEPPER_KINEMATIC.
+    """
 
 class Stepper(_Stepper, metaclass=_StepperEnumTypeWrapper):
     """Stepper: moves the body."""
@@ -72,6 +77,11 @@ STEPPER_TORQUE: Stepper.ValueType  # 1
 """Joint torques drive rigid-body dynamics with ground contact."""
 STEPPER_KINEMATIC: Stepper.ValueType  # 2
 """Accelerations are applied as they are; torques take over while that cannot go on (frame flag HANDED_OVER)."""
+STEPPER_STAGED: Stepper.ValueType  # 3
+"""The same, with the collisions of the paper's section 3: an impact changes velocities by a linear system over both
+bodies, then angles are corrected until nothing overlaps. Such contacts have no friction. It holds between figures
+that are all moved so, and with obstacles that do not move freely; anything else meets as with STEPPER_KINEMATIC.
+"""
 Global___Stepper: _TypeAlias = Stepper  # noqa: Y015
 
 class _PaperPreset:
