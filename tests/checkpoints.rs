@@ -406,6 +406,29 @@ fn a_figure_gets_up() {
     goes_on_bit_for_bit(Scenario::new("getting up", scene.world, 900, 41));
 }
 
+#[test]
+fn a_figure_is_carried() {
+    let body = man();
+    let helped = || {
+        let mut world = world(1);
+        let mut setup = figure(&body, ControllerKind::Modern, still(bent(&body, 0.1)));
+        setup.options.max_help = 0.3;
+        let key = world.add_figure(setup).unwrap();
+        world
+            .perturb(key, push(vec3(900.0, 0.0, 0.0), 0.5))
+            .unwrap();
+        world
+    };
+    let mut seen = helped();
+    let mut carried = false;
+    for _ in 0..240 {
+        seen.step();
+        carried |= of_figure(&mut seen).is_carried();
+    }
+    assert!(carried, "the scene is one of help");
+    goes_on_bit_for_bit(Scenario::new("carried", helped(), 240, 13));
+}
+
 /// Carries, is pushed, tired and helped, meets things, and has constraints that come and go.
 fn things() -> Scenario {
     let body = man();
@@ -415,6 +438,7 @@ fn things() -> Scenario {
     setup.options = FigureOptions {
         fatigue_time_scale: 30.0,
         assist: 0.3,
+        max_help: 0.0,
     };
     let key = world.add_figure(setup).unwrap();
     let point = vec3(0.0, 0.0, -0.08);

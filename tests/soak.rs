@@ -115,6 +115,7 @@ impl Chaos {
                 0.0
             },
             assist: if self.often(0.2) { self.size(1.0) } else { 0.0 },
+            max_help: if self.often(0.3) { self.size(1.0) } else { 0.0 },
         };
         world.add_figure(setup).unwrap()
     }

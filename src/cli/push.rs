@@ -40,6 +40,9 @@ pub struct Args {
     /// Body of the figure if it is created: one of these, or a profile such as female-25y-1680mm-61500g
     #[arg(long, value_name = "NAME", default_value = DEFAULT_BODY, value_parser = BodyNameParser)]
     body: Profile,
+    /// Most help while its motion is being lost, of the figure if it is created: force over the weight, 0 to 2
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    max_help: f64,
     /// Repeat until interrupted
     #[arg(long = "loop")]
     looped: bool,
@@ -180,6 +183,7 @@ async fn push(args: &Args) -> anyhow::Result<()> {
                 figure: Some(pb::Figure {
                     body: body_name.clone(),
                     placement: Some(convert::place_out(start)),
+                    max_help_weights: args.max_help,
                     ..Default::default()
                 }),
                 ..Default::default()

@@ -9,11 +9,11 @@ use super::source::{load, warn};
 use super::terminal::print;
 use crate::evaluate::Tick;
 use crate::evaluate::follow::{
-    Follow, Found, MOST_HELP, RehearsalOptions, RehearsalReport, Way, follow,
+    Follow, Found, MOST_HELP, RehearsalOptions, RehearsalReport, follow,
 };
 use crate::evaluate::forecast::{Forecast, forecast};
 use crate::evaluate::strip::{Drawing, Frame, StripOptions, draw, evenly_spaced, raster};
-use crate::evaluate::survey::{Conditions, Outcome, Reference, RehearsedRun, watched};
+use crate::evaluate::survey::{Conditions, Outcome, Reference, watched};
 use crate::sim::body::Body;
 use crate::sim::figure::{FigureOptions, StrengthScale};
 use crate::sim::motion::{Clip, write_bvh};
@@ -172,21 +172,16 @@ pub fn run(args: &RehearseArgs) -> Result<()> {
     let took = processor_time()
         .zip(before)
         .map(|(a, b)| (a - b).as_secs_f64());
-    let played = Conditions {
-        rehearsed: found.motion.as_ref().map(|m| RehearsedRun {
-            motion: Arc::clone(m),
-            from: m.start(),
-        }),
-        ..conditions.clone()
-    };
+    let played = found.conditions(&conditions);
+    let reference = found.reference(&forms.reference);
     if let Some(path) = &args.strip {
         let frames = args.strip_frames;
         let title = |what: &str| format!("{name}: {what}, strength {}", args.strength);
         let rows = [
-            (&conditions, title("plain tracking")),
-            (&played, title(found.followed.way.name())),
+            (&conditions, &forms.reference, title("plain tracking")),
+            (&played, &reference, title(found.followed.way.name())),
         ];
-        let drawn = rows.map(|(c, title)| row(c, &forms.reference, args.view, frames, title));
+        let drawn = rows.map(|(c, r, title)| row(c, r, args.view, frames, title));
         let [above, below] = drawn;
         let drawing = above?.above(below?);
         let png =
@@ -195,9 +190,7 @@ pub fn run(args: &RehearseArgs) -> Result<()> {
     }
     if let Some(path) = &args.out {
         let mut postures = Vec::new();
-        watched(&played, &forms.reference, |f, _| {
-            postures.push(f.state().posture)
-        })?;
+        watched(&played, &reference, |f, _| postures.push(f.state().posture))?;
         write(path, write_bvh(&body, &postures, args.rate))?;
     }
     let text = if args.json {
@@ -419,7 +412,7 @@ fn text(name: &str, found: &Found, took: Option<f64>) -> String {
     };
     let mut out = format!("{name}: {}\n", found.followed.way.name());
     out += &line("tracking", &found.tracked);
-    if found.followed.way != Way::Tracked && found.motion.is_some() {
+    if found.motion.is_some() || found.helped.is_some() {
         out += &line("as played", &found.outcome);
     }
     if let Some(r) = &found.followed.rehearsal {

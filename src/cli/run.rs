@@ -74,6 +74,14 @@ pub struct RunArgs {
     /// Assist: external wrench towards the target pose of the pelvis, 0 (off) to 1; not physical, reported as assist_*.
     #[arg(long, value_name = "A", default_value_t = 0.0)]
     pub assist: f64,
+    /// Help while the motion is being lost: largest force over the weight, 0 (none) to 2; reported as assist_*.
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value_t = 0.0,
+        conflicts_with = "assist"
+    )]
+    pub max_help: f64,
     /// Load held by one or two segments; for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable). With
     /// 3@r_hand+auto the other hand helps while one arm is too weak for it; with 3@r_hand+always as long as it is free.
     #[arg(long, value_name = "KG@SEGMENT[+SEGMENT|+auto|+always][@T0..T1]")]
@@ -306,6 +314,7 @@ fn check(args: &RunArgs) -> Result<()> {
         ("--fatigue", args.fatigue, [0.0, MAX_TIME_SCALE]),
         ("--grip", args.grip, [0.0, f64::INFINITY]),
         ("--assist", args.assist, [0.0, 1.0]),
+        ("--max-help", args.max_help, [0.0, 2.0]),
         ("--push-duration", args.push_duration, [1e-3, 10.0]),
     ] {
         if !(low..=high).contains(&value) {
@@ -515,6 +524,7 @@ fn scene(
             options: FigureOptions {
                 fatigue_time_scale: args.fatigue,
                 assist: args.assist,
+                max_help: args.max_help,
             },
             name: clip.name().to_owned(),
             ..FigureSetup::new(

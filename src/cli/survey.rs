@@ -82,7 +82,7 @@ pub struct SurveyArgs {
     pub live_window: Option<f64>,
     /// What may be done with a clip that plain tracking loses: nothing (strict), a rehearsal, or a rehearsal and as
     /// little help as will do. Noise is then on the state that a rehearsed clip begins in.
-    #[arg(long, value_enum, default_value_t = FollowArg::Strict, conflicts_with_all = ["live_window", "assist"])]
+    #[arg(long, value_enum, default_value_t = FollowArg::Strict, conflicts_with = "assist")]
     pub follow: FollowArg,
     /// Help and random numbers of rehearsals.
     #[command(flatten)]

@@ -2,10 +2,10 @@
 
 use super::forecast::{Forecast, Verdict};
 use super::survey::stats::short;
-use super::survey::{Conditions, Outcome, Reference, RehearsedRun, run};
+use super::survey::{Conditions, Outcome, Reference, RehearsedRun, run, watched};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use crate::sim::figure::Perturbation;
 use crate::sim::figure::rehearsed::Stage;
+use crate::sim::figure::{FigureOptions, Perturbation};
 use crate::sim::motion::Clip;
 use crate::sim::rehearsal::{Problem, ProblemError, Progress, Rehearsal, Settings, rehearse};
 use crate::sim::world::{RehearsedMotion, WorldError};
@@ -47,7 +47,7 @@ pub enum Way {
     Tracked,
     /// Rehearsed: strength alone does it.
     Rehearsed,
-    /// Rehearsed, with help.
+    /// With help: rehearsed, or plain tracking while it is being lost.
     Helped,
     /// Not at all: plain tracking falls, and no rehearsal was found.
     Lost,
@@ -206,6 +206,47 @@ pub struct Found {
     pub tracked: Outcome,
     /// What is played, if it is a rehearsal.
     pub motion: Option<Arc<RehearsedMotion>>,
+    /// What keeps it, if that is plain tracking with help while it is being lost.
+    pub helped: Option<LiveHelp>,
+}
+
+/// A clip that is tracked with help while it is being lost.
+#[derive(Clone, Debug)]
+pub struct LiveHelp {
+    /// The clip as it is tracked.
+    pub clip: Arc<Clip>,
+    /// Largest force that is allowed over the weight.
+    pub most: f64,
+    /// Impulse of the help, N·s.
+    pub impulse: f64,
+    /// Share of the time in which it acts.
+    pub acts: f64,
+}
+
+impl Found {
+    /// The same conditions with what keeps the motion.
+    pub fn conditions(&self, conditions: &Conditions) -> Conditions {
+        Conditions {
+            options: FigureOptions {
+                max_help: self.helped.as_ref().map_or(0.0, |h| h.most),
+                ..conditions.options
+            },
+            rehearsed: self.motion.as_ref().map(|motion| RehearsedRun {
+                from: motion.start(),
+                motion: Arc::clone(motion),
+            }),
+            ..conditions.clone()
+        }
+    }
+
+    /// The same reference with what is played.
+    pub fn reference(&self, reference: &Reference) -> Reference {
+        let mut out = reference.clone();
+        if let Some(help) = &self.helped {
+            out.prepared = Arc::clone(&help.clip);
+        }
+        out
+    }
 }
 
 /// The problem that a run under these conditions is to a rehearsal. Pushes are not part of it.
@@ -247,6 +288,64 @@ pub fn problem(
     Ok(problem)
 }
 
+/// Plain tracking with help while the motion is being lost: of the prepared motion, or of the recording as it is. That
+/// which keeps it with less help; `None` if neither does, or if there may be no help.
+fn live_help(
+    conditions: &Conditions,
+    reference: &Reference,
+    as_recorded: &Clip,
+    options: &RehearsalOptions,
+) -> Result<Option<(LiveHelp, Outcome)>, WorldError> {
+    let conditions = with_help(conditions, options);
+    if conditions.options.max_help == 0.0 {
+        return Ok(None);
+    }
+    let mut best: Option<(LiveHelp, Outcome)> = None;
+    for clip in [
+        Arc::clone(&reference.prepared),
+        Arc::new(as_recorded.clone()),
+    ] {
+        let reference = Reference {
+            prepared: Arc::clone(&clip),
+            ..reference.clone()
+        };
+        let (mut impulse, mut ticks) = (0.0, [0_usize; 2]);
+        let outcome = watched(&conditions, &reference, |figure, _| {
+            let assist = figure.report().map_or([0.0; 6], |r| r.assist);
+            let force = assist[3..].iter().map(|f| f * f).sum::<f64>().sqrt();
+            impulse += force / conditions.world.rate_hz;
+            ticks[0] += usize::from(assist != [0.0; 6]);
+            ticks[1] += 1;
+        })?;
+        let less = |(_, b): &(_, Outcome)| outcome.assist_share < b.assist_share;
+        if outcome.completed && best.as_ref().is_none_or(less) {
+            let help = LiveHelp {
+                clip,
+                most: options.most_help,
+                impulse,
+                acts: ticks[0] as f64 / ticks[1].max(1) as f64,
+            };
+            best = Some((help, outcome));
+        }
+    }
+    Ok(best)
+}
+
+/// The same conditions with the help that may be given while a motion is being lost.
+pub fn with_help(conditions: &Conditions, options: &RehearsalOptions) -> Conditions {
+    let most = match options.follow {
+        Follow::Assisted => options.most_help,
+        Follow::Strict | Follow::Rehearsed => 0.0,
+    };
+    Conditions {
+        options: FigureOptions {
+            max_help: most,
+            ..conditions.options
+        },
+        ..conditions.clone()
+    }
+}
+
 /// Follows a clip in the easiest way that keeps it: never more than 0.5 m from the recording (PHC's rule).
 ///
 /// * `as_recorded`: the recording with its feet locked and with ways in and out, and nothing else done to it.
@@ -261,7 +360,14 @@ pub fn follow(
     options: &RehearsalOptions,
     go_on: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Found, FollowError> {
-    let tracked = run(conditions, reference)?;
+    let strict = Conditions {
+        options: FigureOptions {
+            max_help: 0.0,
+            ..conditions.options
+        },
+        ..conditions.clone()
+    };
+    let tracked = run(&strict, reference)?;
     let said = match forecast.verdict {
         Verdict::Follows => "forecast: follows".to_owned(),
         verdict => format!("forecast: {}, {}", verdict.name(), forecast.reason),
@@ -281,6 +387,7 @@ pub fn follow(
             outcome: tracked.clone(),
             tracked,
             motion: None,
+            helped: None,
         });
     }
     let mut problem = problem(conditions, options)?;
@@ -295,9 +402,33 @@ pub fn follow(
             from: motion.start(),
             motion: Arc::clone(&motion),
         }),
-        ..conditions.clone()
+        ..strict
     };
     let outcome = run(&played, reference)?;
+    let helped = match outcome.completed && outcome.assist_share == 0.0 {
+        true => None,
+        false => live_help(conditions, reference, as_recorded, options)?,
+    };
+    let least = |h: &Outcome| !outcome.completed || h.assist_share < outcome.assist_share;
+    if let Some((help, outcome)) = helped.filter(|(_, h)| least(h)) {
+        let reason = format!(
+            "plain tracking loses it ({said}), and a rehearsal does not do it with less help: {:.1} % of weight × \
+             time while it is being lost, at most {:.0} N",
+            100.0 * outcome.assist_share,
+            outcome.assist_max_n
+        );
+        return Ok(Found {
+            followed: Followed {
+                way: Way::Helped,
+                reason,
+                rehearsal: Some(report),
+            },
+            outcome,
+            tracked,
+            motion: None,
+            helped: Some(help),
+        });
+    }
     let when = |t: Option<f64>| t.map_or("to the end".to_owned(), |t| format!("at {t:.2} s"));
     let mut reason = format!(
         "plain tracking loses it {} ({said})",
@@ -334,5 +465,6 @@ pub fn follow(
         outcome: if kept { outcome } else { tracked.clone() },
         tracked,
         motion: kept.then_some(motion),
+        helped: None,
     })
 }

@@ -17,7 +17,7 @@ use std::time::SystemTime;
 
 const MAGIC: [u8; 8] = *b"SINEWWLD";
 /// Version of the server's part.
-const FORMAT: u16 = 3;
+const FORMAT: u16 = 4;
 const HEADER: usize = 10;
 
 /// A state of a world as bytes.

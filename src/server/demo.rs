@@ -63,6 +63,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
             looped: true,
             start: None,
             reset: true,
+            max_help: 0.0,
             place: Some(Place {
                 y,
                 ..Place::default()

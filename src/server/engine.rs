@@ -464,7 +464,7 @@ pub fn retune(
         .map_err(|e| refused("figure", &e))
 }
 
-/// Changes fatigue and assist.
+/// Changes fatigue, assist and help.
 pub fn set_options(world: &mut World, key: FigureKey, options: FigureOptions) -> Result<(), Fault> {
     world
         .set_figure_options(key, options)
@@ -602,6 +602,7 @@ pub fn playback(
         origin,
         way_in: None,
         rehearsed: None,
+        max_help: 0.0,
     }
 }
 

@@ -330,12 +330,20 @@ fn info(found: &evaluation::Found) -> RehearsalInfo {
             1e-3 * outcome.recorded.mpjpe_global_mm,
             1e-3 * outcome.recorded.mpjpe_root_mm,
         ],
-        help: [
-            report.help_ns,
-            report.help_share,
-            report.help_most_n,
-            report.helped_windows,
-        ],
+        help: match &found.helped {
+            Some(live) => [
+                live.impulse,
+                outcome.assist_share,
+                outcome.assist_max_n,
+                live.acts,
+            ],
+            None => [
+                report.help_ns,
+                report.help_share,
+                report.help_most_n,
+                report.helped_windows,
+            ],
+        },
         hardest: (report.hardest_dof, report.hardest_share),
         stopped: report.stopped,
     }

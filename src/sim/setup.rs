@@ -182,6 +182,9 @@ pub struct FigureOptions {
     pub fatigue_time_scale: f64,
     /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](crate::sim::figure::assist::Assist). 0: none.
     pub assist: f64,
+    /// Largest force over the weight of the help while a motion is being lost, 0…2:
+    /// [`Help`](crate::sim::figure::help::Help). 0: none. It needs the modern controller, and no `assist`.
+    pub max_help: f64,
 }
 
 /// A disturbance of one figure. Times are world seconds.

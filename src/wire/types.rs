@@ -162,7 +162,7 @@ pub struct FigureSettings {
     pub stepper: StepperKind,
     /// Choices of the paper's controller.
     pub params: ControlParams,
-    /// Fatigue and assist.
+    /// Fatigue, assist and help.
     pub options: FigureOptions,
     /// Where it stands.
     pub place: Place,
@@ -239,6 +239,8 @@ pub struct FigureUpdate {
     pub fatigue_time_scale: Option<f64>,
     /// Assist.
     pub assist: Option<f64>,
+    /// Most help while its motion is being lost, body weights.
+    pub max_help: Option<f64>,
     /// All constraints.
     pub constraints: Option<Vec<ConstraintSettings>>,
     /// Protective steps.
@@ -259,6 +261,7 @@ impl FigureUpdate {
                 .fatigue_time_scale
                 .unwrap_or(now.options.fatigue_time_scale),
             assist: self.assist.unwrap_or(now.options.assist),
+            max_help: self.max_help.unwrap_or(now.options.max_help),
         };
         FigureSettings {
             display_name: self.display_name.unwrap_or(now.display_name),
@@ -410,6 +413,8 @@ pub struct Playback {
     pub reset: bool,
     /// Where the clip begins; `None`: where the figure is.
     pub place: Option<Place>,
+    /// Most help while it is being lost, body weights.
+    pub max_help: f64,
 }
 
 /// Delay between arrival and use of live motion.

@@ -115,6 +115,7 @@ fn alone(tick: i64) -> i64 {
             looped: true,
             start: None,
             reset: true,
+            max_help: 0.0,
             place: None,
         },
     });

@@ -12,6 +12,7 @@
 //! * `hand`: leaning on tables and walls; two figures that run into each other.
 //! * `people`: ages, sizes, fatigue, percentiles.
 //! * `assist`: the wrench that no body has, and its honesty.
+//! * `help`: the wrench that acts only while a motion is being lost.
 //! * `symmetry`: left and right, and all directions, are alike.
 //! * `containment`: bad input is refused, a figure that runs away harms nobody.
 //!
@@ -29,6 +30,7 @@ mod containment;
 mod fall;
 mod flight;
 mod hand;
+mod help;
 mod jump;
 mod lift;
 mod load;

@@ -36,6 +36,7 @@ fn records() -> Vec<Record> {
         name: "walk".into(),
         clip: walk,
         playback: Playback {
+            max_help: 0.0,
             speed: 1.0,
             looped: true,
             start: None,

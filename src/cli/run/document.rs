@@ -24,6 +24,7 @@ pub(super) struct Document<'a> {
     effort: f64,
     fatigue_time_scale: f64,
     assist: f64,
+    max_help: f64,
     substeps: u32,
     gravity_mps2: f64,
     loads: Vec<LoadEntry>,
@@ -104,6 +105,7 @@ pub(super) fn document<'a>(
         effort: scenario.strength.effort,
         fatigue_time_scale: args.fatigue,
         assist: args.assist,
+        max_help: args.max_help,
         substeps: args.substeps,
         gravity_mps2: scenario.params.gravity,
         loads: args

@@ -284,7 +284,7 @@ fn job(
     copy: u32,
 ) -> Result<Done> {
     let source = &input.entry.source;
-    if args.follow != FollowArg::Strict {
+    if args.follow != FollowArg::Strict && args.live_window.is_none() {
         let plan = input
             .plan
             .get_or_init(|| plan(args, body, source, bytes).map_err(|e| format!("{e:#}")));
@@ -373,6 +373,10 @@ fn conditions(
         },
         options: FigureOptions {
             assist: args.assist,
+            max_help: match args.follow {
+                FollowArg::Assisted => args.help.max_help,
+                FollowArg::Strict | FollowArg::Rehearsed => 0.0,
+            },
             ..FigureOptions::default()
         },
         perturbations: loads.into_iter().chain(pushes).collect(),
@@ -418,16 +422,13 @@ fn plan(args: &SurveyArgs, body: &Arc<Body>, source: &Source, bytes: &[u8]) -> R
 
 /// What is known of a clip whose way was found; with pushes it is run once more.
 fn planned(args: &SurveyArgs, body: &Arc<Body>, plan: &Plan, bytes: &[u8]) -> Result<Measured> {
-    let reference = &plan.fitted.reference;
+    let reference = &plan.found.reference(&plan.fitted.reference);
     let lead = match &plan.found.motion {
         Some(motion) => motion.lead_in(),
         None => reference.prepared.lead_in(),
     };
-    let mut conditions = conditions(args, body, reference, (bytes, 0), lead);
-    conditions.rehearsed = plan.found.motion.as_ref().map(|m| RehearsedRun {
-        motion: Arc::clone(m),
-        from: m.start(),
-    });
+    let conditions = conditions(args, body, reference, (bytes, 0), lead);
+    let conditions = plan.found.conditions(&conditions);
     let outcome = match args.push.is_empty() {
         true => plan.found.outcome.clone(),
         false => survey::run(&conditions, reference)?,

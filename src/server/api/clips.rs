@@ -300,8 +300,11 @@ impl MotionService for Api {
             let clip_id = clip_name("clip", &r.clip)?.to_owned();
             let caller = caller(&request)?;
             let who = control::single(caller.principal(), "control_token", &r.control_token)?;
-            seen(&api, caller, &clip_id)?;
+            let info = seen(&api, caller, &clip_id)?;
             let follow = motion::follow("follow", r.follow)?;
+            if follow.unwrap_or(info.follow.follow) == Follow::Assisted {
+                playback.max_help = info.follow.most_help;
+            }
             let rehearsed = rehearsed(&api, &clip_id, follow, playback.speed);
             let (manner, rest) = api
                 .clips

@@ -34,6 +34,8 @@ pub struct ClipPlayback {
     /// What a figure that stands where the clip begins does instead: a rehearsal of it, in the same coordinates.
     #[serde(with = "crate::sim::saved::definition::option")]
     pub rehearsed: Option<Arc<RehearsedMotion>>,
+    /// Most help while it is being lost, if the figure's own is less: force over the weight, 0…2.
+    pub max_help: f64,
 }
 
 /// A stream that is prepared while it comes.
@@ -80,6 +82,7 @@ impl ClipPlayback {
             origin: PlanarTransform::default(),
             way_in: None,
             rehearsed: None,
+            max_help: 0.0,
         }
     }
 
@@ -87,6 +90,7 @@ impl ClipPlayback {
     fn is_valid(&self) -> bool {
         self.start.is_finite()
             && self.origin.is_finite()
+            && (0.0..=2.0).contains(&self.max_help)
             && self.motion().is_valid()
             && self.way_in.as_ref().is_none_or(|way| way.is_valid())
     }

@@ -9,6 +9,7 @@ pub mod constraints;
 pub mod drive;
 pub mod events;
 mod get_up;
+pub mod help;
 pub mod kinematic_step;
 mod load_compensation;
 pub mod loads;

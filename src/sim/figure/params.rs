@@ -257,6 +257,40 @@ pub mod assist {
     }
 }
 
+/// Help while a motion is being lost.
+pub mod help {
+    crate::sim::params::params! {
+        /// How far the forecast looks ahead: by what a fall that begins needs to become one (1/ω of a standing body).
+        FORECAST_TIME: f64 = 0.3, "s", 0.1..=0.6, "docs/rehearsal.md#live-help";
+        /// Turns of the pelvis count as the way of a part of the body so far from it.
+        ARM: f64 = 0.5, "m", 0.2..=1.0, "docs/rehearsal.md#live-help";
+        /// A motion is being lost from this forecast on: half of what counts as lost.
+        BEGIN: f64 = 0.25, "m", 0.1..=0.5, "docs/rehearsal.md#live-help";
+        /// For so long: a foot that strikes is not a loss.
+        BEGIN_AFTER: f64 = 0.05, "s", 0..=0.2, "docs/rehearsal.md#live-help";
+        /// It is kept again below this forecast.
+        END: f64 = 0.1, "m", 0.05..=0.2, "docs/rehearsal.md#live-help";
+        /// For so long.
+        END_AFTER: f64 = 0.3, "s", 0.1..=1.0, "docs/rehearsal.md#live-help";
+        /// Time in which help grows to what is allowed.
+        GROWTH_TIME: f64 = 0.1, "s", 0.02..=0.5, "docs/rehearsal.md#live-help";
+        /// Time in which it fades.
+        FADE_TIME: f64 = 0.5, "s", 0.1..=0.5, "docs/rehearsal.md#live-help";
+        /// Farther off a motion cannot be caught again.
+        OUT_OF_REACH: f64 = 1.0, "m", 0.5..=2.0, "docs/rehearsal.md#live-help";
+        /// For so long: then the figure is let fall.
+        OUT_OF_REACH_AFTER: f64 = 0.5, "s", 0.1..=2.0, "docs/rehearsal.md#live-help";
+        /// Time until a figure that was let fall can be helped again.
+        AGAIN_AFTER: f64 = 2.0, "s", 0.5..=10.0, "docs/rehearsal.md#live-help";
+        /// Angular frequency of the pull.
+        FREQUENCY: f64 = 8.0, "rad/s", 4..=16, "docs/rehearsal.md#live-help";
+        /// Largest moment over largest force times stature: the force acts within half a stature of the pelvis.
+        LEVER: f64 = 0.5, "1", 0.1..=0.5, "docs/rehearsal.md#live-help";
+        /// Inertia about the pelvis over mass times stature squared.
+        INERTIA: f64 = 0.05, "1", 0.02..=0.1, "derivation";
+    }
+}
+
 /// How stiff motors are: the rate error at which a motor gives all it has.
 pub mod motors {
     crate::sim::params::params! {

@@ -79,6 +79,12 @@ pub struct MotorLaw {
 }
 
 impl MotorLaw {
+    /// Stiff motors: they give all they have at a tenth of a rad/s, so that joints follow within strength.
+    pub const STIFF: Self = Self {
+        horizon: 0.03,
+        saturation_speed: 0.1,
+    };
+
     /// As the law of tracking, for ticks of `dt` s.
     pub fn law(&self, dt: f64) -> Law {
         let params = ControlParams {

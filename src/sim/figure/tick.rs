@@ -4,7 +4,7 @@
 //!
 //! 1. `commands`: loads and pushes that are due.
 //! 2. `sense`: dynamics of the present state; `update_activity` and `update_desired_motion`: what it is to do.
-//! 3. `update_support`: what it stands on, and whether its balance is lost.
+//! 3. `update_support`: what it stands on, and whether its balance is lost; `update_help`: whether its motion is.
 //! 4. `limit_torques`: what muscles and tissue can give.
 //! 5. `solve_control`: tasks, then accelerations and torques within strength.
 //! 6. `integrate`: motors, joint limits and contact move the body.
@@ -15,6 +15,7 @@ mod access;
 mod actuation;
 mod cluster;
 mod fall_detection;
+mod helping;
 mod motion_switch;
 mod playback;
 mod rehearsal;
@@ -165,6 +166,7 @@ impl Figure {
         self.update_activity(world);
         self.update_desired_motion(world);
         self.update_support(world);
+        self.update_help(world);
         self.limit_torques(world);
         self.solve_control(world);
         true
@@ -348,7 +350,7 @@ impl Figure {
             get_up.plan_contacts(body, buffers, target, off, floor);
         }
         let mut steps = StepDemand::default();
-        if self.steps() {
+        if self.steps() && !self.is_carried() {
             let mut targets = TaskTargets {
                 com: &mut tasks.com,
                 momentum: tasks.spin[0],
@@ -420,15 +422,21 @@ impl Figure {
 
     /// What the steppers read, the steppers, and the state they move.
     fn integration<'a>(&'a mut self, world: &'a TickContext) -> Integration<'a> {
+        let (carried, pull) = (self.is_carried(), self.pull());
         let results = &self.scratch.results;
-        let (assist, accuracy) = match self.motion.rehearsed() {
-            Some(play) => (play.help(world.time()), Accuracy::REHEARSED),
-            None => {
-                let target = &self.desired.target;
-                let spring = results.assist.as_ref();
-                let help = spring.map(|a| PelvisHelp::Desired(a, target));
-                (help, Accuracy::default())
-            }
+        let target = &self.desired.target;
+        let spring = results.assist.as_ref();
+        let assist = match self.motion.rehearsed() {
+            Some(play) => play.help(world.time()),
+            None => match pull {
+                Some(pull) => Some(PelvisHelp::Pull(pull, target)),
+                None => spring.map(|a| PelvisHelp::Desired(a, target)),
+            },
+        };
+        let accuracy = if carried || self.motion.rehearsed().is_some() {
+            Accuracy::REHEARSED
+        } else {
+            Accuracy::default()
         };
         self.steppers.torque.set_accuracy(accuracy);
         let disturbances = &self.surroundings.disturbances;

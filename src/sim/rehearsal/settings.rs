@@ -1,9 +1,7 @@
 //! All numbers of a rehearsal, with units and why. One set for all clips.
 
-use crate::sim::body::Body;
 use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::figure::rehearsed::{Hold, MotorLaw};
-use crate::sim::motion::GRAVITY;
+use crate::sim::figure::rehearsed::MotorLaw;
 
 /// Joint DOFs that a sample offsets: waist, thorax, shoulders without rotation, hips, knees, ankles without rotation.
 /// What the others do is too light, or too far out, to change how the body moves.
@@ -203,36 +201,9 @@ pub struct HoldShare {
     pub reach: f64,
 }
 
-/// How a body is helped: a pull on the pelvis towards its desired pose, as a critically damped spring, cut.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HelpLaw {
-    /// Angular frequency, rad/s: all the help that is allowed at some centimetres.
-    pub frequency: f64,
-    /// Largest moment over largest force times stature.
-    pub moment: f64,
-    /// Moment of inertia about the pelvis over mass times stature squared.
-    pub inertia: f64,
-}
-
-impl HelpLaw {
-    /// For a body, with so much force over its weight.
-    pub fn pull(&self, body: &Body, most: f64) -> Hold {
-        let p = body.profile;
-        let force = most * p.mass * GRAVITY;
-        Hold {
-            frequency: self.frequency,
-            inertia: [p.mass, self.inertia * p.mass * p.height * p.height],
-            most: [force, self.moment * force * p.height],
-            reach: f64::INFINITY,
-        }
-    }
-}
-
 /// What help costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HelpPrice {
-    /// How it acts.
-    pub law: HelpLaw,
     /// Cost of a window with all the help that is allowed.
     pub full: f64,
     /// Cost of a window with any: help in few windows rather than a little in all.
@@ -246,10 +217,7 @@ pub struct HelpPrice {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            motors: MotorLaw {
-                horizon: 0.03,
-                saturation_speed: 0.1,
-            },
+            motors: MotorLaw::STIFF,
             window: 0.1,
             rest: Rest {
                 speed: 0.3,
@@ -316,11 +284,6 @@ impl Default for Settings {
                 reach: 0.5,
             },
             help: HelpPrice {
-                law: HelpLaw {
-                    frequency: 8.0,
-                    moment: 0.25,
-                    inertia: 0.05,
-                },
                 full: 6.0,
                 any: 0.5,
                 least: 0.004,

@@ -3,7 +3,7 @@
 
 use super::look::{Cost, Look, Looker, Off};
 use super::problem::{Problem, Reference};
-use super::settings::{HelpLaw, Settings};
+use super::settings::Settings;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, State};
@@ -11,6 +11,7 @@ use crate::sim::contact::Tissue;
 use crate::sim::control::Law;
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::assist::PelvisHelp;
+use crate::sim::figure::help;
 use crate::sim::figure::plan_task::Planning;
 use crate::sim::figure::rehearsed::{JointOffset, MotorLaw, RootStep};
 use crate::sim::figure::tick::TickContext;
@@ -48,7 +49,6 @@ pub struct Simulator {
     muscles: MuscleScale,
     world: TickContext,
     motors: MotorLaw,
-    help: HelpLaw,
     law: Law,
     terms: Terms,
     stepper: TorqueStepper,
@@ -79,7 +79,6 @@ impl Simulator {
             },
             law: motors.law(problem.stage.dt),
             motors,
-            help: settings.help.law,
             terms: Terms::default(),
             stepper,
             available: TorqueRange {
@@ -148,7 +147,7 @@ impl Simulator {
         let TorqueRange { lower, upper } = &mut self.available;
         strength.range(&angles, &rates, muscles, lower, upper);
         let command = self.motors.command(&self.law, body, state, &moved);
-        let pull = (action.help > 0.0).then(|| self.help.pull(body, action.help));
+        let pull = (action.help > 0.0).then(|| help::pull(body, action.help));
         let input = StepInput {
             body,
             links,

@@ -442,6 +442,39 @@ impl StepTracker {
         out
     }
 
+    /// As [`Self::targets`], while the figure is carried: the motion keeps its clock, its lag and its place, and what
+    /// touches does not matter. Contacts are looked up anew when [`Self::targets`] goes on.
+    pub fn carried(
+        &mut self,
+        time: f64,
+        dt: f64,
+        terms: &Terms,
+        clip_time: impl Fn(f64) -> f64,
+        pair: impl Fn(f64, f64) -> TargetPair,
+    ) -> TargetPair {
+        self.events = TickEvents::default();
+        self.feet = [Foot::default(); 2];
+        self.recovery = Recovery::default();
+        self.timing = StepTiming::default();
+        self.clock.started = false;
+        let now = time - self.clock.lag;
+        self.clock.phase = clip_time(now);
+        let over = self.plan().is_some_and(|p| p.is_over(self.clock.phase));
+        if over && !self.is_stopping() && self.clock.last_speed > SETTLED_SPEED {
+            self.begin_stop(terms, &pair(now, now).now.posture);
+        }
+        let standing = self.advance_stop(dt);
+        let mut out = standing.unwrap_or_else(|| pair(now, now + dt));
+        let place = self.anchor.transform();
+        place.apply_to(&mut out.now);
+        place.apply_to(&mut out.next);
+        if !over {
+            let v = &out.now.velocity;
+            self.clock.last_speed = (v[3] * v[3] + v[4] * v[4]).sqrt();
+        }
+        out
+    }
+
     /// Updates the targets of feet and centre of mass: swinging feet are led to footholds that catch the body, clear of
     /// the floor, and unplanned steps are begun and led. Returns the horizontal acceleration of the centre of mass that
     /// balance asks for, m/s²; `None` without a support.

@@ -10,6 +10,8 @@ use crate::sim::math::Vec3;
 
 /// Farthest from the world origin a figure may be put, m: beyond, positions lose the precision that contact needs.
 const FAR: f64 = 1e5;
+/// Most help, as a force over the weight: twice what carries the figure.
+const LARGEST_HELP: f64 = 2.0;
 
 fn range(field: &'static str, value: f64, lower: f64, upper: f64) -> Result<(), WorldError> {
     if value >= lower && value <= upper {
@@ -70,7 +72,8 @@ pub(super) fn options(o: &FigureOptions) -> Result<(), WorldError> {
         0.0,
         crate::sim::strength::fatigue::MAX_TIME_SCALE,
     )?;
-    range("assist", o.assist, 0.0, 1.0)
+    range("assist", o.assist, 0.0, 1.0)?;
+    range("max_help", o.max_help, 0.0, LARGEST_HELP)
 }
 
 pub(super) fn control(c: &ControlParams) -> Result<(), WorldError> {

@@ -180,6 +180,7 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
         options: FigureOptions {
             fatigue_time_scale: time_scale(&at("fatigue_time_scale"), f.fatigue_time_scale)?,
             assist: within(&at("assist"), f.assist, 0.0, 1.0)?,
+            max_help: max_help(&at("max_help_weights"), f.max_help_weights)?,
         },
         place: f
             .placement
@@ -188,6 +189,11 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
             .unwrap_or_default(),
         constraints: constraint::list(&at("constraints"), &f.constraints)?,
     })
+}
+
+/// Most help, body weights.
+fn max_help(at: &str, value: f64) -> Result<f64, Fault> {
+    within(at, value, 0.0, 2.0)
 }
 
 /// Changes of a figure.
@@ -205,6 +211,7 @@ pub fn update(
             ("paper", f.paper.is_some()),
             ("constraints", !f.constraints.is_empty()),
             ("protective_steps", f.protective_steps.is_some()),
+            ("max_help_weights", f.max_help_weights != 0.0),
         ],
         fixed: &["body", "profile", "stepper", "placement"],
         output: &["name", "status", "etag"],
@@ -226,6 +233,10 @@ pub fn update(
                 out.constraints = Some(constraint::list("figure.constraints", &f.constraints)?);
             }
             "protective_steps" => out.protective_steps = Some(f.protective_steps.unwrap_or(true)),
+            "max_help_weights" => {
+                let value = max_help("figure.max_help_weights", f.max_help_weights)?;
+                out.max_help = Some(value);
+            }
             _ => out.assist = Some(within("figure.assist", f.assist, 0.0, 1.0)?),
         }
     }
@@ -291,6 +302,7 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         }),
         fatigue_time_scale: s.options.fatigue_time_scale,
         assist: s.options.assist,
+        max_help_weights: s.options.max_help,
         paper: Some(paper_out(&s.params)),
         constraints: f.constraints.iter().map(constraint::out).collect(),
         protective_steps: Some(s.params.protective_steps),

@@ -123,6 +123,7 @@ pub fn clip_source(
 /// How a clip is played.
 pub fn playback(r: &pb::PlayClipRequest) -> Result<Playback, Fault> {
     Ok(Playback {
+        max_help: 0.0,
         speed: or_default("speed", r.speed, 1.0, 0.1, 4.0)?,
         looped: r.r#loop,
         start: optional("start_time_s", r.start_time_s, 0.0, 1e9)?,

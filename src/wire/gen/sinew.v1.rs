@@ -5754,6 +5754,11 @@ pub struct Figure {
     /// Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
     #[prost(bool, optional, tag = "14")]
     pub protective_steps: ::core::option::Option<bool>,
+    /// Largest force over the weight of the help while its motion is being lost, whatever that is: a clip, a stream, or a
+    /// posture that is held; 0…2. Then a pull on the pelvis and stiff motors keep it with its motion, until it goes on by
+    /// itself; reported in every frame (`assist`). Needs CONTROLLER_MODERN and no `assist`. 0: none, it falls honestly.
+    #[prost(double, tag = "16")]
+    pub max_help_weights: f64,
     /// What it does now. Output only.
     #[prost(message, optional, tag = "9")]
     pub status: ::core::option::Option<FigureStatus>,
@@ -5985,7 +5990,7 @@ pub struct UpdateFigureRequest {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
     /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-    /// `protective_steps` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
+    /// `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
     /// ignored, whatever they hold.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
@@ -6486,7 +6491,7 @@ pub mod figure_service_client {
                 .insert(GrpcMethod::new("sinew.v1.FigureService", "ListFigures"));
             self.inner.unary(req, path, codec).await
         }
-        /// Changes strength, controller, options of the paper's controller, fatigue, assist, constraints or protective steps.
+        /// Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or protective steps.
         pub async fn update_figure(
             &mut self,
             request: impl tonic::IntoRequest<super::UpdateFigureRequest>,
@@ -6601,7 +6606,7 @@ pub mod figure_service_server {
             tonic::Response<super::ListFiguresResponse>,
             tonic::Status,
         >;
-        /// Changes strength, controller, options of the paper's controller, fatigue, assist, constraints or protective steps.
+        /// Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or protective steps.
         async fn update_figure(
             &self,
             request: tonic::Request<super::UpdateFigureRequest>,
@@ -9601,8 +9606,9 @@ pub struct PlayClipRequest {
     #[prost(message, optional, tag = "7")]
     pub placement: ::core::option::Option<Placement>,
     /// How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
-    /// else the clip is tracked as it is. FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help.
-    /// Absent: any rehearsal.
+    /// else the clip is tracked as it is, with FOLLOW_ASSISTED with help while it is being lost (at most as the clip
+    /// says). FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help. Absent: as the clip says, and any
+    /// rehearsal.
     #[prost(enumeration = "Follow", tag = "8")]
     pub follow: i32,
     /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within

@@ -414,6 +414,7 @@ class Client:
         paper: Paper | None = None,
         fatigue_time_scale: float = 0.0,
         assist: float = 0.0,
+        max_help_weights: float = 0.0,
         constraints: Iterable[Constraint] = (),
         protective_steps: bool = True,
         duration_s: float = 0.0,
@@ -429,7 +430,8 @@ class Client:
 
         `disturbances` begin at their `start_s` (s of the clip). `duration_s` (s) 0: the length of the clip. `strength`
         1 is that of the average person; `fatigue_time_scale` 0: no fatigue, 1: as measured; `assist` 0 to 1: share of
-        the help from outside at the pelvis. `rate_hz` and `substeps` as in `create_world`; `rate_divisor` n keeps one
+        the help from outside at the pelvis; `max_help_weights`: most help while the motion is being lost, 0 to 2 times
+        the weight. `rate_hz` and `substeps` as in `create_world`; `rate_divisor` n keeps one
         frame for every n ticks. With `fields=()` the recording has no frames, only `summary` and `events`.
         """
         figure = requests.figure(
@@ -440,6 +442,7 @@ class Client:
             paper=paper,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
+            max_help_weights=max_help_weights,
             constraints=constraints,
             protective_steps=protective_steps,
         )
@@ -829,6 +832,7 @@ class World:
         yaw: float = 0.0,
         fatigue_time_scale: float = 0.0,
         assist: float = 0.0,
+        max_help_weights: float = 0.0,
         constraints: Iterable[Constraint] = (),
         protective_steps: bool = True,
         display_name: str = "",
@@ -837,8 +841,8 @@ class World:
         counter-clockwise from above).
 
         `strength`: factor on the measured strength, or a `Strength`. `fatigue_time_scale`: 0 no fatigue, 1 as measured,
-        larger is faster. `assist`: help from outside at the pelvis, 0 to 1. `constraints`: where parts of it are wanted
-        (m, world). `protective_steps`: it may step to keep its balance.
+        larger is faster. `assist`: help from outside at the pelvis, 0 to 1. `max_help_weights`: most help while its motion is
+        being lost, 0 to 2 times the weight. `constraints`: where parts of it are wanted (m, world). `protective_steps`: it may step to keep its balance.
         """
         settings = requests.figure(
             body=body,
@@ -850,6 +854,7 @@ class World:
             yaw=yaw,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
+            max_help_weights=max_help_weights,
             constraints=constraints,
             protective_steps=protective_steps,
             display_name=display_name,
@@ -1243,6 +1248,7 @@ class Figure:
         paper: Paper | None = None,
         fatigue_time_scale: float | None = None,
         assist: float | None = None,
+        max_help_weights: float | None = None,
         constraints: Sequence[Constraint] | None = None,
         protective_steps: bool | None = None,
         display_name: str | None = None,
@@ -1254,6 +1260,7 @@ class Figure:
             "paper": paper,
             "fatigue_time_scale": fatigue_time_scale,
             "assist": assist,
+            "max_help_weights": max_help_weights,
             "constraints": constraints,
             "protective_steps": protective_steps,
             "display_name": display_name,
@@ -1264,6 +1271,7 @@ class Figure:
             paper=paper,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
+            max_help_weights=max_help_weights,
             constraints=constraints,
             protective_steps=protective_steps,
             display_name=display_name,

@@ -150,6 +150,7 @@ def figure(
     yaw: float | None = None,
     fatigue_time_scale: float | None = None,
     assist: float | None = None,
+    max_help_weights: float | None = None,
     constraints: Iterable[Constraint] | None = None,
     protective_steps: bool | None = None,
     display_name: str | None = None,
@@ -176,6 +177,8 @@ def figure(
         out.fatigue_time_scale = fatigue_time_scale
     if assist is not None:
         out.assist = assist
+    if max_help_weights is not None:
+        out.max_help_weights = max_help_weights
     if constraints is not None:
         out.constraints.extend(c.message() for c in constraints)
     if protective_steps is not None:

@@ -83,6 +83,7 @@ impl Script {
                 looped: true,
                 start: None,
                 reset,
+                max_help: 0.0,
                 place: None,
             },
         };

@@ -275,10 +275,11 @@ impl Scene {
             m.settings.params = params;
             m.settings.strength = strength;
         }
-        if u.fatigue_time_scale.is_some() || u.assist.is_some() {
+        if u.fatigue_time_scale.is_some() || u.assist.is_some() || u.max_help.is_some() {
             let mut options = m.settings.options;
             options.fatigue_time_scale = u.fatigue_time_scale.unwrap_or(options.fatigue_time_scale);
             options.assist = u.assist.unwrap_or(options.assist);
+            options.max_help = u.max_help.unwrap_or(options.max_help);
             engine::set_options(&mut self.world, key, options)?;
             m.settings.options = options;
         }

@@ -25,7 +25,8 @@ impl Scene {
         let state = engine::first_state(&clip, place);
         // A figure that is put into the clip is in motion at once; one that stands comes into it by the clip's lead-in,
         // and one that moves comes to a stand before that.
-        let playback = engine::playback(clip, begin, p.speed, p.looped, (place, !p.reset));
+        let mut playback = engine::playback(clip, begin, p.speed, p.looped, (place, !p.reset));
+        playback.max_help = p.max_help;
         let mut start = playback.start;
         if p.reset {
             f.set_drive(Motion::Clip(playback));

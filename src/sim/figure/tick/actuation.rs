@@ -31,17 +31,19 @@ impl Figure {
         if !self.steps() {
             return self.motion.source().targets(time, dt);
         }
+        let carried = self.is_carried();
         let drive = self.motion.source();
         let clip_time = |t: f64| match drive {
             Drive::Clip(play) => play.clip_time(t),
             Drive::Live(live) => live.stream_time(t),
             _ => t,
         };
-        self.desired
-            .tracker
-            .targets(time, dt, &self.scratch.terms, clip_time, |now, next| {
-                drive.pair(now, next)
-            })
+        let (tracker, terms) = (&mut self.desired.tracker, &self.scratch.terms);
+        let pair = |now, next| drive.pair(now, next);
+        if carried {
+            return tracker.carried(time, dt, terms, clip_time, pair);
+        }
+        tracker.targets(time, dt, terms, clip_time, pair)
     }
 
     /// True if steps follow events: the modern controller, and a figure that is up. Full assist pins the pelvis to its
@@ -119,7 +121,8 @@ impl Figure {
         tasks: &TaskPoints,
         steps: StepDemand,
     ) -> MotorCommand {
-        if let Some(command) = self.rehearsed_command(world) {
+        let stiff = self.rehearsed_command(world);
+        if let Some(command) = stiff.or_else(|| self.carried_command(world)) {
             return command;
         }
         let (mut hands, mut free) = (tasks.hands, 0);

@@ -22,7 +22,7 @@ impl Figure {
         let s = &self.setup;
         let falls = s.stepper.prescribes() && self.stepping.handed_over.is_none();
         let motors = s.controller == ControllerKind::Motors;
-        let knows = self.motion.gets_up() || self.motion.rehearsed().is_some();
+        let knows = self.motion.gets_up() || self.motion.rehearsed().is_some() || self.is_carried();
         if knows || falls || motors || !s.params.hand_over || s.options.assist > 0.0 {
             self.surroundings.balance.reset();
             return;
@@ -60,7 +60,8 @@ impl Figure {
 
     /// The chosen controller, or motors alone once balance is lost or the figure lies on the ground.
     pub(super) fn active_controller(&self) -> ControllerKind {
-        let motors = self.motion.is_limp() || self.motion.rehearsed().is_some();
+        let motors =
+            self.motion.is_limp() || self.motion.rehearsed().is_some() || self.is_carried();
         if motors || self.surroundings.balance.lost() {
             ControllerKind::Motors
         } else {
@@ -73,6 +74,7 @@ impl Figure {
     pub(super) fn prescribes(&self) -> bool {
         self.setup.stepper.prescribes()
             && self.setup.options.assist == 0.0
+            && !self.surroundings.help.acts()
             && self.surroundings.disturbances.bar().is_none()
             && self.active_controller() != ControllerKind::Motors
             && self.stepping.handed_over.is_none()
@@ -137,8 +139,8 @@ impl Figure {
                 .touches
                 .list()
                 .any(|t| !FEET.contains(&t.segment));
-        let rehearsed = self.motion.rehearsed().is_some();
-        if !self.motion.has_fallen() && !rehearsed && height < FALLEN_HEIGHT && on_other {
+        let held = self.motion.rehearsed().is_some() || self.is_held_up();
+        if !self.motion.has_fallen() && !held && height < FALLEN_HEIGHT && on_other {
             self.motion.fall();
         } else if self.motion.is_limp() && height > RISEN_HEIGHT {
             self.motion.rise();

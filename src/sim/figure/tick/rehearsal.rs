@@ -2,8 +2,9 @@
 
 use super::{Figure, TickContext};
 use crate::sim::figure::drive::Drive;
-use crate::sim::figure::rehearsed::{RehearsedMotion, RehearsedPlayback};
+use crate::sim::figure::rehearsed::{MotorLaw, RehearsedMotion, RehearsedPlayback};
 use crate::sim::figure::torque_step::MotorCommand;
+use crate::sim::motion::TargetPair;
 use crate::sim::report::Flags;
 use crate::sim::setup::ControllerKind;
 use crate::sim::track::planned_to_world::Anchor;
@@ -85,13 +86,23 @@ impl Figure {
         let mut target = self.desired.target.clone();
         play.offset(world.time()).add_to(&mut target);
         let motors = play.motion.motors;
-        let law = motors.law(world.dt);
-        let out = motors.command(&law, &self.setup.body, &self.physical.state, &target);
+        Some(self.stiff_command(motors, &target, world.dt))
+    }
+
+    /// What stiff motors are asked to do, so that they follow a target in a tick of `dt` s: no controller decides.
+    pub(super) fn stiff_command(
+        &mut self,
+        motors: MotorLaw,
+        target: &TargetPair,
+        dt: f64,
+    ) -> MotorCommand {
+        let law = motors.law(dt);
+        let out = motors.command(&law, &self.setup.body, &self.physical.state, target);
         let report = &mut self.outcome.report;
         (report.joints.saturated, report.joints.saturated_secondary) = (0, 0);
         report.control_iterations = 0;
         report.flags = Flags::default();
         self.stepping.tips = false;
-        Some(out)
+        out
     }
 }

@@ -157,6 +157,9 @@ impl Figure {
         }
         let surroundings = surroundings.into_owned();
         let counts = surroundings.touches.is_valid() && surroundings.disturbances.is_valid();
+        if !surroundings.help.is_valid() {
+            return Err("help that cannot be");
+        }
         if !(counts && desired.constraints.is_valid()) {
             return Err("more touches, perturbations or constraints than a figure can have");
         }

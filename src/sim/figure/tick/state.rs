@@ -15,6 +15,7 @@ use crate::sim::figure::balance_loss::BalanceWatch;
 use crate::sim::figure::constraints::Constraints;
 use crate::sim::figure::events::Watcher;
 use crate::sim::figure::get_up::GetUp;
+use crate::sim::figure::help::Help;
 use crate::sim::figure::kinematic_step::KinematicStepper;
 use crate::sim::figure::load_compensation::LoadCompensation;
 use crate::sim::figure::loads::Disturbances;
@@ -148,6 +149,8 @@ pub(super) struct Surroundings {
     pub touches: Touches,
     /// Whether its balance is lost.
     pub balance: BalanceWatch,
+    /// Whether its motion is being lost, and what helps then.
+    pub help: Help,
 }
 
 /// Which stepper moves the figure: accelerations can be handed over to torques for a while.

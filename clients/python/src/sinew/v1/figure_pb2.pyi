@@ -396,6 +396,7 @@ class Figure(_message.Message):
     PAPER_FIELD_NUMBER: _builtins.int
     CONSTRAINTS_FIELD_NUMBER: _builtins.int
     PROTECTIVE_STEPS_FIELD_NUMBER: _builtins.int
+    MAX_HELP_WEIGHTS_FIELD_NUMBER: _builtins.int
     STATUS_FIELD_NUMBER: _builtins.int
     ETAG_FIELD_NUMBER: _builtins.int
     name: _builtins.str
@@ -416,6 +417,11 @@ class Figure(_message.Message):
     """
     protective_steps: _builtins.bool
     """Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true."""
+    max_help_weights: _builtins.float
+    """Largest force over the weight of the help while its motion is being lost, whatever that is: a clip, a stream, or a
+    posture that is held; 0…2. Then a pull on the pelvis and stiff motors keep it with its motion, until it goes on by
+    itself; reported in every frame (`assist`). Needs CONTROLLER_MODERN and no `assist`. 0: none, it falls honestly.
+    """
     etag: _builtins.str
     """Changes whenever the configuration does. In requests: the change is refused (ABORTED, `ETAG_MISMATCH`) unless it is
     that of the figure. Empty: not checked.
@@ -463,12 +469,13 @@ class Figure(_message.Message):
         paper: Global___PaperOptions | None = ...,
         constraints: _abc.Iterable[Global___Constraint] | None = ...,
         protective_steps: _builtins.bool | None = ...,
+        max_help_weights: _builtins.float = ...,
         status: Global___FigureStatus | None = ...,
         etag: _builtins.str = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "status", b"status", "strength", b"strength"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "assist", b"assist", "body", b"body", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "etag", b"etag", "fatigue_time_scale", b"fatigue_time_scale", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "status", b"status", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "assist", b"assist", "body", b"body", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "etag", b"etag", "fatigue_time_scale", b"fatigue_time_scale", "max_help_weights", b"max_help_weights", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "status", b"status", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__protective_steps: _TypeAlias = _typing.Literal["protective_steps"]  # noqa: Y015
     _WhichOneofArgType__protective_steps: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps"]  # noqa: Y015
@@ -783,7 +790,7 @@ class UpdateFigureRequest(_message.Message):
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
         """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-        `protective_steps` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
+        `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
         ignored, whatever they hold.
         """
 

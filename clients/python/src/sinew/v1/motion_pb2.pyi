@@ -959,8 +959,9 @@ class PlayClipRequest(_message.Message):
     """
     follow: Global___Follow.ValueType
     """How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
-    else the clip is tracked as it is. FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help.
-    Absent: any rehearsal.
+    else the clip is tracked as it is, with FOLLOW_ASSISTED with help while it is being lost (at most as the clip
+    says). FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help. Absent: as the clip says, and any
+    rehearsal.
     """
     request_id: _builtins.str
     """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within

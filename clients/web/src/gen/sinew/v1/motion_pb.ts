@@ -915,8 +915,9 @@ export type PlayClipRequest = Message<"sinew.v1.PlayClipRequest"> & {
 
   /**
    * How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
-   * else the clip is tracked as it is. FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help.
-   * Absent: any rehearsal.
+   * else the clip is tracked as it is, with FOLLOW_ASSISTED with help while it is being lost (at most as the clip
+   * says). FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help. Absent: as the clip says, and any
+   * rehearsal.
    *
    * @generated from field: sinew.v1.Follow follow = 8;
    */

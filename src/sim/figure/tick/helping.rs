@@ -1,0 +1,97 @@
+//! Help within the tick: when it begins and ends, and what stiff motors do meanwhile.
+
+use super::fall_detection::FEET;
+use super::{Figure, TickContext};
+use crate::sim::control::Controller;
+use crate::sim::figure::drive::Drive;
+use crate::sim::figure::help::{Forecast, Situation, pull};
+use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
+use crate::sim::figure::rehearsed::{Hold, MotorLaw};
+use crate::sim::figure::torque_step::MotorCommand;
+use crate::sim::setup::ControllerKind;
+
+impl Figure {
+    /// True while stiff motors and a pull on the pelvis keep it with its motion.
+    pub fn is_carried(&self) -> bool {
+        self.surroundings.help.carries()
+    }
+
+    /// True if it is helped, not let fall, should it lose its motion.
+    pub(super) fn is_held_up(&self) -> bool {
+        self.may_be_helped() && self.surroundings.help.is_ready()
+    }
+
+    /// Largest force of its help over the weight: its own, or what its clip is played with.
+    fn most_help(&self) -> f64 {
+        let own = self.setup.options.max_help;
+        match self.motion.source() {
+            Drive::Clip(play) => own.max(play.max_help),
+            _ => own,
+        }
+    }
+
+    fn may_be_helped(&self) -> bool {
+        self.most_help() > 0.0
+            && self.setup.options.assist == 0.0
+            && self.setup.controller == ControllerKind::Modern
+            && self.motion.rehearsed().is_none()
+            && !self.motion.has_fallen()
+    }
+
+    /// Stage 3: is the motion being lost, and is the figure to be helped?
+    pub(super) fn update_help(&mut self, world: &TickContext) {
+        let before = self.is_carried();
+        if !self.may_be_helped() {
+            if self.surroundings.help.acts() {
+                self.surroundings.help.stop();
+            }
+        } else {
+            let seen = Situation {
+                forecast: Forecast::of(&self.desired.target, &self.physical.state, world.dt),
+                on_feet: self.is_on_feet(),
+                falls: self.surroundings.balance.lost() || self.lies(),
+            };
+            self.surroundings.help.observe(&seen, world.dt);
+        }
+        match (before, self.is_carried()) {
+            (false, true) => self.surroundings.balance.reset(),
+            (true, false) => {
+                self.controllers.modern.reset();
+                self.surroundings.balance.reset();
+            }
+            _ => {}
+        }
+    }
+
+    /// True if the centre of mass is low and something else than feet touches.
+    fn lies(&self) -> bool {
+        let height = self.scratch.terms.com.z / self.constants.standing_com_height;
+        height < FALLEN_HEIGHT && !self.only_feet_touch()
+    }
+
+    fn only_feet_touch(&self) -> bool {
+        let support = &self.surroundings.support;
+        let points = support.points();
+        points.iter().all(|p| FEET.contains(&p.segment)) && support.rests().is_empty()
+    }
+
+    /// True if the figure is up and on its feet, and its motion has it so.
+    fn is_on_feet(&self) -> bool {
+        let standing = self.constants.standing_com_height;
+        let is_up = |height: f64| height > RISEN_HEIGHT * standing;
+        is_up(self.scratch.terms.com.z) && is_up(self.desired.com.now.z) && self.only_feet_touch()
+    }
+
+    /// What leads the pelvis back to the motion, if anything does.
+    pub(super) fn pull(&self) -> Option<Hold> {
+        let help = &self.surroundings.help;
+        let most = self.most_help() * help.share();
+        (most > 0.0).then(|| pull(&self.setup.body, most))
+    }
+
+    /// What motors are asked to do while the figure is carried; `None` if it is not. No allocation.
+    pub(super) fn carried_command(&mut self, world: &TickContext) -> Option<MotorCommand> {
+        let target = self.is_carried().then(|| self.desired.target.clone())?;
+        Some(self.stiff_command(MotorLaw::STIFF, &target, world.dt))
+    }
+}
