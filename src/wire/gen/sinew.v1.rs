@@ -5990,8 +5990,8 @@ pub struct UpdateFigureRequest {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
     /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-    /// `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
-    /// ignored, whatever they hold.
+    /// `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all.
+    /// Fields that it does not name are ignored, whatever they hold.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
     /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
@@ -6491,7 +6491,8 @@ pub mod figure_service_client {
                 .insert(GrpcMethod::new("sinew.v1.FigureService", "ListFigures"));
             self.inner.unary(req, path, codec).await
         }
-        /// Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or protective steps.
+        /// Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or
+        /// protective steps.
         pub async fn update_figure(
             &mut self,
             request: impl tonic::IntoRequest<super::UpdateFigureRequest>,
@@ -6606,7 +6607,8 @@ pub mod figure_service_server {
             tonic::Response<super::ListFiguresResponse>,
             tonic::Status,
         >;
-        /// Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or protective steps.
+        /// Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or
+        /// protective steps.
         async fn update_figure(
             &self,
             request: tonic::Request<super::UpdateFigureRequest>,

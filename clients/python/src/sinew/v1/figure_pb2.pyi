@@ -790,8 +790,8 @@ class UpdateFigureRequest(_message.Message):
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
         """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-        `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
-        ignored, whatever they hold.
+        `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all.
+        Fields that it does not name are ignored, whatever they hold.
         """
 
     def __init__(

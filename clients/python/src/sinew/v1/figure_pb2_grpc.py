@@ -94,7 +94,8 @@ class FigureServiceServicer:
         raise NotImplementedError('Method not implemented!')
 
     def UpdateFigure(self, request, context):
-        """Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or protective steps.
+        """Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or
+        protective steps.
         """
         context.set_code(grpc.StatusCode.UNIMPLEMENTED)
         context.set_details('Method not implemented!')

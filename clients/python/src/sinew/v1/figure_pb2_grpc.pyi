@@ -42,7 +42,9 @@ class FigureServiceStub:
     ListFigures: _grpc.UnaryUnaryMultiCallable[_figure_pb2.ListFiguresRequest, _figure_pb2.ListFiguresResponse]
     """All figures of a world, in the order of their creation."""
     UpdateFigure: _grpc.UnaryUnaryMultiCallable[_figure_pb2.UpdateFigureRequest, _figure_pb2.UpdateFigureResponse]
-    """Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or protective steps."""
+    """Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or
+    protective steps.
+    """
     DeleteFigure: _grpc.UnaryUnaryMultiCallable[_figure_pb2.DeleteFigureRequest, _figure_pb2.DeleteFigureResponse]
     """Removes a figure."""
     ResetFigure: _grpc.UnaryUnaryMultiCallable[_figure_pb2.ResetFigureRequest, _figure_pb2.ResetFigureResponse]
@@ -62,7 +64,9 @@ class FigureServiceAsyncStub(FigureServiceStub):
     ListFigures: _aio.UnaryUnaryMultiCallable[_figure_pb2.ListFiguresRequest, _figure_pb2.ListFiguresResponse]  # type: ignore[assignment]
     """All figures of a world, in the order of their creation."""
     UpdateFigure: _aio.UnaryUnaryMultiCallable[_figure_pb2.UpdateFigureRequest, _figure_pb2.UpdateFigureResponse]  # type: ignore[assignment]
-    """Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or protective steps."""
+    """Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or
+    protective steps.
+    """
     DeleteFigure: _aio.UnaryUnaryMultiCallable[_figure_pb2.DeleteFigureRequest, _figure_pb2.DeleteFigureResponse]  # type: ignore[assignment]
     """Removes a figure."""
     ResetFigure: _aio.UnaryUnaryMultiCallable[_figure_pb2.ResetFigureRequest, _figure_pb2.ResetFigureResponse]  # type: ignore[assignment]
@@ -103,7 +107,9 @@ class FigureServiceServicer(metaclass=_abc_1.ABCMeta):
         request: _figure_pb2.UpdateFigureRequest,
         context: _ServicerContext,
     ) -> _typing.Union[_figure_pb2.UpdateFigureResponse, _abc.Awaitable[_figure_pb2.UpdateFigureResponse]]:
-        """Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or protective steps."""
+        """Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or
+        protective steps.
+        """
 
     @_abc_1.abstractmethod
     def DeleteFigure(

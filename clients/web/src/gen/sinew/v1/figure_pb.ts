@@ -680,8 +680,8 @@ export type UpdateFigureRequest = Message<"sinew.v1.UpdateFigureRequest"> & {
 
   /**
    * Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-   * `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all. Fields that it does not name are
-   * ignored, whatever they hold.
+   * `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all.
+   * Fields that it does not name are ignored, whatever they hold.
    *
    * @generated from field: google.protobuf.FieldMask update_mask = 2;
    */
@@ -1103,7 +1103,8 @@ export const FigureService: GenService<{
     output: typeof ListFiguresResponseSchema;
   },
   /**
-   * Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or protective steps.
+   * Changes strength, controller, options of the paper's controller, fatigue, assist, help, constraints or
+   * protective steps.
    *
    * @generated from rpc sinew.v1.FigureService.UpdateFigure
    */
