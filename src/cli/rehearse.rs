@@ -173,15 +173,14 @@ pub fn run(args: &RehearseArgs) -> Result<()> {
         .zip(before)
         .map(|(a, b)| (a - b).as_secs_f64());
     let played = found.conditions(&conditions);
-    let reference = found.reference(&forms.reference);
     if let Some(path) = &args.strip {
         let frames = args.strip_frames;
         let title = |what: &str| format!("{name}: {what}, strength {}", args.strength);
         let rows = [
-            (&conditions, &forms.reference, title("plain tracking")),
-            (&played, &reference, title(found.followed.way.name())),
+            (&conditions, title("plain tracking")),
+            (&played, title(found.followed.way.name())),
         ];
-        let drawn = rows.map(|(c, r, title)| row(c, r, args.view, frames, title));
+        let drawn = rows.map(|(c, title)| row(c, &forms.reference, args.view, frames, title));
         let [above, below] = drawn;
         let drawing = above?.above(below?);
         let png =
@@ -190,7 +189,9 @@ pub fn run(args: &RehearseArgs) -> Result<()> {
     }
     if let Some(path) = &args.out {
         let mut postures = Vec::new();
-        watched(&played, &reference, |f, _| postures.push(f.state().posture))?;
+        watched(&played, &forms.reference, |f, _| {
+            postures.push(f.state().posture)
+        })?;
         write(path, write_bvh(&body, &postures, args.rate))?;
     }
     let text = if args.json {

@@ -210,11 +210,9 @@ pub struct Found {
     pub helped: Option<LiveHelp>,
 }
 
-/// A clip that is tracked with help while it is being lost.
-#[derive(Clone, Debug)]
+/// Help that a clip gets while it is being lost.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LiveHelp {
-    /// The clip as it is tracked.
-    pub clip: Arc<Clip>,
     /// Largest force that is allowed over the weight.
     pub most: f64,
     /// Impulse of the help, N·s.
@@ -237,15 +235,6 @@ impl Found {
             }),
             ..conditions.clone()
         }
-    }
-
-    /// The same reference with what is played.
-    pub fn reference(&self, reference: &Reference) -> Reference {
-        let mut out = reference.clone();
-        if let Some(help) = &self.helped {
-            out.prepared = Arc::clone(&help.clip);
-        }
-        out
     }
 }
 
@@ -288,47 +277,31 @@ pub fn problem(
     Ok(problem)
 }
 
-/// Plain tracking with help while the motion is being lost: of the prepared motion, or of the recording as it is. That
-/// which keeps it with less help; `None` if neither does, or if there may be no help.
+/// Plain tracking with help while the motion is being lost; `None` if that does not keep it either, or if there may be
+/// no help.
 fn live_help(
     conditions: &Conditions,
     reference: &Reference,
-    as_recorded: &Clip,
     options: &RehearsalOptions,
 ) -> Result<Option<(LiveHelp, Outcome)>, WorldError> {
     let conditions = with_help(conditions, options);
     if conditions.options.max_help == 0.0 {
         return Ok(None);
     }
-    let mut best: Option<(LiveHelp, Outcome)> = None;
-    for clip in [
-        Arc::clone(&reference.prepared),
-        Arc::new(as_recorded.clone()),
-    ] {
-        let reference = Reference {
-            prepared: Arc::clone(&clip),
-            ..reference.clone()
-        };
-        let (mut impulse, mut ticks) = (0.0, [0_usize; 2]);
-        let outcome = watched(&conditions, &reference, |figure, _| {
-            let assist = figure.report().map_or([0.0; 6], |r| r.assist);
-            let force = assist[3..].iter().map(|f| f * f).sum::<f64>().sqrt();
-            impulse += force / conditions.world.rate_hz;
-            ticks[0] += usize::from(assist != [0.0; 6]);
-            ticks[1] += 1;
-        })?;
-        let less = |(_, b): &(_, Outcome)| outcome.assist_share < b.assist_share;
-        if outcome.completed && best.as_ref().is_none_or(less) {
-            let help = LiveHelp {
-                clip,
-                most: options.most_help,
-                impulse,
-                acts: ticks[0] as f64 / ticks[1].max(1) as f64,
-            };
-            best = Some((help, outcome));
-        }
-    }
-    Ok(best)
+    let (mut impulse, mut ticks) = (0.0, [0_usize; 2]);
+    let outcome = watched(&conditions, reference, |figure, _| {
+        let assist = figure.report().map_or([0.0; 6], |r| r.assist);
+        let force = assist[3..].iter().map(|f| f * f).sum::<f64>().sqrt();
+        impulse += force / conditions.world.rate_hz;
+        ticks[0] += usize::from(assist != [0.0; 6]);
+        ticks[1] += 1;
+    })?;
+    let help = LiveHelp {
+        most: options.most_help,
+        impulse,
+        acts: ticks[0] as f64 / ticks[1].max(1) as f64,
+    };
+    Ok(outcome.completed.then_some((help, outcome)))
 }
 
 /// The same conditions with the help that may be given while a motion is being lost.
@@ -407,7 +380,7 @@ pub fn follow(
     let outcome = run(&played, reference)?;
     let helped = match outcome.completed && outcome.assist_share == 0.0 {
         true => None,
-        false => live_help(conditions, reference, as_recorded, options)?,
+        false => live_help(conditions, reference, options)?,
     };
     let least = |h: &Outcome| !outcome.completed || h.assist_share < outcome.assist_share;
     if let Some((help, outcome)) = helped.filter(|(_, h)| least(h)) {

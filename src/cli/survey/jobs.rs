@@ -422,7 +422,7 @@ fn plan(args: &SurveyArgs, body: &Arc<Body>, source: &Source, bytes: &[u8]) -> R
 
 /// What is known of a clip whose way was found; with pushes it is run once more.
 fn planned(args: &SurveyArgs, body: &Arc<Body>, plan: &Plan, bytes: &[u8]) -> Result<Measured> {
-    let reference = &plan.found.reference(&plan.fitted.reference);
+    let reference = &plan.fitted.reference;
     let lead = match &plan.found.motion {
         Some(motion) => motion.lead_in(),
         None => reference.prepared.lead_in(),

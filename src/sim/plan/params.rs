@@ -579,7 +579,8 @@ pub mod stop {
 /// From a motion, or a stand, into a clip.
 pub mod transition {
     crate::sim::params::params! {
-        /// Time of the motion so far that is taken along: what is prepared with the seam, and some more.
+        /// Time of the motion so far that is taken along: what is prepared with the seam, and some more. The pelvis may
+        /// be shifted for what comes for as long before it.
         RUN_UP: f64 = 0.5, "s", 0.2..=2.0, "docs/locomotion.md#transitions";
         /// A place to leave a motion is looked for this far ahead: more than a stride.
         AHEAD: f64 = 1.5, "s", 0.5..=3.0, "docs/locomotion.md#transitions";
@@ -617,8 +618,6 @@ pub mod transition {
         ARM_BLEND_TIME: f64 = 0.6, "s", 0.1..=1.5, "docs/locomotion.md#transitions";
         /// Shortest time for a swinging foot that lands soon.
         LEAST_BLEND_TIME: f64 = 0.1, "s", 0.03..=0.3, "docs/locomotion.md#transitions";
-        /// Time before the seam in which the pelvis may be shifted for what comes.
-        SHIFT_AHEAD: f64 = 0.5, "s", 0..=1.5, "docs/locomotion.md#transitions";
         /// Time in which a shift of the pelvis comes in, and goes out.
         SHIFT_EDGE: f64 = 0.25, "s", 0.05..=0.6, "docs/locomotion.md#transitions";
         /// What is known before and after that, for accelerations and filters.
@@ -679,14 +678,8 @@ pub mod stream {
         MOVING_SPEED: f64 = 0.1, "m/s", 0.02..=0.3, "docs/locomotion.md#streams";
         /// Samples over which that speed is averaged, about.
         SPEED_AVERAGED: f64 = 4.0, "samples", 1..=20, "docs/locomotion.md#streams";
-        /// A moment to which a figure is led from a stand is looked for in so much of a stream: a step.
-        ENTRY_SEARCH: f64 = 0.7, "s", 0..=2.0, "docs/locomotion.md#streams";
-        /// Samples between the moments that are tried.
-        ENTRY_STRIDE: usize = 7, "samples", 1..=30, "docs/locomotion.md#streams";
         /// What a second of delay costs where a stream is taken up: it matters where all moments are alike.
         DELAY_COST: f64 = 0.3, "1/s²", 0..=3.0, "docs/locomotion.md#streams";
-        /// Delay that is not worth a seam.
-        LEAST_CATCH_UP: f64 = 0.1, "s", 0.02..=1.0, "docs/locomotion.md#streams";
     }
 }
 

@@ -43,7 +43,8 @@ fn samples_after() -> usize {
 impl StreamBeginning {
     /// Samples of a stream that are needed.
     pub fn needed() -> usize {
-        (stream::ENTRY_SEARCH * stream::RATE) as usize + samples_after() + 1
+        // A step, which is half a stride, so that there is a moment to be led to.
+        (0.5 * transition::AHEAD * stream::RATE) as usize + samples_after() + 1
     }
 
     /// * `came`: at least [`Self::needed`] samples, 1/[`stream::RATE`] s apart.
@@ -90,7 +91,7 @@ impl StreamBeginning {
         let latest = self.came.len().checked_sub(samples_after() + 1)?;
         let mut best = None;
         // The later, the less the figure is behind.
-        for entered in (0..=latest).rev().step_by(stream::ENTRY_STRIDE) {
+        for entered in (0..=latest).rev().step_by(stop::SEARCH_STRIDE / 2) {
             let first = entered as f64 / stream::RATE;
             let Some(way) = next.from_stand(body, first, &self.stand) else {
                 continue;

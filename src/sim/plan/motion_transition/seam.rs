@@ -340,7 +340,7 @@ pub(super) fn transition_at(
     let ends = seam.ends()?;
     let count = (ends + samples_in(transition::MARGIN)).min(count);
 
-    let held = now.max(at.saturating_sub(samples_in(transition::SHIFT_AHEAD)));
+    let held = now.max(at.saturating_sub(samples_in(transition::RUN_UP)));
     let cut = held.saturating_sub(samples_in(transition::MARGIN));
     let (mut postures, planted): (Vec<_>, Vec<_>) = known[cut..at].iter().copied().unzip();
     let mut label = relabel_prepared(body, stop::RATE, &postures, &planted);

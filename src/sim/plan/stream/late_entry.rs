@@ -57,7 +57,8 @@ impl StreamPlan {
         let end = ((most * RATE) as usize).min(waiting.len().saturating_sub(3));
         // A stride, so that there is a like moment in every walk.
         let first = end.saturating_sub((transition::AHEAD * RATE) as usize);
-        let first = first.max((stream::LEAST_CATCH_UP * RATE).ceil() as usize);
+        // Less than what is steady is not worth a seam.
+        let first = first.max(transition::STEADY);
         // Another stream that is to go on from here does so first.
         if self.count < 3 || first >= end || self.placement.join.is_some() {
             return 0.0;
