@@ -55,7 +55,8 @@ async fn start(settings: &[(&str, &str)]) -> TestServer {
     server
 }
 
-/// Rehearses a clip until something is found that is better than help while it is tracked: how much time that takes depends on what else the machine does.
+/// Rehearses a clip until something is found that is better than help while it is tracked: how much time that takes
+/// depends on what else the machine does.
 async fn rehearse(server: &TestServer, clip: &str) -> pb::Rehearsal {
     for seconds in [10, 20, 40] {
         let found = rehearse_for(server, clip, seconds).await;
