@@ -112,7 +112,9 @@ impl Help {
     /// False if it cannot be what was written into a checkpoint.
     pub fn is_valid(&self) -> bool {
         let times = [self.since, self.out_of_reach, self.pause];
-        (0.0..=1.0).contains(&self.share) && times.iter().all(|t| (0.0..=1e3).contains(t))
+        (0.0..=1.0).contains(&self.share)
+            && (!self.carries || self.acts())
+            && times.iter().all(|t| (0.0..=1e3).contains(t))
     }
 
     /// Decides about the tick of `dt` s that begins.

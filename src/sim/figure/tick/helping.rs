@@ -42,9 +42,7 @@ impl Figure {
     pub(super) fn update_help(&mut self, world: &TickContext) {
         let before = self.is_carried();
         if !self.may_be_helped() {
-            if self.surroundings.help.acts() {
-                self.surroundings.help.stop();
-            }
+            self.surroundings.help.stop();
         } else {
             let seen = Situation {
                 forecast: Forecast::of(&self.desired.target, &self.physical.state, world.dt),
