@@ -126,7 +126,7 @@ export class Beside {
   /** The present of the world, as its pane would show it alone. */
   live(now: number): Moment | undefined {
     const { session } = this;
-    const pair = session.playhead.at(now, session.paused ? 1 : (session.world?.speed ?? 1));
+    const pair = session.playhead.at(now, session.paused ? 0 : (session.world?.speed ?? 1));
     return pair && { ...pair, time: timeOf(pair), people: session.people, exact: true };
   }
 

@@ -700,7 +700,7 @@ let populated: ReadonlyMap<number, Person> | undefined;
 
 /** The present of the world, s and frames. */
 function present(t: number): Moment | undefined {
-  const pair = session.playhead.at(t, session.paused ? 1 : (session.world?.speed ?? 1));
+  const pair = session.playhead.at(t, session.paused ? 0 : (session.world?.speed ?? 1));
   return pair && { ...pair, time: timeOf(pair), people: session.people, exact: true };
 }
 
@@ -776,7 +776,7 @@ function picture(): void {
   document.body.dataset.script = scripted.toFixed(2);
   document.body.dataset.drawn = String(scene?.drawn ?? 0);
   document.body.dataset.cost = cost.toFixed(2);
-  document.body.dataset.shown = `${moment?.time.toFixed(2)} ${moment?.exact}`;
+  document.body.dataset.shown = `${moment?.time.toFixed(4)} ${moment?.exact}`;
   document.body.dataset.beside = beside.open ? `${other?.time.toFixed(2)} ${other?.exact}` : "";
 }
 

@@ -142,7 +142,10 @@ export class Playhead {
     return { before, after, share: span > 0 ? (time - before.timeS) / span : 1 };
   }
 
-  /** The two frames around the moment to draw at wall time `now` (s) and the share of the second. */
+  /**
+   * The two frames around the moment to draw at wall time `now` (s) and the share of the second. `speed`: of the world,
+   * 0 while it is paused: then what is drawn is its newest frame, and does not creep towards it.
+   */
   at(now: number, speed: number): { before: WorldFrame; after: WorldFrame; share: number } | undefined {
     const newest = this.newest();
     if (!newest) return undefined;
@@ -155,6 +158,7 @@ export class Playhead {
     // Follow the stream softly; jump when far off (a new world, a step of a paused one, a stall).
     const off = wanted - free;
     this.time = Number.isNaN(free) || Math.abs(off) > 8 * period + 0.1 ? wanted : free + 0.08 * off;
+    if (speed === 0) this.time = newest.timeS;
     this.time = Math.min(Math.max(this.time, oldest.timeS), newest.timeS);
     let i = this.frames.length - 1;
     while (i > 0 && this.frames[i - 1].timeS >= this.time) i--;

@@ -55,8 +55,7 @@ async function ghostPixels(page: Page): Promise<number> {
     const picture = await atRest(page);
     return { picture, shown: await page.evaluate(() => document.body.dataset.shown) };
   };
-  // The page asks for other fields each time, and gets the last frame again: both pictures have to be of that one, and
-  // not of a moment shortly before it.
+  // The last frame may arrive after the answer to the pause: both pictures have to be of that one.
   let [without, on] = [await toggle(), await toggle()];
   for (let again = 0; on.shown !== without.shown && again < 3; again++)
     [without, on] = [await toggle(), await toggle()];
