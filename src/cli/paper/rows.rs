@@ -12,7 +12,9 @@ use crate::evaluate::experiments::person::{
 use crate::evaluate::experiments::touching::{Against, Prop, hand_support, reach};
 use crate::evaluate::strip::View;
 use crate::sim::body::{Body, Profile, Sex};
+use crate::sim::motion::Bvh;
 use crate::sim::motion::builtin::builtin;
+use crate::sim::retarget::{RetargetOptions, retarget};
 use crate::sim::support::sharing::{ALONG_REST, LEAST_WEIGHT};
 use anyhow::Result;
 use std::sync::Arc;
@@ -21,6 +23,10 @@ use std::sync::Arc;
 const PANELS: usize = 7;
 /// Candidates of the search that are listed.
 const LISTED: usize = 6;
+
+/// A motion with a flight, synthesised with its truth: none that is built in leaves the floor.
+const JUMP: &str = "jump";
+static JUMPING: &[u8] = include_bytes!("../../../tests/corpus/jump.vrm.bvh");
 
 /// Writes the page.
 pub fn write(mut page: Page, body: &Arc<Body>) -> Result<()> {
@@ -263,7 +269,8 @@ fn strength(page: &mut Page) -> Result<()> {
          Hz), with the forces of the floor, torques as means over 0.1 s; of each direction of each DOF the {} \
          quantile of torque over strength counts, and muscles that needed more than their curves say get {MARGIN} \
          times that. Below, people of the 5th percentile do motions with loads in the right hand, by the tables and \
-         by what the motion needs, with the default controller.",
+         by what the motion needs, with the default controller. The jump is `tests/corpus/jump.vrm.bvh`, fitted to \
+         each of them.",
         QUANTILE
     ));
     let mut rows = Vec::new();
@@ -271,8 +278,20 @@ fn strength(page: &mut Page) -> Result<()> {
     for (sex, age) in [(Sex::Female, 75.0), (Sex::Male, 75.0), (Sex::Female, 10.0)] {
         let profile = Profile::ordinary(sex, age);
         let body = Arc::new(Body::humanoid(profile).map_err(|e| anyhow::anyhow!("{e}"))?);
-        for (name, mass) in [("walk", 0.0), ("squat", 0.0), ("squat", 3.0), ("lift", 5.0)] {
-            let clip = Arc::new(builtin(&body, name).expect("built-in motions exist"));
+        let motions = [
+            ("walk", 0.0),
+            ("squat", 0.0),
+            ("squat", 3.0),
+            ("lift", 5.0),
+            (JUMP, 0.0),
+        ];
+        for (name, mass) in motions {
+            let clip = if name == JUMP {
+                retarget(&Bvh::parse(JUMPING)?, &body, &RetargetOptions::default())?.clip
+            } else {
+                builtin(&body, name).expect("built-in motions exist")
+            };
+            let clip = Arc::new(clip);
             let a = again(&body, 5.0, &Did { clip, mass }, PANELS);
             let of = |k: usize| format!("{}, {:.2}°", a.runs[k].result(), a.runs[k].rms_deg());
             rows.push(vec![
@@ -287,10 +306,14 @@ fn strength(page: &mut Page) -> Result<()> {
                 of(0),
                 of(1),
             ]);
-            if name == "lift" && sex == Sex::Female && age > 70.0 {
-                let [tables, merged] = a.runs;
-                strips.push((body.clone(), "rows-again-tables", tables, "by the tables"));
-                strips.push((body.clone(), "rows-again-motion", merged, "by the motion"));
+            let drawn = match (name, sex) {
+                ("lift", Sex::Female) if age > 70.0 => "lift, 5 kg",
+                (JUMP, Sex::Male) => JUMP,
+                _ => continue,
+            };
+            for (run, by) in a.runs.into_iter().zip(["tables", "motion"]) {
+                let file = format!("rows-again-{name}-{by}");
+                strips.push((body.clone(), file, run, format!("{drawn}, by the {by}")));
             }
         }
     }
@@ -306,13 +329,7 @@ fn strength(page: &mut Page) -> Result<()> {
         &rows,
     );
     for (body, name, run, title) in strips {
-        page.strip(
-            name,
-            &body,
-            &run,
-            View::Side,
-            &format!("lift, 5 kg, {title}"),
-        )?;
+        page.strip(&name, &body, &run, View::Side, &title)?;
     }
     Ok(())
 }
