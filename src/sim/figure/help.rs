@@ -9,9 +9,10 @@
 //! Nothing here looks ahead in the motion, so streams are helped by the same rule as clips.
 
 use super::assist::Missing;
+use super::params::assist::INERTIA;
 use super::params::help::{
     AGAIN_AFTER, ARM, BEGIN, BEGIN_AFTER, END, END_AFTER, FADE_TIME, FORECAST_TIME, FREQUENCY,
-    GROWTH_TIME, INERTIA, LEVER, OUT_OF_REACH, OUT_OF_REACH_AFTER,
+    GROWTH_TIME, LEVER, OUT_OF_REACH, OUT_OF_REACH_AFTER,
 };
 use super::rehearsed::Hold;
 use crate::sim::body::{Body, State};

@@ -16,10 +16,10 @@ use crate::sim::control::reroot::shift;
 use crate::sim::dynamics::factor::{factor, solve};
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::dynamics::{Kinematics, MassMatrix, Terms};
-use crate::sim::figure::params::contact::LARGEST_SPEED;
+use crate::sim::figure::params::contact::{ITERATIONS, LARGEST_SPEED};
 use crate::sim::figure::params::kinematic::{
-    ARRIVAL_TICKS, COMPLIANCE, IMPACT_HEIGHT, IMPACT_SPEED, ITERATIONS, LIMIT_TOLERANCE,
-    NEARLY_FLAT, PIVOT_REACH, SETTLE, TOLERANCE,
+    ARRIVAL_TICKS, COMPLIANCE, IMPACT_HEIGHT, IMPACT_SPEED, LIMIT_TOLERANCE, NEARLY_FLAT,
+    PIVOT_REACH, SETTLE, TOLERANCE,
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::report::{ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 mod activity;
 pub mod assist;
 pub mod balance_loss;
+mod bracing;
 pub mod constraints;
 pub mod drive;
 pub mod events;

@@ -67,6 +67,16 @@ pub mod fall {
     }
 }
 
+/// How a figure braces itself while it falls.
+pub mod bracing {
+    crate::sim::params::params! {
+        /// Share of their flexion by which knees bend, and hips in a fall backward.
+        BEND: f64 = 0.5, "1", 0..=1.0, "docs/tick.md#falling";
+        /// Time constant of what it demands of its joints: about as fast as muscles can.
+        HORIZON: f64 = 0.02, "s", 0.01..=0.1, "docs/tick.md#falling";
+    }
+}
+
 /// When a fallen figure gets up, and how fast.
 pub mod get_up {
     crate::sim::params::params! {
@@ -286,8 +296,6 @@ pub mod help {
         FREQUENCY: f64 = 8.0, "rad/s", 4..=16, "docs/rehearsal.md#live-help";
         /// Largest moment over largest force times stature: the force acts within half a stature of the pelvis.
         LEVER: f64 = 0.5, "1", 0.1..=0.5, "docs/rehearsal.md#live-help";
-        /// Inertia about the pelvis over mass times stature squared.
-        INERTIA: f64 = 0.05, "1", 0.02..=0.1, "derivation";
     }
 }
 
@@ -354,8 +362,6 @@ pub mod kinematic {
         PIVOT_REACH: f64 = 0.012, "m", 0.001..=0.05, "docs/adr/0012-kinematic-stepper.md";
         /// Compliance of a touching point in an impact.
         COMPLIANCE: f64 = 1e-6, "1/kg", 1e-9..=1e-4, "numerical";
-        /// Most iterations of an impact.
-        ITERATIONS: u32 = 80, "rounds", 20..=200, "numerical";
         /// Residual of an impact.
         TOLERANCE: f64 = 1e-9, "N·m·s", 1e-12..=1e-6, "numerical";
         /// Torque beyond strength that counts as rounding, relative to the limit.

@@ -5751,7 +5751,7 @@ pub struct Figure {
     /// those that have ended are gone.
     #[prost(message, repeated, tag = "13")]
     pub constraints: ::prost::alloc::vec::Vec<Constraint>,
-    /// Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
+    /// Step when the capture point has left the feet, and put the arms out in a fall (CONTROLLER_MODERN). Absent: true.
     #[prost(bool, optional, tag = "14")]
     pub protective_steps: ::core::option::Option<bool>,
     /// Largest force over the weight of the help while its motion is being lost, whatever that is: a clip, a stream, or a

@@ -843,7 +843,7 @@ class World:
         `strength`: factor on the measured strength, or a `Strength`. `fatigue_time_scale`: 0 no fatigue, 1 as measured,
         larger is faster. `assist`: help from outside at the pelvis, 0 to 1. `max_help_weights`: most help while its
         motion is being lost, 0 to 2 times the weight. `constraints`: where parts of it are wanted (m, world).
-        `protective_steps`: it may step to keep its balance.
+        `protective_steps`: it may step to keep its balance, and puts its arms out if it falls all the same.
         """
         settings = requests.figure(
             body=body,

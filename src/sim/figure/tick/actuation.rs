@@ -8,11 +8,12 @@ use crate::sim::control::{
     tracking,
 };
 use crate::sim::figure::assist::Assist;
+use crate::sim::figure::bracing;
 use crate::sim::figure::drive::Drive;
-use crate::sim::figure::params::{fall, motors};
+use crate::sim::figure::params::{bracing::HORIZON, fall, motors};
 use crate::sim::figure::tasks::TaskPoints;
 use crate::sim::figure::torque_step::MotorCommand;
-use crate::sim::motion::TargetPair;
+use crate::sim::motion::{Target, TargetPair};
 use crate::sim::setup::{ControlParams, ControllerKind, StrengthScale};
 use crate::sim::strength::MuscleScale;
 
@@ -76,7 +77,7 @@ impl Figure {
 
     /// Factors on the muscles: a fallen figure relaxes, a tired one has less.
     pub(super) fn available_strength(&self) -> MuscleScale {
-        let fallen = if self.motion.is_limp() {
+        let fallen = if self.motion.is_limp() && !self.braces() {
             fall::STRENGTH
         } else {
             1.0
@@ -173,8 +174,21 @@ impl Figure {
                 motors::MODERN_SPEED,
             ),
             ControllerKind::Motors => {
-                let horizon = if self.motion.is_limp() {
+                let braces = self.braces();
+                let limp = self.motion.is_limp() && !braces;
+                let braced = braces.then(|| {
+                    let (body, terms) = (&self.setup.body, &self.scratch.terms);
+                    let desired = &self.desired.target.next.posture;
+                    let held = bracing::posture(body, terms, desired, world.gravity);
+                    TargetPair {
+                        now: Target::still(held),
+                        next: Target::still(held),
+                    }
+                });
+                let horizon = if limp {
                     Some(fall::HORIZON)
+                } else if braces {
+                    Some(HORIZON)
                 } else {
                     self.setup.params.horizon
                 };
@@ -186,7 +200,7 @@ impl Figure {
                 let demand = tracking::initial_acceleration(
                     &self.setup.body,
                     &self.physical.state,
-                    &self.desired.target,
+                    braced.as_ref().unwrap_or(&self.desired.target),
                     &law,
                 );
                 self.controllers
@@ -195,7 +209,7 @@ impl Figure {
                     .copy_from_slice(&demand[..DOF_COUNT]);
                 (
                     &self.controllers.motors,
-                    if self.motion.is_limp() {
+                    if limp {
                         fall::SATURATION_SPEED
                     } else {
                         motors::ALONE_SPEED

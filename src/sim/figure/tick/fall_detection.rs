@@ -8,6 +8,7 @@ use crate::sim::figure::balance_loss::{Observation, Reach};
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::kinematic_step::other_part_arrives;
 use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
+use crate::sim::figure::params::get_up::STILL_SPEED;
 use crate::sim::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
 use crate::sim::report::Flags;
 use crate::sim::setup::ControllerKind;
@@ -67,6 +68,21 @@ impl Figure {
         } else {
             self.setup.controller
         }
+    }
+
+    /// True while it falls as a person does ([`bracing`](crate::sim::figure::bracing)): from the loss of balance until
+    /// it lies still, unless its motion goes to the floor by itself. Not with the paper's controller, whose falls are
+    /// those of the paper, nor where feet have to stay.
+    pub(super) fn braces(&self) -> bool {
+        let s = &self.setup;
+        let person = s.controller == ControllerKind::Modern && s.params.protective_steps;
+        let falls = if self.motion.is_limp() {
+            self.scratch.terms.com_velocity.norm() > STILL_SPEED
+        } else {
+            self.surroundings.balance.lost() && !self.motion.gets_up()
+        };
+        let height = self.desired.com.now.z / self.constants.standing_com_height;
+        person && falls && self.motion.rehearsed().is_none() && height > RISEN_HEIGHT
     }
 
     /// True if accelerations are to be applied as they are. A load held in two hands and the assist act by forces,

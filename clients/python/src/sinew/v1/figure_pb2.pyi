@@ -416,7 +416,7 @@ class Figure(_message.Message):
     (`assist`). 1 holds the pelvis on its path. 0: none.
     """
     protective_steps: _builtins.bool
-    """Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true."""
+    """Step when the capture point has left the feet, and put the arms out in a fall (CONTROLLER_MODERN). Absent: true."""
     max_help_weights: _builtins.float
     """Largest force over the weight of the help while its motion is being lost, whatever that is: a clip, a stream, or a
     posture that is held; 0…2. Then a pull on the pelvis and stiff motors keep it with its motion, until it goes on by

@@ -318,7 +318,7 @@ export type Figure = Message<"sinew.v1.Figure"> & {
   constraints: Constraint[];
 
   /**
-   * Step when the capture point has left the feet (CONTROLLER_MODERN). Absent: true.
+   * Step when the capture point has left the feet, and put the arms out in a fall (CONTROLLER_MODERN). Absent: true.
    *
    * @generated from field: optional bool protective_steps = 14;
    */
