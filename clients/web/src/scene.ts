@@ -21,7 +21,14 @@ const LOOKS = {
   dark: { sky: 0x171d22, ground: 0x39424a, line: "#4c5862", body: 0x98a5af, ghost: 0x6cc3e0, sun: 1.7, fill: 1.1 },
 };
 /** Blue, vermilion, yellow and green of Okabe and Ito: told apart with any colour vision. */
-export const HUES = { com: 0x0072b2, zmp: 0xd55e00, force: 0x009e73, push: 0xcc79a7, support: 0x56b4e9 };
+export const HUES = {
+  com: 0x0072b2,
+  zmp: 0xd55e00,
+  force: 0x009e73,
+  push: 0xcc79a7,
+  support: 0x56b4e9,
+  help: 0xe69f00,
+};
 /** Length of an arrow, m per N. */
 const METRES_PER_NEWTON = 1 / 700;
 const MOST_ARROWS = 16;
@@ -210,11 +217,12 @@ const scratchPlane = new THREE.Plane();
 const scratchOne = new THREE.Vector3(1, 1, 1);
 
 /** A solid arrow of variable length along its own y. */
-function arrow(colour: number): THREE.Group {
+function arrow(colour: number, overBodies = false): THREE.Group {
   const group = new THREE.Group();
-  const material = new THREE.MeshBasicMaterial({ color: colour });
+  const material = new THREE.MeshBasicMaterial({ color: colour, depthTest: !overBodies });
   const shaft = new THREE.Mesh(arrowShaft, material);
   const head = new THREE.Mesh(arrowHead, material);
+  if (overBodies) shaft.renderOrder = head.renderOrder = 3;
   group.add(shaft, head);
   group.visible = false;
   return group;
@@ -270,6 +278,7 @@ class Actor {
     new THREE.MeshBasicMaterial({ color: HUES.zmp, transparent: true, depthWrite: false, side: THREE.DoubleSide }),
   );
   private readonly arrows: THREE.Group[] = [];
+  private readonly help = arrow(HUES.help, true);
   private readonly hands: [number, number];
   private readonly touchable: Touchable;
 
@@ -318,6 +327,7 @@ class Actor {
       this.plumb,
       this.zmp,
       ...this.arrows,
+      this.help,
     );
     // Nothing is seen of it before the first frame that tells where it is.
     this.group.visible = false;
@@ -341,6 +351,7 @@ class Actor {
     this.showLoads(after);
     this.showSupport(after, shown.support);
     this.showForces(after, shown.forces);
+    this.showHelp(after);
   }
 
   private tint(shown: boolean, chosen: boolean): void {
@@ -444,6 +455,13 @@ class Actor {
       line.setXYZ(1, com[0], com[1], 0.005);
       line.needsUpdate = true;
     }
+  }
+
+  /** Help is not physics: it is shown whenever it acts, and begins inside the pelvis. */
+  private showHelp(frame: FigureFrame): void {
+    const assist = numbers(frame.assist);
+    const force = assist.length === 6 ? scratchA.fromArray(assist as number[], 3) : scratchA.set(0, 0, 0);
+    point(this.help, scratchB.fromArray(this.solid.poses), force.multiplyScalar(METRES_PER_NEWTON));
   }
 
   private showForces(frame: FigureFrame, shown: boolean): void {

@@ -20,7 +20,7 @@ export type Phase =
 
 /** Figures above which frames come at half the rate; interpolation fills in. */
 const CROWD = 8;
-const FIELDS = ["segment_transforms", "torque", "torque_limits", "contacts", "balance", "desired", "status"];
+const FIELDS = ["segment_transforms", "torque", "torque_limits", "contacts", "balance", "desired", "assist", "status"];
 const FIRST_RETRY_MS = 250;
 const LONGEST_RETRY_MS = 3000;
 

@@ -5,9 +5,10 @@ import { RetargetReportSchema } from "../src/gen/sinew/v1/types_pb.js";
 import { axis, inPlace, marks, settled, usual } from "../src/plots.js";
 import { numbers } from "../src/client.js";
 import { ghostOpacity } from "../src/model.js";
+import { HUES } from "../src/scene.js";
 import { kilograms, margin, warnings } from "../src/words.js";
 import { recording } from "./recording.js";
-import { differing, dropFile, expect, fact, live, off, shot, Sinew, test } from "./support.js";
+import { coloured, differing, dropFile, expect, fact, live, off, shot, Sinew, test } from "./support.js";
 import type { Page } from "@playwright/test";
 
 /** A world of its own with figures that play a clip each, beside one another. */
@@ -115,6 +116,25 @@ test("the desired motion is drawn where it differs from the body, and not where 
   await expect(page.locator("#pause")).toHaveText("Resume");
   await shot(page, "ghost-differs");
   expect(await ghostPixels(page), "pixels of a desired motion that differs").toBeGreaterThan(300);
+});
+
+test("help from outside is drawn as an arrow while it acts", async ({ page, server }) => {
+  await server.start("--no-demo");
+  const api = await world(server.address, "held", ["idle"]);
+  await live(page, `${server.url}#world=held`);
+  const orange = async (): Promise<number> => coloured(page, await page.locator("#stage").screenshot(), HUES.help);
+  await page.waitForTimeout(1000);
+  expect(await orange()).toBe(0);
+  await api.figures.updateFigure({
+    figure: { name: "worlds/held/figures/f0", assist: 0.9 },
+    updateMask: { paths: ["assist"] },
+  });
+  // 300 N to the side for ten seconds.
+  const value = { segment: "pelvis", impulseNewtonSeconds: { x: 0, y: 1000, z: 0 }, durationS: 10 };
+  const push = { figureId: "f0", kind: { case: "impulse" as const, value } };
+  await api.perturbations.applyPerturbations({ world: "worlds/held", perturbations: [push, push, push] });
+  await expect.poll(orange).toBeGreaterThan(100);
+  await shot(page, "help-arrow");
 });
 
 test("the first screen says what to try, beside the scene, until it is dismissed", async ({ page, server }) => {

@@ -146,5 +146,22 @@ export async function differing(page: Page, a: Buffer, b: Buffer, threshold = 6)
   );
 }
 
+/** How many pixels of a picture (PNG) have this colour (0xrrggbb), to within 24 of 255 in each. */
+export async function coloured(page: Page, picture: Buffer, colour: number): Promise<number> {
+  return page.evaluate(
+    async ([text, colour]) => {
+      const shown = await createImageBitmap(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]));
+      const ink = new OffscreenCanvas(shown.width, shown.height).getContext("2d");
+      ink?.drawImage(shown, 0, 0);
+      const pixels = ink?.getImageData(0, 0, shown.width, shown.height).data ?? new Uint8ClampedArray();
+      const want = [colour >> 16, (colour >> 8) & 255, colour & 255];
+      let count = 0;
+      for (let i = 0; i < pixels.length; i += 4) if (want.every((c, k) => Math.abs(c - pixels[i + k]) < 24)) count++;
+      return count;
+    },
+    [picture.toString("base64"), colour] as const,
+  );
+}
+
 /** A call over gRPC-Web from the test's own side. */
 export { Sinew } from "../src/client.js";
