@@ -217,6 +217,12 @@ fn long_work_of_some_does_not_stop_others() {
                     ..Default::default()
                 };
                 client.motions().create_clip(request).await.unwrap();
+                // There is room for 256 of them, fewer than are made in half a minute.
+                let request = pb::DeleteClipRequest {
+                    name: format!("clips/clip-of-{done}"),
+                    ..Default::default()
+                };
+                client.motions().delete_clip(request).await.unwrap();
                 done += 1;
             }
             done

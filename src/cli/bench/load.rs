@@ -58,8 +58,10 @@ pub(super) struct Measured {
     pub shown: Histogram<u64>,
     /// From when a frame of motion was due to be sent to when it was, µs: what of that is this side's fault.
     pub sent: Histogram<u64>,
-    /// From when a call was due to its answer, µs.
+    /// From when a read was due to its answer, µs.
     pub calls: Histogram<u64>,
+    /// From when a change was due to its answer, µs.
+    pub changes: Histogram<u64>,
     /// Errors, by where and code.
     pub errors: BTreeMap<String, u64>,
 }
@@ -91,6 +93,7 @@ impl Load {
                 shown: histogram()?,
                 sent: histogram()?,
                 calls: histogram()?,
+                changes: histogram()?,
                 errors: BTreeMap::new(),
             }),
             due: AtomicU64::new(0),
@@ -147,7 +150,7 @@ pub(super) async fn start(
     let mut next = clients.iter().cycle();
     let mut client = || next.next().expect("there is a connection at least");
     for (i, name) in names.iter().enumerate() {
-        let pace = (args.rate, i as f64 / names.len() as f64);
+        let pace = (args.traffic.rate, i as f64 / names.len() as f64);
         for _ in 0..args.viewers {
             tasks.push(viewer(load, client(), name, pace).await?);
         }
@@ -157,10 +160,17 @@ pub(super) async fn start(
             tasks.push(task);
         }
     }
-    if args.calls > 0.0 {
-        let (queue, task) = calls(load, clients, names);
-        paced.push(((args.calls, 0.0), queue));
-        tasks.push(task);
+    let changes = if args.figures > 0 {
+        args.traffic.changes
+    } else {
+        0.0
+    };
+    for (kind, rate) in [(Call::Read, args.traffic.calls), (Call::Change, changes)] {
+        if rate > 0.0 {
+            let (queue, task) = calls(load, clients, names, kind);
+            paced.push(((rate, 0.0), queue));
+            tasks.push(task);
+        }
     }
     load.window(); // begins
     let load = load.clone();
@@ -229,13 +239,13 @@ async fn driver(
         world: format!("worlds/{world}"),
         figure_ids: (0..args.figures).map(figure).collect(),
         driver_id: "bench".into(),
-        nominal_rate_hz: args.rate,
-        playout_delay_ms: Some(args.playout),
+        nominal_rate_hz: args.traffic.rate,
+        playout_delay_ms: Some(args.traffic.playout),
         ..Default::default()
     };
     let mut driver = client.drive(header).await.map_err(|e| explain(&e))?;
     let (queue, mut waiting) = mpsc::channel::<Due>(QUEUE);
-    let (load, rate, figures) = (load.clone(), args.rate, args.figures);
+    let (load, rate, figures) = (load.clone(), args.traffic.rate, args.figures);
     let task = tokio::spawn(async move {
         let ended = loop {
             tokio::select! {
@@ -340,11 +350,43 @@ impl Seen {
     }
 }
 
-/// Reads the latest frame of one world after the other.
+/// What is called of one world after the other.
+#[derive(Clone, Copy, Debug)]
+enum Call {
+    /// Its latest frame.
+    Read,
+    /// That nothing pushes its first figure: it is carried out by the next tick, and written down like any change.
+    Change,
+}
+
+impl Call {
+    async fn carry_out(self, client: &Client, world: String) -> Result<(), Status> {
+        match self {
+            Self::Read => {
+                let request = pb::GetWorldFrameRequest {
+                    world,
+                    ..Default::default()
+                };
+                client.states().get_world_frame(request).await.map(drop)
+            }
+            Self::Change => {
+                let request = pb::ClearPerturbationsRequest {
+                    figure: format!("{world}/figures/{}", figure(0)),
+                    ..Default::default()
+                };
+                let mut client = client.perturbations();
+                client.clear_perturbations(request).await.map(drop)
+            }
+        }
+    }
+}
+
+/// Calls when it is due.
 fn calls(
     load: &Arc<Load>,
     clients: &[Client],
     names: &[String],
+    kind: Call,
 ) -> (mpsc::Sender<Due>, JoinHandle<()>) {
     let (queue, mut waiting) = mpsc::channel::<Due>(QUEUE);
     let (load, clients, names) = (load.clone(), clients.to_vec(), names.to_vec());
@@ -358,19 +400,20 @@ fn calls(
                 );
                 continue;
             };
-            let mut states = clients[i as usize % clients.len()].states();
+            let client = clients[i as usize % clients.len()].clone();
             let world = format!("worlds/{}", names[i as usize % names.len()]);
             let load = load.clone();
             tokio::spawn(async move {
-                let request = pb::GetWorldFrameRequest {
-                    world,
-                    ..Default::default()
-                };
-                match states.get_world_frame(request).await {
-                    Ok(_) if load.window().contains(&at) => {
-                        load.measured().calls.saturating_record(micros(at));
+                match kind.carry_out(&client, world).await {
+                    Ok(()) if load.window().contains(&at) => {
+                        let mut measured = load.measured();
+                        let delays = match kind {
+                            Call::Read => &mut measured.calls,
+                            Call::Change => &mut measured.changes,
+                        };
+                        delays.saturating_record(micros(at));
                     }
-                    Ok(_) => {}
+                    Ok(()) => {}
                     Err(e) => load.error("calling", &e),
                 }
                 drop(place);

@@ -4,6 +4,7 @@
 //! not the server kept up. A server that stalls for a second is charged with that second by everything that was due in
 //! it (no coordinated omission).
 
+mod comparison;
 mod load;
 mod own;
 mod page;
@@ -15,8 +16,9 @@ use super::{explain, page::progress};
 use crate::client::Client;
 use crate::wire::pb;
 use anyhow::Context as _;
+use comparison::Comparison;
 use load::{Load, Schedule};
-use own::OwnServer;
+use own::{OwnArgs, OwnServer, Storing};
 use page::Page;
 use report::Report;
 use std::sync::Arc;
@@ -45,29 +47,38 @@ pub struct Args {
     /// Viewers of each
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=1000), value_name = "V")]
     viewers: u32,
-    /// Frames of desired motion per second and driver
-    #[arg(long, default_value_t = 60.0, value_parser = between(1.0, 1000.0), value_name = "HZ")]
-    rate: f64,
-    /// Reads of the latest frame per second, of all worlds in turn; 0: none
-    #[arg(long, default_value_t = 50.0, value_parser = between(0.0, 100_000.0), value_name = "N")]
-    calls: f64,
+    #[command(flatten)]
+    traffic: Traffic,
     /// Time that is measured, s
     #[arg(long, default_value_t = 30.0, value_parser = between(1.0, 86_400.0), value_name = "S")]
     seconds: f64,
     /// Time before that, s
     #[arg(long, default_value_t = 5.0, value_parser = between(0.0, 3600.0), value_name = "S")]
     warm_up: f64,
-    /// Playout delay of the drivers, ms: it is part of what is measured
-    #[arg(long, default_value_t = 0.0, value_parser = between(0.0, 2000.0), value_name = "MS")]
-    playout: f64,
     /// Print JSON
     #[arg(long)]
     json: bool,
-    /// A setting of the server that is started (repeatable)
-    #[arg(long = "set", value_name = "NAME=VALUE", conflicts_with = "address")]
-    set: Vec<String>,
+    #[command(flatten)]
+    own: OwnArgs,
     #[command(flatten)]
     credentials: CredentialArgs,
+}
+
+/// What is sent to each server.
+#[derive(Clone, Debug, clap::Args)]
+struct Traffic {
+    /// Frames of desired motion per second and driver
+    #[arg(long, default_value_t = 60.0, value_parser = between(1.0, 1000.0), value_name = "HZ")]
+    rate: f64,
+    /// Playout delay of the drivers, ms: it is part of what is measured
+    #[arg(long, default_value_t = 0.0, value_parser = between(0.0, 2000.0), value_name = "MS")]
+    playout: f64,
+    /// Reads of the latest frame per second, of all worlds in turn; 0: none
+    #[arg(long, default_value_t = 50.0, value_parser = between(0.0, 100_000.0), value_name = "N")]
+    calls: f64,
+    /// Calls per second that change a figure (ClearPerturbations), of all worlds in turn; 0: none
+    #[arg(long, default_value_t = 0.0, value_parser = between(0.0, 100_000.0), value_name = "N")]
+    changes: f64,
 }
 
 /// Parses a number within limits.
@@ -90,18 +101,18 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
         .enable_all()
         .build()?;
     runtime.block_on(async {
-        let own = match &args.address {
-            None => Some(OwnServer::start(args)?),
-            Some(_) => None,
+        if args.own.compares() {
+            let comparison = compare(args).await?;
+            return if args.json {
+                print_line(&serde_json::to_string_pretty(&comparison)?)
+            } else {
+                print_line(&comparison.text())
+            };
+        }
+        let report = match &args.address {
+            Some(address) => bench(args, address, None).await?,
+            None => bench_own(args, None).await?,
         };
-        let address = match (&own, &args.address) {
-            (Some(own), _) => own.address(),
-            (None, Some(address)) => address,
-            (None, None) => unreachable!("one of both is there"),
-        };
-        let report = bench(args, address).await;
-        drop(own);
-        let report = report?;
         if args.json {
             print_line(&serde_json::to_string_pretty(&report)?)
         } else {
@@ -110,7 +121,26 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
     })
 }
 
-async fn bench(args: &Args, address: &str) -> anyhow::Result<Report> {
+/// The same load on one server after the other, each of which stores in another way. Rounds are interleaved, so that
+/// what the machine does beside it meets all of them.
+async fn compare(args: &Args) -> anyhow::Result<Comparison> {
+    let mut comparison = Comparison::new(&args.own.durability);
+    for round in 1..=args.own.rounds {
+        for storing in &args.own.durability {
+            note(&format!("round {round}: {}", storing.name()));
+            comparison.add(*storing, bench_own(args, Some(*storing)).await?);
+        }
+    }
+    Ok(comparison)
+}
+
+/// Loads a server of its own, which ends with it.
+async fn bench_own(args: &Args, storing: Option<Storing>) -> anyhow::Result<Report> {
+    let own = OwnServer::start(args, storing)?;
+    bench(args, own.address(), Some(&own)).await
+}
+
+async fn bench(args: &Args, address: &str, own: Option<&OwnServer>) -> anyhow::Result<Report> {
     let streams = args.worlds as usize * (args.viewers as usize + usize::from(args.figures > 0));
     let mut clients = Vec::new();
     for _ in 0..streams.div_ceil(STREAMS_PER_CONNECTION).max(1) {
@@ -121,7 +151,7 @@ async fn bench(args: &Args, address: &str) -> anyhow::Result<Report> {
         .collect();
     let made = create(args, &clients[0], &names).await;
     let measured = match made {
-        Ok(()) => measure(args, &clients, &names).await,
+        Ok(()) => measure(args, &clients, &names, own).await,
         Err(e) => Err(e),
     };
     if args.address.is_some() {
@@ -179,17 +209,23 @@ async fn delete(client: &Client, names: &[String]) {
     }
 }
 
-async fn measure(args: &Args, clients: &[Client], names: &[String]) -> anyhow::Result<Report> {
+async fn measure(
+    args: &Args,
+    clients: &[Client],
+    names: &[String],
+    own: Option<&OwnServer>,
+) -> anyhow::Result<Report> {
     let load = Arc::new(Load::new(Schedule {
         warm_up: Duration::from_secs_f64(args.warm_up),
         length: Duration::from_secs_f64(args.seconds),
     })?);
     let page = async || Page::read(&clients[0]).await;
+    let disk = || own.and_then(OwnServer::disk_bytes);
     page().await?; // a server without metrics is told at once
     let work = load::start(&load, args, clients, names).await?;
     let window = load.window();
     tokio::time::sleep_until(window.start.into()).await;
-    let before = page().await?;
+    let (before, disk_before) = (page().await?, disk());
     let bar = progress("measuring", args.seconds.ceil() as u64);
     while !bar.is_finished() {
         let left = window.end.saturating_duration_since(Instant::now());
@@ -200,7 +236,7 @@ async fn measure(args: &Args, clients: &[Client], names: &[String]) -> anyhow::R
         }
     }
     tokio::time::sleep(COUNTING).await;
-    let after = page().await?;
+    let (after, disk_after) = (page().await?, disk());
     tokio::time::sleep(TAIL.saturating_sub(COUNTING)).await;
     load.stop();
     for task in work {
@@ -208,5 +244,6 @@ async fn measure(args: &Args, clients: &[Client], names: &[String]) -> anyhow::R
             note(&format!("warning: a part of the load ended: {e}"));
         }
     }
-    Report::new(args, &load, &before, &after)
+    let disk = disk_before.zip(disk_after).map(|(a, b)| b - a);
+    Report::new(args, &load, [&before, &after], disk)
 }

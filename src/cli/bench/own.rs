@@ -2,18 +2,97 @@
 
 use super::Args;
 use anyhow::Context as _;
+use serde::Serialize;
 use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+
+/// Arguments of a server that is started for the bench.
+#[derive(Clone, Debug, clap::Args)]
+pub(super) struct OwnArgs {
+    /// A setting of the server that is started (repeatable)
+    #[arg(long = "set", value_name = "NAME=VALUE", conflicts_with = "address")]
+    set: Vec<String>,
+    /// Bench servers that store in these ways, one after the other, and print what each costs
+    #[arg(
+        long,
+        value_enum,
+        value_delimiter = ',',
+        value_name = "HOW,…",
+        conflicts_with = "address"
+    )]
+    pub durability: Vec<Storing>,
+    /// Times that each of them is benched; medians are printed
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100), requires = "durability")]
+    pub rounds: u32,
+    /// Where their data directories are made; they are removed again [default: for temporary files]
+    #[arg(long, value_name = "DIR", requires = "durability")]
+    data_dir: Option<PathBuf>,
+}
+
+impl OwnArgs {
+    /// True if several servers are compared.
+    pub(super) fn compares(&self) -> bool {
+        !self.durability.is_empty()
+    }
+}
+
+/// How a server stores its worlds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Storing {
+    /// It has no data directory
+    Off,
+    /// States at orderly ends
+    None,
+    /// What comes within 10 ms together
+    Group,
+    /// Each input at once
+    Each,
+}
+
+impl Storing {
+    /// As the arguments and the settings have it.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::None => "none",
+            Self::Group => "group",
+            Self::Each => "each",
+        }
+    }
+}
+
+/// A directory that goes with this.
+struct DataDir(PathBuf);
+
+impl DataDir {
+    fn new(parent: Option<&Path>) -> anyhow::Result<Self> {
+        let parent = parent.map_or_else(std::env::temp_dir, Path::to_owned);
+        let dir = parent.join(format!("sinew-bench-{}", std::process::id()));
+        // One that is there is not of this bench, and stays.
+        std::fs::create_dir(&dir).with_context(|| format!("making {}", dir.display()))?;
+        Ok(Self(dir))
+    }
+}
+
+impl Drop for DataDir {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
 
 /// A server that ends with this.
 pub(super) struct OwnServer {
     child: Child,
     address: String,
+    /// Removed when the server has ended.
+    _data: Option<DataDir>,
 }
 
 impl OwnServer {
-    /// Starts this binary as a server with room for the load.
-    pub(super) fn start(args: &Args) -> anyhow::Result<Self> {
+    /// Starts this binary as a server with room for the load, which stores as its settings say or in a given way.
+    pub(super) fn start(args: &Args, storing: Option<Storing>) -> anyhow::Result<Self> {
         let worlds = u64::from(args.worlds);
         let viewers = worlds * u64::from(args.viewers);
         let room = [
@@ -33,8 +112,14 @@ impl OwnServer {
         for (name, value) in room {
             command.args(["--set", &format!("{name}={value}")]);
         }
-        for setting in &args.set {
+        for setting in &args.own.set {
             command.args(["--set", setting]);
+        }
+        let mut data = None;
+        if let Some(storing) = storing.filter(|s| *s != Storing::Off) {
+            let dir = data.insert(DataDir::new(args.own.data_dir.as_deref())?);
+            command.args(["--set", &format!("durability={}", storing.name())]);
+            command.arg("--data-dir").arg(&dir.0);
         }
         let mut child = command.spawn().context("the server cannot be started")?;
         let mut first = String::new();
@@ -46,7 +131,11 @@ impl OwnServer {
             .and_then(|rest| rest.split_whitespace().next())
             .map(str::to_owned);
         match address {
-            Some(address) => Ok(Self { child, address }),
+            Some(address) => Ok(Self {
+                child,
+                address,
+                _data: data,
+            }),
             None => {
                 let _ = child.kill();
                 let _ = child.wait();
@@ -58,6 +147,13 @@ impl OwnServer {
     /// Where it listens.
     pub(super) fn address(&self) -> &str {
         &self.address
+    }
+
+    /// Bytes that it has had written to disk, as Linux counts them: whole pages.
+    pub(super) fn disk_bytes(&self) -> Option<f64> {
+        let counts = std::fs::read_to_string(format!("/proc/{}/io", self.child.id())).ok()?;
+        let line = counts.lines().find_map(|l| l.strip_prefix("write_bytes: "));
+        line?.parse().ok()
     }
 }
 

@@ -11,10 +11,10 @@ use std::sync::atomic::Ordering;
 
 /// A distribution of delays, ms.
 #[derive(Debug, Serialize)]
-struct Delays {
+pub(super) struct Delays {
     count: u64,
-    p50_ms: f64,
-    p99_ms: f64,
+    pub p50_ms: f64,
+    pub p99_ms: f64,
     p999_ms: f64,
     /// Of delays that the server counts in buckets: the bound of the largest.
     max_ms: f64,
@@ -29,39 +29,56 @@ struct Setup {
     motion_rate_hz: f64,
     playout_ms: f64,
     calls_per_s: f64,
+    changes_per_s: f64,
     seconds: f64,
 }
 
 /// What the server counted, meanwhile.
 #[derive(Debug, Serialize)]
-struct Server {
+pub(super) struct Server {
     /// How long after its deadline a tick began.
-    tick_lateness: Option<Delays>,
+    pub tick_lateness: Option<Delays>,
     /// Time of a tick.
     tick: Option<Delays>,
     /// From the arrival of motion to its frame, within the server.
     input_to_frame: Option<Delays>,
-    ticks: f64,
-    ticks_skipped: f64,
+    pub ticks: f64,
+    pub ticks_skipped: f64,
     /// Frames that viewers were too slow for.
     frames_dropped: f64,
     budget_used: f64,
     budget_limit: f64,
     /// Processors in use.
-    processors: f64,
+    pub processors: f64,
     resident_bytes: f64,
     threads: f64,
 }
 
+/// What a server with a data directory wrote meanwhile.
+#[derive(Debug, Serialize)]
+pub(super) struct Disk {
+    /// Of worlds: states, inputs and hashes.
+    pub bytes_per_s: f64,
+    /// With all that the log and the file system add, in whole pages; of a server of its own, on Linux.
+    pub disk_bytes_per_s: Option<f64>,
+    pub commits_per_s: f64,
+    /// Time of a commit.
+    pub commit: Option<Delays>,
+    /// What was left out because the disk was too slow.
+    pub lost_entries: f64,
+}
+
 /// What its clients saw.
 #[derive(Debug, Serialize)]
-struct Clients {
+pub(super) struct Clients {
     /// From when motion was due to be sent to when a viewer had the frame that shows it.
-    input_to_frame: Option<Delays>,
+    pub input_to_frame: Option<Delays>,
     /// From when motion was due to be sent to when it was: how far these clients kept the schedule.
     sending: Option<Delays>,
     /// From when a read was due to its answer.
     calls: Option<Delays>,
+    /// From when a change was due to its answer.
+    pub changes: Option<Delays>,
     motion_frames: u64,
     /// Of those, times figures and viewers: what no viewer had been shown a second after the end.
     not_shown: u64,
@@ -75,8 +92,9 @@ struct Clients {
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
     setup: Setup,
-    server: Server,
-    clients: Clients,
+    pub server: Server,
+    pub clients: Clients,
+    pub disk: Disk,
 }
 
 fn delays(h: &Histogram<u64>) -> Option<Delays> {
@@ -103,15 +121,15 @@ fn counted(before: &Page, after: &Page, name: &str) -> Option<Delays> {
 }
 
 impl Report {
-    /// Of what lies between two pages of the server.
+    /// Of what lies between two pages of the server, and the bytes that it brought to disk meanwhile.
     ///
     /// # Errors
     /// No tick was computed meanwhile.
     pub(super) fn new(
         args: &Args,
         load: &Load,
-        before: &Page,
-        after: &Page,
+        [before, after]: [&Page; 2],
+        disk_bytes: Option<f64>,
     ) -> anyhow::Result<Self> {
         let grown = |name: &str| after.growth(before, name);
         let measured = load.measured();
@@ -136,9 +154,10 @@ impl Report {
                 worlds: args.worlds,
                 figures_per_world: args.figures,
                 viewers_per_world: args.viewers,
-                motion_rate_hz: args.rate,
-                playout_ms: args.playout,
-                calls_per_s: args.calls,
+                motion_rate_hz: args.traffic.rate,
+                playout_ms: args.traffic.playout,
+                calls_per_s: args.traffic.calls,
+                changes_per_s: args.traffic.changes,
                 seconds: args.seconds,
             },
             server,
@@ -146,11 +165,19 @@ impl Report {
                 input_to_frame: delays(&measured.shown),
                 sending: delays(&measured.sent),
                 calls: delays(&measured.calls),
+                changes: delays(&measured.changes),
                 motion_frames: due,
                 not_shown: all.saturating_sub(measured.shown.len()),
                 frames: load.frames.load(Ordering::Relaxed),
                 ticks_missed: load.missed.load(Ordering::Relaxed),
                 errors: measured.errors.clone(),
+            },
+            disk: Disk {
+                bytes_per_s: grown("sinew_store_written_bytes_total") / args.seconds,
+                disk_bytes_per_s: disk_bytes.map(|b| b / args.seconds),
+                commits_per_s: grown("sinew_store_commit_seconds_count") / args.seconds,
+                commit: counted(before, after, "sinew_store_commit_seconds"),
+                lost_entries: grown("sinew_store_lost_entries_total"),
             },
         })
     }
@@ -177,6 +204,7 @@ impl Report {
             ("input to frame (viewer)", &clients.input_to_frame),
             ("  of that, sending late", &clients.sending),
             ("reads", &clients.calls),
+            ("changes", &clients.changes),
         ] {
             if let Some(d) = delays {
                 let row = [d.p50_ms, d.p99_ms, d.p999_ms, d.max_ms];
@@ -205,6 +233,15 @@ impl Report {
                 * u64::from(setup.figures_per_world)
                 * u64::from(setup.viewers_per_world),
         );
+        if self.disk.commits_per_s > 0.0 {
+            let _ = writeln!(
+                out,
+                "{:.3} MB/s stored in {:.0} commits/s, {:.0} entries lost",
+                self.disk.bytes_per_s * 1e-6,
+                self.disk.commits_per_s,
+                self.disk.lost_entries,
+            );
+        }
         let errors: u64 = clients.errors.values().sum();
         let _ = write!(out, "{errors} errors");
         for (what, count) in &clients.errors {

@@ -155,6 +155,15 @@ impl Posture<f64> {
             && self.ball.iter().all(|q| q.is_finite())
             && self.hinge.iter().all(|a| a.is_finite())
     }
+
+    /// True if every number is finite and every rotation is one.
+    pub fn is_valid(&self) -> bool {
+        let unit = |q: &Quat| {
+            let square: f64 = q.to_xyzw().iter().map(|x| x * x).sum();
+            (0.999..=1.001).contains(&square)
+        };
+        self.is_finite() && unit(&self.root_rotation) && self.ball.iter().all(unit)
+    }
 }
 
 impl State<f64> {
@@ -173,12 +182,7 @@ impl State<f64> {
 
     /// True if every number is finite and every rotation is one.
     pub fn is_valid(&self) -> bool {
-        let unit = |q: &Quat| {
-            let square: f64 = q.to_xyzw().iter().map(|x| x * x).sum();
-            (0.999..=1.001).contains(&square)
-        };
-        let p = &self.posture;
-        self.is_finite() && unit(&p.root_rotation) && p.ball.iter().all(unit)
+        self.posture.is_valid() && self.velocity.iter().all(|v| v.is_finite())
     }
 
     /// Slows all velocities alike, so that kinetic energy only falls, until none is above `fastest` (rad/s, m/s); true

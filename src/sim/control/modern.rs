@@ -347,7 +347,12 @@ impl Controller for Modern {
             }
         }
         self.assist = input.assist;
-        let outcome = kernel(self, t, &diagonal, &mut linear);
+        let Some(outcome) = kernel(self, t, &diagonal, &mut linear) else {
+            self.command.acceleration = [f64::NAN; NV];
+            self.command.joint_acceleration = [f64::NAN; DOF_COUNT];
+            self.command.torque = [f64::NAN; DOF_COUNT];
+            return &self.command;
+        };
         if !outcome.converged {
             // An iterate that got nowhere is no place to start the next tick from.
             self.price = [0.0; NV];
@@ -398,9 +403,15 @@ impl Controller for Modern {
     }
 }
 
-/// Builds P, A and b, solves for the price x, and leaves v̇ in the command.
+/// Builds P, A and b, solves for the price x, and leaves v̇ in the command. `None`: the desired motion or the state has
+/// numbers of which no problem can be made.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
-fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WIDTH]) -> Outcome {
+fn kernel(
+    c: &mut Modern,
+    t: &Terms,
+    diagonal: &[f64; NV],
+    linear: &mut [f64; WIDTH],
+) -> Option<Outcome> {
     // 1. P: diagonal + task rows + held points. Column j of the lower triangle is row j.
     for (j, row) in c.p.iter_mut().enumerate() {
         row.fill(0.0);
@@ -451,10 +462,11 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
             }
         }
     }
-    // 2. Y = L⁻¹ M, A = YᵀY = M P⁻¹ M, b = −(Yᵀ L⁻¹ p + h). P is positive definite: every diagonal entry has its own
-    //    weight.
-    let positive = factor_columns(c.p.as_flattened_mut(), WIDTH, false);
-    debug_assert!(positive, "P is positive definite by construction");
+    // 2. Y = L⁻¹ M, A = YᵀY = M P⁻¹ M, b = −(Yᵀ L⁻¹ p + h). P is positive definite, since every diagonal entry has its
+    //    own weight, unless a number in it is out of hand.
+    if !factor_columns(c.p.as_flattened_mut(), WIDTH, false) {
+        return None;
+    }
     *c.y = *t.m;
     for j in 0..NV {
         let (head, tail) = c.y.split_at_mut(j + 1);
@@ -534,7 +546,7 @@ fn kernel(c: &mut Modern, t: &Terms, diagonal: &[f64; NV], linear: &mut [f64; WI
     solve_lower(c.p.as_flattened(), &mut v);
     solve_upper(c.p.as_flattened(), &mut v);
     c.command.acceleration.copy_from_slice(&v[..NV]);
-    outcome
+    Some(outcome)
 }
 
 #[cfg(test)]

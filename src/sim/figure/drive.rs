@@ -226,7 +226,8 @@ impl Drive {
     /// False if it cannot be what was written into a checkpoint. Whether a stream can be shows when it is completed.
     pub(super) fn is_valid(&self) -> bool {
         match self {
-            Self::Hold(_) | Self::External(_) => true,
+            Self::Hold(posture) => posture.is_valid(),
+            Self::External(pair) => [&pair.now, &pair.next].iter().all(|t| t.state().is_valid()),
             Self::Clip(play) => play.is_valid(),
             Self::Live(live) => live.offset.is_finite(),
             Self::Rehearsed(play) => play.start.is_finite() && play.origin.is_finite(),

@@ -8,7 +8,7 @@
 //! 4. `limit_torques`: what muscles and tissue can give.
 //! 5. `solve_control`: tasks, then accelerations and torques within strength.
 //! 6. `integrate`: motors, joint limits and contact move the body.
-//! 7. `contain`: a state that is not finite is frozen.
+//! 7. `contain`: a state that is not finite is frozen, and one for which nothing finite could be decided.
 //! 8. `write_report`: what the tick showed.
 
 mod access;
@@ -178,6 +178,9 @@ impl Figure {
         self.update_fatigue(world.dt);
         let frozen = self.contain();
         self.write_report(world, frozen);
+        if frozen {
+            self.forget_numbers();
+        }
         self.detect_fall();
         let Outcome {
             report, watcher, ..
@@ -302,7 +305,14 @@ impl Figure {
         let inertia = results.tissue.as_ref().map(|t| t.add_to(terms));
         let (tasks, steps) = self.plan_tasks(world);
         self.stepping.prescribed = self.prescribes();
-        self.scratch.results.command = self.control(world, &tasks, steps);
+        let mut command = self.control(world, &tasks, steps);
+        self.scratch.results.undecided = !command.is_finite();
+        if self.scratch.results.undecided {
+            // The tick ends with `contain`; until then the numbers must reach nobody who is near.
+            command.acceleration.fill(0.0);
+            command.torque.fill(0.0);
+        }
+        self.scratch.results.command = command;
         self.update_hand_over(world.dt);
         let Scratch { terms, results, .. } = &mut self.scratch;
         terms.h = bias;

@@ -88,6 +88,16 @@ pub struct MotorCommand {
     pub saturation_speed: f64,
 }
 
+impl MotorCommand {
+    /// True if every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let numbers = self.acceleration.iter().chain(&self.torque);
+        numbers
+            .chain([&self.saturation_speed])
+            .all(|x| x.is_finite())
+    }
+}
+
 /// The bar as a row of the solve.
 #[derive(Clone, Copy, Debug)]
 struct BarRow {

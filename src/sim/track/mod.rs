@@ -307,6 +307,12 @@ impl StepTracker {
         self.timing = StepTiming::default();
     }
 
+    /// The same of a figure that is frozen: what the clock has seen of its motion may not be finite.
+    pub fn reset_clock(&mut self) {
+        self.reset();
+        self.clock = Clock::default();
+    }
+
     /// Clip time now, s.
     pub fn phase(&self) -> f64 {
         self.clock.phase

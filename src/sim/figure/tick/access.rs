@@ -173,8 +173,21 @@ impl Figure {
         self.physical.last_good = state;
         self.motion.lie_down();
         self.motion.rise();
-        self.desired.get_up.reset();
         self.physical.frozen = false;
+        self.forget();
+        self.physical.fatigue = rested(&self.setup.options);
+        self.outcome.report.joints.remaining = [[1.0; 2]; DOF_COUNT];
+        // What the last tick said of the centre of mass was of another state. Loads that were taken off go with the
+        // next tick.
+        let links = self.surroundings.disturbances.loaded(&self.setup.body);
+        (
+            self.outcome.report.balance.com,
+            self.outcome.report.balance.com_velocity,
+        ) = self.scratch.tasks.center_of_mass(&links, &state);
+    }
+    /// Forgets what passes from tick to tick but state, motion and fatigue.
+    pub(super) fn forget(&mut self) {
+        self.desired.get_up.reset();
         self.desired.tracker.reset();
         self.desired.load_compensation.reset();
         self.desired.second_hand = SecondHand::default();
@@ -187,15 +200,6 @@ impl Figure {
         self.steppers.kinematic.reset();
         self.stepping.handed_over = None;
         self.surroundings.balance.reset();
-        self.physical.fatigue = rested(&self.setup.options);
-        self.outcome.report.joints.remaining = [[1.0; 2]; DOF_COUNT];
-        // What the last tick said of the centre of mass was of another state. Loads that were taken off go with the
-        // next tick.
-        let links = self.surroundings.disturbances.loaded(&self.setup.body);
-        (
-            self.outcome.report.balance.com,
-            self.outcome.report.balance.com_velocity,
-        ) = self.scratch.tasks.center_of_mass(&links, &state);
     }
     /// Changes the scale of its strength. Another percentile makes new curves: about 20 µs, allocates.
     pub fn set_strength(&mut self, scale: StrengthScale) {

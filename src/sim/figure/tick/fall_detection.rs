@@ -1,15 +1,18 @@
 //! Detection of lost balance and of falls, the choice of the stepper, and containment of states that are not finite.
 
+use super::state::rested;
 use super::{Figure, TickContext};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
 use crate::sim::control::Controller;
 use crate::sim::figure::balance_loss::{Observation, Reach};
 use crate::sim::figure::events::FigureEvent;
+use crate::sim::figure::help::Help;
 use crate::sim::figure::kinematic_step::other_part_arrives;
 use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
 use crate::sim::figure::params::get_up::STILL_SPEED;
 use crate::sim::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
+use crate::sim::math::Vec3;
 use crate::sim::report::Flags;
 use crate::sim::setup::ControllerKind;
 
@@ -127,9 +130,10 @@ impl Figure {
         }
     }
 
-    /// Freezes a figure whose state is not finite at its last good state; the world goes on.
+    /// Freezes a figure whose state is not finite, or for which no finite decision was found, at its last good state;
+    /// the world goes on.
     pub(super) fn contain(&mut self) -> bool {
-        let good = self.physical.state.is_finite();
+        let good = self.physical.state.is_finite() && !self.scratch.results.undecided;
         if good {
             self.physical.last_good = self.physical.state;
         } else {
@@ -139,6 +143,24 @@ impl Figure {
             self.outcome.watcher.push(FigureEvent::Quarantined);
         }
         !good
+    }
+
+    /// Forgets what a frozen figure remembers of its last ticks: numbers that are not finite could not be read back
+    /// from a checkpoint, and would freeze it again when it is reset.
+    pub(super) fn forget_numbers(&mut self) {
+        self.forget();
+        self.desired.tracker.reset_clock();
+        self.steppers.torque.remember(0.0, Vec3::zero());
+        self.surroundings.help = Help::default();
+        if self
+            .physical
+            .fatigue
+            .as_ref()
+            .is_some_and(|f| !f.is_valid())
+        {
+            self.physical.fatigue = rested(&self.setup.options);
+        }
+        self.scratch.results.before = self.physical.state;
     }
 
     /// Falls and rises.

@@ -219,6 +219,8 @@ pub(super) struct StageResults {
     pub tissue: Option<Tissue>,
     /// What the motors are asked to do.
     pub command: MotorCommand,
+    /// The controller found nothing to ask for: numbers of the desired motion or of the state are out of hand.
+    pub undecided: bool,
     /// Help towards the desired pose of the pelvis, if it is on.
     pub assist: Option<Assist>,
     /// State at the start of the tick.
@@ -238,6 +240,7 @@ impl StageResults {
                 torque: z,
                 saturation_speed: 1.0,
             },
+            undecided: false,
             assist: None,
             before: *state,
         }

@@ -1,11 +1,11 @@
 //! What a figure does when its numbers break, and when its plans are late.
 
 use super::*;
-use crate::sim::body::Body;
+use crate::sim::body::{Body, Posture};
 use crate::sim::figure::{ClipPlayback, Drive, FigureEvent, FigureKey};
 use crate::sim::math::Vec3;
-use crate::sim::motion::Clip;
 use crate::sim::motion::builtin::builtin;
+use crate::sim::motion::{Clip, Target, TargetPair};
 use crate::sim::world::{World, WorldParams};
 use std::sync::Arc;
 
@@ -58,6 +58,91 @@ fn a_figure_that_is_not_finite_is_frozen_reported_once_and_changes_no_other() {
     }
     let f = world.figure(victim).unwrap();
     assert!(!f.report().unwrap().flags.has(Flags::QUARANTINED) && !f.is_fallen());
+}
+
+/// A desired motion that asks for numbers out of hand, one each.
+fn absurd(body: &Body) -> Vec<TargetPair> {
+    let mut posture = Posture::default();
+    posture.root_position.z = body.standing_root_height();
+    let change = |change: fn(&mut Target)| {
+        let mut target = Target::still(posture);
+        target.planted = [true; 2];
+        change(&mut target);
+        TargetPair {
+            now: target.clone(),
+            next: target,
+        }
+    };
+    vec![
+        change(|t| t.posture.root_rotation.z = 3e258),
+        change(|t| t.posture.ball[5].x = -7e174),
+        change(|t| t.posture.root_position.x = 1e300),
+        change(|t| t.posture.hinge[8] = f64::NAN),
+        change(|t| t.velocity[4] = f64::INFINITY),
+        change(|t| t.velocity[7] = 1e300),
+    ]
+}
+
+/// Whatever is asked of it, a figure keeps a finite state, the others go on, and its world can be stored.
+#[test]
+fn a_figure_whose_desired_motion_is_out_of_hand_is_set_aside() {
+    let body = Arc::new(Body::adult_man());
+    let mut set_aside = 0;
+    for kind in [
+        ControllerKind::Modern,
+        ControllerKind::Paper,
+        ControllerKind::Motors,
+    ] {
+        for (case, asked) in [None]
+            .into_iter()
+            .chain(absurd(&body).into_iter().map(Some))
+            .enumerate()
+        {
+            let mut world = World::new(WorldParams::default()).unwrap();
+            let [other, victim] = [0.0, 0.6].map(|y| {
+                let mut state = State::default();
+                state.posture.root_position = Vec3 {
+                    x: 0.0,
+                    y,
+                    z: body.standing_root_height(),
+                };
+                let setup = FigureSetup::new(Arc::clone(&body), kind, state);
+                world.add_figure(setup).unwrap()
+            });
+            (0..10).for_each(|_| world.step());
+            let held = world.figure(victim).unwrap().target().next.posture;
+            if let Some(asked) = &asked {
+                let drive = Drive::External(Box::new(asked.clone()));
+                world.figure_mut(victim).unwrap().set_drive(drive);
+            }
+            for _ in 0..5 {
+                world.step();
+                for f in [other, victim].map(|k| world.figure(k).unwrap()) {
+                    assert!(f.state().is_finite(), "{kind:?} {case}");
+                }
+            }
+            let frozen = |w: &World, k| w.figure(k).unwrap().is_frozen();
+            assert!(!frozen(&world, other), "{kind:?} {case}");
+            assert!(asked.is_some() || !frozen(&world, victim));
+            set_aside += usize::from(frozen(&world, victim));
+            // What it was asked is refused, what it remembers is not.
+            let drive = Drive::Hold(held);
+            world.figure_mut(victim).unwrap().set_drive(drive);
+            let capture = world.capture();
+            let (mut restored, ()) = capture
+                .restore_with()
+                .unwrap_or_else(|e| panic!("{kind:?} {case}: {e}"));
+            for w in [&mut world, &mut restored] {
+                let mut state = State::at_rest(held);
+                state.posture.root_position.y = 0.6;
+                w.reset_figure(victim, state).unwrap();
+                (0..30).for_each(|_| w.step());
+                assert!(!frozen(w, victim), "{kind:?} {case}");
+            }
+            assert_eq!(world.state_hash(), restored.state_hash());
+        }
+    }
+    assert!(set_aside > 3, "{set_aside}");
 }
 
 /// A figure that has walked for a second, and its clip.
