@@ -50,9 +50,13 @@ pub(super) fn posture(body: &Body, terms: &Terms, desired: &Posture, gravity: f6
         let shoulder = body.joint_offset[upper];
         let height = terms.point_world(CHEST.index(), shoulder).z;
         let v = terms.point_velocity(CHEST.index(), shoulder);
-        // Until the hand of a stretched arm would meet the floor, in free fall.
+        // Until the hand of a stretched arm would meet the floor, in free fall; without gravity none is coming.
         let left = (height - length).max(0.0);
-        let arrives = (v.z + (v.z * v.z + 2.0 * gravity * left).sqrt()) / gravity;
+        let arrives = if gravity > 0.0 {
+            (v.z + (v.z * v.z + 2.0 * gravity * left).sqrt()) / gravity
+        } else {
+            0.0
+        };
         let then = Vec3 {
             z: v.z - gravity * arrives,
             ..v
@@ -94,4 +98,68 @@ fn shortest_turn(from: Vec3, to: Vec3) -> Quat {
     let axis = from.cross(to);
     let angle = trig::atan2(axis.norm(), from.dot(to));
     Quat::exp(axis.normalized_or(Vec3::X) * angle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::topology::{DOF_COUNT, L_HAND, R_HAND};
+    use crate::sim::motion::leg_ik::forward;
+    use crate::sim::support::testing::{GRAVITY, mannequin, standing, terms};
+
+    /// Standing, turned by `pitch` (rad, forward) and moving with `velocity`, m/s.
+    fn falling(pitch: f64, velocity: [f64; 3], gravity: f64) -> (Body, Posture) {
+        let body = mannequin();
+        let mut state = standing(&body);
+        let desired = state.posture;
+        state.posture.root_rotation = Quat::exp(Vec3 {
+            y: pitch,
+            ..Vec3::zero()
+        });
+        state.velocity[3..6].copy_from_slice(&velocity);
+        let t = terms(&body, &state);
+        let held = posture(&body, &t, &desired, gravity);
+        (body, held)
+    }
+
+    #[test]
+    fn arms_go_where_the_body_falls_and_the_head_stays_upright() {
+        for (pitch, speed) in [(0.8, 1.5), (-0.8, -1.5)] {
+            let (body, held) = falling(pitch, [speed, 0.0, -1.0], GRAVITY);
+            let poses = forward(&body, &held);
+            let chest = poses[CHEST.index()].0;
+            for hand in [L_HAND, R_HAND] {
+                let (p, _) = poses[hand.index()];
+                let ahead = (p.x - chest.x) * speed.signum();
+                assert!(
+                    ahead > 0.0 && p.z < chest.z - 0.3,
+                    "{pitch}: {ahead} {}",
+                    p.z - chest.z
+                );
+            }
+            // As upright as the neck can.
+            let head = poses[HEAD.index()].1.rotate(Vec3::Z).z;
+            let chest = poses[CHEST.index()].1.rotate(Vec3::Z).z;
+            assert!(head > chest + 0.1, "{pitch}: head {head}, chest {chest}");
+        }
+    }
+
+    #[test]
+    fn every_state_gives_angles_within_the_limits() {
+        for gravity in [0.0, 1e-9, GRAVITY] {
+            for velocity in [[0.0; 3], [0.0, 0.0, 3.0], [4.0, -2.0, -6.0]] {
+                for pitch in [-3.0, 0.0, 1.5] {
+                    let (body, held) = falling(pitch, velocity, gravity);
+                    let angles = anatomical_angles(&held);
+                    for d in 0..DOF_COUNT {
+                        let within = body.lower[d] - 1e-9..=body.upper[d] + 1e-9;
+                        assert!(
+                            within.contains(&angles[d]),
+                            "{gravity} {velocity:?} {pitch} {d}"
+                        );
+                    }
+                }
+            }
+        }
+    }
 }
