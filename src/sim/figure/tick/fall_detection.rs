@@ -3,12 +3,13 @@
 use super::state::rested;
 use super::{Figure, TickContext};
 use crate::sim::body::SegmentId;
-use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
+use crate::sim::body::topology::{HEAD, L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
 use crate::sim::control::Controller;
 use crate::sim::figure::balance_loss::{Observation, Reach};
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::help::Help;
 use crate::sim::figure::kinematic_step::other_part_arrives;
+use crate::sim::figure::params::balance::PAPER_REACH;
 use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
 use crate::sim::figure::params::get_up::STILL_SPEED;
 use crate::sim::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
@@ -74,17 +75,22 @@ impl Figure {
     }
 
     /// True while it falls as a person does ([`bracing`](crate::sim::figure::bracing)): from the loss of balance until
-    /// it lies still, unless its motion goes to the floor by itself. Not with the paper's controller, whose falls are
-    /// those of the paper, nor where feet have to stay.
+    /// neither body nor head go down any more. Not where its motion goes to the floor by itself, or has lost balance as
+    /// the figure has, as one that sits down on a seat; nor with the paper's controller, whose falls are those of the
+    /// paper, nor where feet have to stay.
     pub(super) fn braces(&self) -> bool {
         let s = &self.setup;
         let person = s.controller == ControllerKind::Modern && s.params.protective_steps;
+        let terms = &self.scratch.terms;
+        let wanted = self.desired.com.now;
         let falls = if self.motion.is_limp() {
-            self.scratch.terms.com_velocity.norm() > STILL_SPEED
+            let head = terms.point_velocity(HEAD.index(), s.body.segment(HEAD).com);
+            terms.com_velocity.z.min(head.z) < -STILL_SPEED
         } else {
-            self.surroundings.balance.lost() && !self.motion.gets_up()
+            let departs = (terms.com - wanted).norm() > PAPER_REACH;
+            self.surroundings.balance.lost() && departs && !self.motion.gets_up()
         };
-        let height = self.desired.com.now.z / self.constants.standing_com_height;
+        let height = wanted.z / self.constants.standing_com_height;
         person && falls && self.motion.rehearsed().is_none() && height > RISEN_HEIGHT
     }
 
