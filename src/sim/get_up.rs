@@ -24,11 +24,14 @@ use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::{PlanarTransform, Target, TargetPair};
 use goals::Goals;
-use params::layout::{NEAR_HEIGHT, ON_SIDE, PRONE, REFERENCE_LEG, TOUCH_HEIGHT, UPDATE_TIME};
+use params::layout::{
+    LYING_HEIGHT, NEAR_HEIGHT, ON_SIDE, PRONE, REFERENCE_LEG, TOUCH_HEIGHT, UPDATE_TIME,
+};
 use reference_pose::ReferencePoses;
 use serde::{Deserialize, Serialize};
 use solver::{BALL, HANDS, KNEE, SHANKS, Solver, TOES};
 use stages::{FloorContacts, Layout, Stage};
+use std::f64::consts::FRAC_PI_2;
 
 /// The stage in which a body that lies on its side begins.
 const SIDE: usize = 2;
@@ -78,6 +81,11 @@ fn roll(front: Vec3) -> f64 {
     trig::atan2(front.y, -front.z)
 }
 
+/// True if a body lies on its belly.
+fn is_prone(p: &Posture) -> bool {
+    p.root_rotation.rotate(Vec3::X).z < -PRONE
+}
+
 /// Turns a point of the world into one of the way.
 fn inverse(place: PlanarTransform, p: Vec3) -> Vec3 {
     let back = Quat::exp(Vec3::Z * -place.yaw);
@@ -117,13 +125,18 @@ impl GetUpMotion {
         }
     }
 
+    /// True if the body of `terms` is as low as one that lies.
+    pub fn is_low(&self, terms: &Terms) -> bool {
+        terms.com.z < LYING_HEIGHT * self.layout.scale
+    }
+
     /// Begins where the body of `terms` lies: on its belly, or else by rolling onto it.
     pub fn begin(&mut self, with: &GetUpSolver, terms: &Terms) {
         let p = &terms.state.posture;
         let knees = SHANKS.map(|s| terms.point_world(s.index(), with.solver.contact(s, KNEE)));
         let chest = terms.segment_position(CHEST.index());
         let front = p.root_rotation.rotate(Vec3::X);
-        let prone = front.z < -PRONE;
+        let prone = is_prone(p);
         // A body that does not lie straight rolls about its trunk.
         let back = if prone {
             (knees[0] + knees[1]) * 0.5
@@ -151,10 +164,12 @@ impl GetUpMotion {
         }
         self.turns_over = !prone;
         self.mirrored = !prone && self.layout.roll < 0.0;
-        let first = if !prone && self.layout.roll.abs() < ON_SIDE {
-            SIDE
-        } else {
-            0
+        let first = match self.layout.roll.abs() {
+            _ if prone => 0,
+            // It faces down already: weight does the rest.
+            roll if roll < FRAC_PI_2 => stages::OVER.len() - 1,
+            roll if roll < ON_SIDE => SIDE,
+            _ => 0,
         };
         self.layout.pelvis = self.posture.root_position;
         let up = self.posture.root_rotation.rotate(Vec3::Z);
@@ -285,6 +300,10 @@ impl GetUpMotion {
         pace: f64,
     ) -> TargetPair {
         let before = self.target();
+        if !self.turns_over && self.lies() && !is_prone(&terms.state.posture) {
+            // It has rolled off its belly.
+            self.begin(with, terms);
+        }
         self.since += dt * pace;
         let stage = self.stages()[self.stage];
         if self.since >= stage.seconds && self.stage + 1 < self.stages().len() {

@@ -10,6 +10,7 @@
 //! * `load`: a held load is inertia.
 //! * `second_hand`: the other hand helps with a load that one arm is too weak for.
 //! * `constrain`: hands, head and centre of mass at places that a client gives.
+//! * `get_up`: from belly, back and sides, within seconds.
 //! * `hand`: leaning on tables and walls; two figures that run into each other.
 //! * `people`: ages, sizes, fatigue, percentiles.
 //! * `assist`: the wrench that no body has, and its honesty.
@@ -31,6 +32,7 @@ mod constrain;
 mod containment;
 mod fall;
 mod flight;
+mod get_up;
 mod hand;
 mod help;
 mod jump;

@@ -124,7 +124,7 @@ impl GetUp {
             self.own = false;
         } else if height < FALLEN_HEIGHT {
             (self.lay, self.attempts) = (true, ATTEMPTS);
-        } else if self.lay && self.attempts > 0 && lies(terms) {
+        } else if self.lay && self.attempts > 0 && self.motion.is_low(terms) && lies(terms) {
             self.attempts -= 1;
             self.own = true;
             self.off = 0.0;

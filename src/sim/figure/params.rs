@@ -107,9 +107,9 @@ pub mod get_up {
         /// Getting up stalls below this pace.
         STALLED_PACE: f64 = 0.05, "1", 0..=0.5, "docs/locomotion.md#getting-up";
         /// An attempt that has stalled, or waited, for so long is given up.
-        STALLED_TIME: f64 = 3.0, "s", 1..=10, "docs/locomotion.md#getting-up";
+        STALLED_TIME: f64 = 1.0, "s", 0.3..=10, "docs/locomotion.md#getting-up";
         /// Attempts for one motion that gets up.
-        ATTEMPTS: u32 = 3, "rounds", 1..=10, "docs/locomotion.md#getting-up";
+        ATTEMPTS: u32 = 9, "rounds", 1..=20, "docs/locomotion.md#getting-up";
     }
 }
 

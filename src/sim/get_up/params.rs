@@ -8,7 +8,7 @@ pub mod layout {
         /// Leg length (hip to ankle) that distances are written for.
         REFERENCE_LEG: f64 = 0.867, "m", 0.5..=1.2, "docs/locomotion.md#getting-up";
         /// Time constant with which what is on the floor counts as where it really is.
-        UPDATE_TIME: f64 = 0.3, "s", 0.05..=1, "docs/locomotion.md#getting-up";
+        UPDATE_TIME: f64 = 0.1, "s", 0.05..=1, "docs/locomotion.md#getting-up";
         /// A part lower than this is on the floor.
         TOUCH_HEIGHT: f64 = 0.02, "m", 0.005..=0.05, "docs/locomotion.md#getting-up";
         /// A part lower than this will be on the floor as soon as it is leant on.
@@ -24,8 +24,8 @@ pub mod layout {
         /// The balls of the feet lie this far behind the knees of a body that kneels with tucked toes, reference
         /// body.
         SHANK: f64 = 0.4, "m", 0.3..=0.5, "docs/locomotion.md#getting-up";
-        /// Time that a hand takes for a step.
-        HAND_STEP_TIME: f64 = 1.0, "s", 0.5..=2, "docs/locomotion.md#getting-up";
+        /// A body whose centre of mass is higher has not come to lie, reference body: on hands and knees it is at 0.45.
+        LYING_HEIGHT: f64 = 0.35, "m", 0.2..=0.45, "docs/locomotion.md#getting-up";
         /// Height of a hand's step, reference body.
         HAND_STEP_HEIGHT: f64 = 0.08, "m", 0.02..=0.2, "docs/locomotion.md#getting-up";
     }
@@ -59,11 +59,11 @@ pub mod weights {
 pub mod solver {
     crate::sim::params::params! {
         /// Time constant with which goals and joint limits are approached.
-        APPROACH: f64 = 0.1, "s", 0.03..=0.3, "docs/locomotion.md#getting-up";
+        APPROACH: f64 = 0.05, "s", 0.03..=0.3, "docs/locomotion.md#getting-up";
         /// Time that the weight of a change of rate refers to.
         STEADY_TIME: f64 = 0.05, "s", 0.02..=0.2, "docs/locomotion.md#getting-up";
         /// Fastest joint.
-        FASTEST: f64 = 3.0, "rad/s", 1..=10, "docs/locomotion.md#getting-up";
+        FASTEST: f64 = 5.0, "rad/s", 1..=10, "docs/locomotion.md#getting-up";
         /// Joints stay this far from their limits.
         LIMIT_MARGIN: f64 = 0.02, "rad", 0..=0.1, "docs/locomotion.md#getting-up";
         /// Rounds of finding the joints at their limits.

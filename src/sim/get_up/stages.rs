@@ -8,9 +8,7 @@
 use super::goals::{Aim, Goals, swapped};
 use super::reference_pose::ReferencePoses;
 use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::get_up::params::layout::{
-    ARMS_APART, HAND_STEP_HEIGHT, HAND_STEP_TIME, SHANK, WRIST_HEIGHT,
-};
+use crate::sim::get_up::params::layout::{ARMS_APART, HAND_STEP_HEIGHT, SHANK, WRIST_HEIGHT};
 use crate::sim::get_up::params::weights::{COM, FIRM, HAND, POSE};
 use crate::sim::math::Vec3;
 use serde::{Deserialize, Serialize};
@@ -214,7 +212,7 @@ const fn stepping(
     hands[side] = false;
     Stage {
         name,
-        seconds: HAND_STEP_TIME,
+        seconds: 0.35,
         goals,
         down: leans(hands),
         step: Some((side, HAND_STEP_HEIGHT)),
@@ -233,42 +231,42 @@ const fn crawling(
 
 /// Over its right side onto the belly, from the back and from the side.
 pub const OVER: &[Stage] = &[
-    stage("gather", 1.6, gather, ROLLS),
-    stage("push", 1.0, push, PUSHES),
-    stage("over", 1.2, |h, l| roll(h, &l.rolled, 1.0), ROLLS),
-    stage("tip", 1.0, |h, l| roll(h, &l.tipped, 0.3), ROLLS),
-    stage("flat", 1.2, |h, l| roll(h, &l.sprawled, 0.0), ROLLS),
+    stage("gather", 1.1, gather, ROLLS),
+    stage("push", 0.35, push, PUSHES),
+    stage("over", 0.4, |h, l| roll(h, &l.rolled, 0.0), ROLLS),
+    stage("tip", 0.35, |h, l| roll(h, &l.tipped, 0.0), ROLLS),
+    stage("flat", 0.4, |h, l| roll(h, &l.sprawled, 0.0), ROLLS),
 ];
 
 /// Up from the belly.
 pub const UP: &[Stage] = &[
-    stage("sprawl", 1.6, sprawl, LIES),
-    stage("plant", 1.6, plant, LIES),
-    stage("draw", 1.6, draw, SLIDES),
-    stage("sink back", 1.4, sink_back, KNEELS),
-    stage("all fours", 1.4, on_all_fours, KNEELS),
-    stage("back", 0.8, |h, l| crawl(h, l, 0), KNEELS),
+    stage("sprawl", 0.8, sprawl, LIES),
+    stage("plant", 0.95, plant, LIES),
+    stage("draw", 0.55, draw, SLIDES),
+    stage("sink back", 0.45, sink_back, KNEELS),
+    stage("all fours", 0.45, on_all_fours, KNEELS),
+    stage("back", 0.25, |h, l| crawl(h, l, 0), KNEELS),
     crawling("left hand", |h, l| crawl_hand(h, l, 0), 0),
-    stage("over", 0.6, |h, l| crawl(h, l, 1), KNEELS),
+    stage("over", 0.2, |h, l| crawl(h, l, 1), KNEELS),
     crawling("right hand", |h, l| crawl_hand(h, l, 1), 1),
-    stage("bear", 1.8, bear, leans([true; 2])),
+    stage("bear", 0.6, bear, leans([true; 2])),
     stage(
         "lean right",
-        0.6,
+        0.2,
         |h, l| lean(h, l, 0, (0.0, 0.7)),
         leans([true; 2]),
     ),
     stepping("left hand", |h, l| reach(h, l, 0, (-0.06, 0.71), 0.3), 0),
     stage(
         "lean left",
-        0.6,
+        0.2,
         |h, l| lean(h, l, 1, (-0.12, 0.72)),
         leans([true; 2]),
     ),
     stepping("right hand", |h, l| reach(h, l, 1, (-0.18, 0.72), 0.3), 1),
-    stage("fold", 1.4, fold, leans([true; 2])),
-    stage("rise", 2.0, rise, STANDS),
-    stage("stand", 0.8, stand, STANDS),
+    stage("fold", 0.45, fold, leans([true; 2])),
+    stage("rise", 1.0, rise, STANDS),
+    stage("stand", 0.5, stand, STANDS),
 ];
 
 /// Lying as it lies: the left foot set up, the right arm out of the way, the left one across.
@@ -287,7 +285,7 @@ fn set_up(h: &Layout, l: &ReferencePoses, turn: f64, weight: f64) -> Goals {
 
 /// Pushed over by the left foot, which stays where it is.
 fn push(h: &Layout, l: &ReferencePoses) -> Goals {
-    let mut out = set_up(h, l, 2.2, FIRM);
+    let mut out = set_up(h, l, 0.0, FIRM);
     out.balls[0] = stay(h.balls[0], FIRM);
     out
 }
@@ -298,7 +296,7 @@ fn roll(h: &Layout, pose: &[f64; DOF_COUNT], turn: f64) -> Goals {
         pelvis: h.pelvis.to_array().map(|x| Aim::new(x, FIRM)),
         turn: [
             Aim::new(FRAC_PI_2, 0.3),
-            Aim::new(turn, 1.0),
+            Aim::new(turn, 2.0),
             Aim::new(h.yaw, 0.3),
         ],
         pose: pose_aims(pose, 0.03),
