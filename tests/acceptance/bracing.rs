@@ -1,6 +1,6 @@
-//! Goal: a person who is felled lands on hands or forearms first, and the head, if it touches at all, slowly. Method:
-//! pushes that fell, at the chest, from eight directions; which part of the body touches the floor when, and how fast
-//! the head is in the tick before it does.
+//! Goal: a person who is felled lands on hands or forearms first, the head, if it touches at all, slowly, and then
+//! lies. Method: pushes that fell, at the chest, from eight directions; which part of the body touches the floor when,
+//! how fast the head is in the tick before it does, and how far the body goes after it has landed.
 
 use crate::common::{Scene, authored, figure, still};
 use crate::vec3;
@@ -20,6 +20,9 @@ const PUSH: f64 = 0.1;
 const SECONDS: f64 = 4.0;
 /// Head speed below which its touch counts as harmless, m/s.
 const HARMLESS: f64 = 1.5;
+/// A centre of mass lower than this has landed, m, and comes to rest within so long, s.
+const LANDED: f64 = 0.2;
+const SETTLES: f64 = 0.5;
 const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 const ARM: [SegmentId; 4] = [L_FOREARM, L_HAND, R_FOREARM, R_HAND];
 
@@ -32,6 +35,8 @@ struct Outcome {
     head: Option<f64>,
     /// Speed of the head's centre of mass before its fastest touch, m/s.
     head_speed: f64,
+    /// How far the body rolls or slides after it has landed, m.
+    goes_on: f64,
     /// Which parts touched in which order.
     order: Vec<&'static str>,
 }
@@ -56,17 +61,28 @@ fn felled(body: &Arc<Body>, direction: Vec3, impulse: f64) -> Outcome {
     };
     let mut before = place(&scene);
     let mut touched = false;
+    let mut landed: Option<(f64, Vec3)> = None;
     let mut out = Outcome {
         fell: false,
         arm: None,
         head: None,
         head_speed: 0.0,
+        goes_on: 0.0,
         order: Vec::new(),
     };
     scene.run(SECONDS, |s| {
         let now = place(s);
         let (dt, t) = (s.world.dt(), s.world.time() - start);
         out.fell |= s.figure().is_fallen();
+        let com = s.figure().report().unwrap().balance.com;
+        if com.z < LANDED {
+            let (since, place) = *landed.get_or_insert((t, com));
+            if t < since + SETTLES {
+                landed = Some((since, com));
+            } else {
+                out.goes_on = out.goes_on.max((com - place).norm());
+            }
+        }
         let touches = |part: SegmentId| {
             let r = s.figure().report().unwrap();
             r.contacts.iter().any(|c| c.segment == part)
@@ -108,6 +124,8 @@ fn from_all_sides(name: &str, body: Body, impulses: &[f64]) -> (usize, usize, Ve
                 o.head_speed,
                 o.order,
             );
+            // Outstretched arms do not roll it on.
+            assert!(o.goes_on < 0.2, "{what}: goes on for {:.2} m", o.goes_on);
             falls += usize::from(o.fell);
             slow += usize::from(o.fell && o.head_speed < HARMLESS);
             if o.fell && o.head.is_some_and(|h| o.arm.is_none_or(|a| a > h)) {

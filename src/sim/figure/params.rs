@@ -36,7 +36,8 @@ pub mod balance {
     crate::sim::params::params! {
         /// Arms and trunk bring the capture point back from so far outside the support.
         BODY_REACH: f64 = 0.04, "m", 0..=0.1, "docs/locomotion.md#recovery";
-        /// The paper's controller keeps trying up to here: on an edge of the feet.
+        /// What does not step keeps trying up to here: on an edge of the feet. A centre of mass farther than this
+        /// from where the motion has it makes a loss of balance a fall.
         PAPER_REACH: f64 = 0.15, "m", 0.04..=0.3, "docs/tick.md";
         /// Steps bring the capture point back from so far outside the support.
         STEP_REACH: f64 = 0.6, "m", 0.2..=1.0, "docs/locomotion.md#recovery";
