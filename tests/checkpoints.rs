@@ -321,7 +321,8 @@ fn a_rehearsed_motion_and_what_comes_after_it() {
         stage,
     );
     let mut settings = Settings::default();
-    (settings.trials.samples, settings.trials.budget) = (12, 12);
+    (settings.trials.near.samples, settings.trials.budget) = (12, 12);
+    settings.trials.far.samples = 12;
     settings.trials.least_budget = 0;
     let found = rehearse(&problem, &clip, &settings, 2, &[], &mut |_| true).unwrap();
     let motion = Arc::new(found.motion);

@@ -27,7 +27,8 @@ const SLIGHT: f64 = 0.75;
 fn few() -> Settings {
     let mut settings = Settings::default();
     let trials = &mut settings.trials;
-    (trials.samples, trials.batch, trials.survivors) = (24, 12, 6);
+    (trials.near.samples, trials.batch, trials.survivors) = (24, 12, 6);
+    trials.far.samples = 24;
     (trials.polish.rounds, trials.patience, trials.budget) = (2, 2, 120);
     trials.least_budget = 0;
     settings

@@ -11,7 +11,7 @@ use super::problem::{Problem, Reference};
 use super::sample::{
     D, HELP, Node, Vector, Window, action, chosen, pool_score, simulate_all, vector,
 };
-use super::settings::Settings;
+use super::settings::{Settings, Tries};
 use super::simulator::{Action, Simulator};
 
 /// How far a search has come.
@@ -62,18 +62,29 @@ pub struct Search<'a> {
     state: Standing,
 }
 
+/// What a search goes over to when it does not get any farther, in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// Strength alone, and nothing that is far off.
+    Near,
+    /// With help, if there may be any.
+    Helped,
+    /// With help, if there may be any, and through what is far off.
+    Far,
+}
+
 /// How a search stands.
 #[derive(Clone, Copy, Debug)]
 struct Standing {
+    stage: Stage,
     round: usize,
     reached: usize,
     total: f64,
     /// Windows to go back farther, since a round came to nothing.
     farther: usize,
     polished: usize,
-    /// Rounds since one came farther.
+    /// Rounds since one came farther, or made the path cheaper by as much as counts.
     stuck: usize,
-    helps: bool,
     stopped: bool,
 }
 
@@ -127,13 +138,13 @@ impl<'a> Search<'a> {
                 .map(|_| Simulator::new(problem, settings))
                 .collect(),
             state: Standing {
+                stage: Stage::Near,
                 round: 0,
                 reached: 0,
                 total: f64::INFINITY,
                 farther: 0,
                 polished: 0,
                 stuck: 0,
-                helps: false,
                 stopped: false,
             },
         }
@@ -156,10 +167,14 @@ impl<'a> Search<'a> {
         let mut limit = budget;
         while self.state.polished < trials.polish.rounds && !self.state.stopped {
             if self.ticks() > limit || self.state.stuck >= trials.patience {
-                if self.state.helps || self.problem.most_help == 0.0 || self.reached_end() {
+                if self.reached_end() || self.state.stage == Stage::Far {
                     break;
                 }
-                self.begin_to_help();
+                if self.state.stage == Stage::Near && self.problem.most_help > 0.0 {
+                    self.begin_to_help();
+                } else {
+                    self.begin_to_go_far();
+                }
                 limit = self.ticks() + budget;
             }
             self.round(go_on);
@@ -181,11 +196,36 @@ impl<'a> Search<'a> {
         self.state.reached == self.count()
     }
 
+    /// True if samples may be helped.
+    fn helps(&self) -> bool {
+        self.state.stage != Stage::Near && self.problem.most_help > 0.0
+    }
+
+    /// How hard windows are tried now.
+    fn tries(&self) -> Tries {
+        let trials = &self.settings.trials;
+        match self.state.stage {
+            Stage::Near | Stage::Helped => trials.near,
+            Stage::Far => trials.far,
+        }
+    }
+
+    /// What comes next is not measured by what was reached before.
+    fn begin(&mut self, stage: Stage) {
+        self.state.stage = stage;
+        (self.state.stuck, self.state.farther, self.state.total) = (0, 0, f64::INFINITY);
+    }
+
+    /// From now on nothing is lost that is near enough to count as kept, and everything is open again.
+    fn begin_to_go_far(&mut self) {
+        self.begin(Stage::Far);
+        self.spreads.fill(self.first);
+    }
+
     /// From now on samples may be helped. Where the search was lost it begins with all the help that is allowed, since
     /// what is kept can be improved: samples with less are preferred.
     fn begin_to_help(&mut self) {
-        self.state.helps = true;
-        (self.state.stuck, self.state.farther, self.state.total) = (0, 0, f64::INFINITY);
+        self.begin(Stage::Helped);
         let back = self.settings.trials.back;
         for m in &mut self.means[self.state.reached.saturating_sub(back)..] {
             m[HELP] = self.problem.most_help;
@@ -205,6 +245,8 @@ impl<'a> Search<'a> {
             n if n == count => 0,
             n => n.saturating_sub(trials.back + self.state.farther),
         };
+        // A round that came to nothing has left no states beyond the window where it was lost.
+        let first = first.min(self.layers.len() - 1);
         self.layers.truncate(first + 1);
         let mut lost = 0;
         for w in first..count {
@@ -214,12 +256,16 @@ impl<'a> Search<'a> {
             }
             let cheapest = chosen.iter().map(|n| n.cost).fold(f64::INFINITY, f64::min);
             self.layers.push(chosen);
-            lost = if cheapest > trials.lost { lost + 1 } else { 0 };
+            lost = if cheapest > self.tries().lost {
+                lost + 1
+            } else {
+                0
+            };
             let progress = Progress {
                 round: self.state.round,
                 reached: [self.state.reached.max(w + 1 - lost), count],
                 polished: self.state.polished,
-                helps: self.state.helps,
+                helps: self.helps(),
                 ticks: self.ticks(),
             };
             if !go_on(&progress) {
@@ -242,7 +288,8 @@ impl<'a> Search<'a> {
         let trials = self.settings.trials;
         let parents = self.layers.last().expect("there is a first one");
         let worst = parents.iter().map(|p| p.cost).fold(0.0, f64::max);
-        let give_up = trials.drop * worst + trials.lost;
+        let tries = self.tries();
+        let give_up = trials.drop * worst + tries.lost;
         let mut window = Window {
             pool: f64::INFINITY,
             settings: self.settings,
@@ -254,7 +301,7 @@ impl<'a> Search<'a> {
             mean: &self.means[w],
             spread: &self.spreads[w],
             first: &self.first,
-            most_help: if self.state.helps {
+            most_help: if self.helps() {
                 self.problem.most_help
             } else {
                 0.0
@@ -263,8 +310,8 @@ impl<'a> Search<'a> {
         };
         let mut all: Vec<Node> = Vec::new();
         let most = match self.state.polished {
-            0 => trials.samples,
-            _ => trials.polish.samples.min(trials.samples),
+            0 => tries.samples,
+            _ => trials.polish.samples.min(tries.samples),
         };
         let enough = trials.enough;
         // What led to a loss is not easy, however it looks.
@@ -295,7 +342,9 @@ impl<'a> Search<'a> {
         let total = ends[order[0]].total;
         let (before, at_end) = (self.state.reached, now == count);
         let better = now > before || (now == before && total < self.state.total);
-        self.state.stuck = if now > before || at_end {
+        let least = (1.0 - self.settings.trials.gain) * self.state.total;
+        let gained = now == before && total < least;
+        self.state.stuck = if now > before || at_end || gained {
             0
         } else {
             self.state.stuck + 1

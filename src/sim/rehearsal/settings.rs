@@ -157,20 +157,30 @@ pub struct Polish {
     pub samples: usize,
 }
 
+/// How hard a window is tried, and when it is given up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tries {
+    /// Samples of a window that is hard.
+    pub samples: usize,
+    /// Window cost from which a window counts as lost.
+    pub lost: f64,
+}
+
 /// How much is tried.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trials {
-    /// Samples of a window that is hard.
-    pub samples: usize,
+    /// Where every error of a lost window is about three times the size that costs 1: what is so far off seldom comes
+    /// back, so the windows before it are worth more of the effort.
+    pub near: Tries,
+    /// For what is not found so: a window is lost only where no sample keeps the motion, and there are more of them.
+    pub far: Tries,
     /// Samples that are always taken, and so many more at a time until that is enough.
     pub batch: usize,
     /// When no more samples are taken.
     pub enough: Enough,
     /// Samples that live on.
     pub survivors: usize,
-    /// Window cost from which a window counts as lost: every error about three times the size that costs 1.
-    pub lost: f64,
-    /// A sample is dropped at three times the cost of the worst that it came from, plus `lost`.
+    /// A sample is dropped at three times the cost of the worst that it came from, plus that of a lost window.
     pub drop: f64,
     /// Windows that a new round goes back from where the last one was lost: half a second, what a step takes.
     pub back: usize,
@@ -178,9 +188,12 @@ pub struct Trials {
     pub past: f64,
     /// What follows once the end is reached.
     pub polish: Polish,
-    /// Rounds without getting farther after which the search gives up, or begins to help.
+    /// Rounds without getting farther, or a path that is cheaper by `gain`, after which the search gives up or goes on
+    /// to its next stage.
     pub patience: usize,
-    /// Most ticks for each tick of the clip, before help is tried and after.
+    /// See `patience`; a share.
+    pub gain: f64,
+    /// Most ticks of a stage for each tick of the clip.
     pub budget: u64,
     /// The same for the whole clip at least: short clips are whole efforts, and cost seconds.
     pub least_budget: u64,
@@ -256,7 +269,14 @@ impl Default for Settings {
                 least_spread: 0.2,
             },
             trials: Trials {
-                samples: 192,
+                near: Tries {
+                    samples: 192,
+                    lost: 60.0,
+                },
+                far: Tries {
+                    samples: 384,
+                    lost: 200.0,
+                },
                 batch: 48,
                 enough: Enough {
                     easy: 3.0,
@@ -264,7 +284,6 @@ impl Default for Settings {
                     gain: 0.1,
                 },
                 survivors: 32,
-                lost: 60.0,
                 drop: 3.0,
                 back: 5,
                 past: 0.4,
@@ -273,8 +292,9 @@ impl Default for Settings {
                     samples: 96,
                 },
                 patience: 4,
-                budget: 400,
-                least_budget: 60_000,
+                gain: 0.03,
+                budget: 800,
+                least_budget: 120_000,
             },
             hold: HoldShare {
                 frequency: 8.0,
