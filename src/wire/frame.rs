@@ -1,5 +1,6 @@
 //! Frames: what a view shows of a world after one tick.
 
+use super::convert::motion::follow_mode_out;
 use super::pb;
 use super::posture::{joint_rotation, positions, segment_poses};
 use super::types::{
@@ -178,7 +179,8 @@ fn balance(format: NumberFormat, r: &TickReport) -> pb::Balance {
     }
 }
 
-fn status(r: &TickReport, carried: &[(SegmentId, Vec3, f64)]) -> pb::Status {
+fn status(r: &TickReport, f: &FigureSnapshot) -> pb::Status {
+    let follows = &f.follows.so_far;
     let square: f64 = r.joints.joint_error.iter().map(|e| e * e).sum();
     pb::Status {
         flags: r.flags.0 as i32,
@@ -189,7 +191,10 @@ fn status(r: &TickReport, carried: &[(SegmentId, Vec3, f64)]) -> pb::Status {
         penetration_m: r.penetration,
         control_iterations: r.control_iterations as i32,
         step_iterations: r.step_iterations as i32,
-        loads: loads(carried),
+        loads: loads(&f.loads),
+        following: follow_mode_out(follows.mode).into(),
+        help_newton_seconds: follows.impulse,
+        help_ratio: follows.help_share(),
     }
 }
 
@@ -288,7 +293,7 @@ pub fn figure_frame(
         out.balance = Some(balance(format, r));
     }
     if fields.has("status") {
-        out.status = Some(status(r, &f.loads));
+        out.status = Some(status(r, f));
     }
     if fields.has("fatigue") {
         let side = |k: usize| r.joints.remaining.iter().map(move |left| left[k]);
