@@ -121,27 +121,24 @@ impl OwnServer {
             command.args(["--set", &format!("durability={}", storing.name())]);
             command.arg("--data-dir").arg(&dir.0);
         }
-        let mut child = command.spawn().context("the server cannot be started")?;
+        // From here on whatever goes wrong ends the server, and then takes its directory away.
+        let mut own = Self {
+            child: command.spawn().context("the server cannot be started")?,
+            address: String::new(),
+            _data: data,
+        };
         let mut first = String::new();
-        let out = child.stdout.take().context("the server has no output")?;
+        let out = own.child.stdout.take();
+        let out = out.context("the server has no output")?;
         BufReader::new(out).read_line(&mut first)?;
         let address = first
             .split("http://")
             .nth(1)
-            .and_then(|rest| rest.split_whitespace().next())
-            .map(str::to_owned);
-        match address {
-            Some(address) => Ok(Self {
-                child,
-                address,
-                _data: data,
-            }),
-            None => {
-                let _ = child.kill();
-                let _ = child.wait();
-                anyhow::bail!("the server did not start: its messages are above")
-            }
-        }
+            .and_then(|rest| rest.split_whitespace().next());
+        own.address = address
+            .context("the server did not start: its messages are above")?
+            .to_owned();
+        Ok(own)
     }
 
     /// Where it listens.
