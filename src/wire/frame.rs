@@ -56,11 +56,17 @@ impl Fields {
     }
 }
 
+/// In single precision. What is beyond its range is the largest number of it: nothing infinite is sent.
+fn single(value: f64) -> f32 {
+    let most = f64::from(f32::MAX);
+    value.clamp(-most, most) as f32
+}
+
 /// Numbers in the wanted format.
 pub fn numbers(format: NumberFormat, values: &[f64]) -> Option<pb::Numbers> {
     Some(match format {
         NumberFormat::Float => pb::Numbers {
-            f32: values.iter().map(|v| *v as f32).collect(),
+            f32: values.iter().map(|v| single(*v)).collect(),
             ..Default::default()
         },
         NumberFormat::Double => pb::Numbers {
@@ -70,7 +76,7 @@ pub fn numbers(format: NumberFormat, values: &[f64]) -> Option<pb::Numbers> {
         NumberFormat::Fixed16 => {
             let most = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
             // The scale that is sent is the one that is divided by, so that rounding happens once.
-            let scale = (most / 32767.0) as f32;
+            let scale = single(most / 32767.0);
             let step = f64::from(scale);
             let mut bytes = Vec::with_capacity(2 * values.len());
             for v in values {

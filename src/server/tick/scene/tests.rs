@@ -5,9 +5,9 @@ use super::*;
 use crate::server::engine::Planning;
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::figure::rehearsed::{Hold, JointOffset, MotorLaw, RootStep, Stage};
-use crate::sim::figure::{FollowMode, RehearsedMotion};
+use crate::sim::figure::{Flags, FollowMode, RehearsedMotion};
 use crate::sim::math::Vec3;
-use crate::sim::motion::{Clip, Target};
+use crate::sim::motion::{Clip, Target, TargetPair};
 use crate::wire::convert;
 use crate::wire::frame::figure_frame;
 use crate::wire::pb;
@@ -158,5 +158,68 @@ fn what_a_rehearsal_needs_is_told_also_after_a_checkpoint() {
         play(&mut scene, key, clip, 0.0);
         let next = told(&mut scene, 120).so_far;
         assert_eq!((next.mode, next.impulse), (FollowMode::Tracked, 0.0));
+    }
+}
+
+/// All fields of a scene's figures in all formats; nothing in them is infinite or no number.
+fn shows_finite_numbers(scene: &Scene) {
+    for format in [
+        NumberFormat::Float,
+        NumberFormat::Double,
+        NumberFormat::Fixed16,
+    ] {
+        for figure in scene.figures() {
+            let frame = format!("{:?}", figure_frame(0, &figure, 9.81, Fields::ALL, format));
+            assert!(frame.contains("audit: Some"), "there was a tick");
+            let broken = ["NaN", "inf"].map(|word| frame.contains(word));
+            assert_eq!(broken, [false; 2], "{format:?}");
+        }
+    }
+}
+
+#[test]
+fn no_number_that_is_not_finite_is_shown_or_stored() {
+    type Break = fn(&mut Target);
+    let breaks: [Break; 6] = [
+        |t| t.posture.hinge[8] = f64::NAN,
+        |t| t.posture.hinge[3] = 1e200,
+        |t| t.posture.root_position.x = f64::INFINITY,
+        |t| t.posture.root_position.y = 1e300,
+        |t| t.velocity[4] = f64::NEG_INFINITY,
+        |t| t.velocity[9] = 1e300,
+    ];
+    for controller in [
+        pb::Controller::Modern,
+        pb::Controller::Paper,
+        pb::Controller::Motors,
+    ] {
+        for change in breaks {
+            let (mut scene, key) = scene();
+            let figure = pb::Figure {
+                controller: controller.into(),
+                ..Default::default()
+            };
+            let update = convert::figure::update(&figure, None).unwrap();
+            let update = Input::UpdateFigure(key, Box::new(update));
+            scene.apply(update).unwrap();
+            told(&mut scene, 2);
+            let mut target = Target::still(scene.figure(key).state().posture);
+            change(&mut target);
+            let pair = TargetPair {
+                now: target.clone(),
+                next: target,
+            };
+            let asked = Motion::External(Box::new(pair));
+            scene.world.figure_mut(key).unwrap().set_drive(asked);
+            for _ in 0..3 {
+                told(&mut scene, 1);
+                shows_finite_numbers(&scene);
+            }
+            let frozen = scene.figures()[0].report.as_ref().unwrap().flags;
+            if frozen.has(Flags::QUARANTINED) {
+                let (world, saved) = scene.capture().restore_with().unwrap();
+                shows_finite_numbers(&Scene::restored(world, saved).unwrap());
+            }
+        }
     }
 }
