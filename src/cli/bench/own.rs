@@ -2,6 +2,7 @@
 
 use super::Args;
 use anyhow::Context as _;
+use clap::ValueEnum as _;
 use serde::Serialize;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -53,13 +54,9 @@ pub(super) enum Storing {
 
 impl Storing {
     /// As the arguments and the settings have it.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::None => "none",
-            Self::Group => "group",
-            Self::Each => "each",
-        }
+    pub(super) fn name(self) -> String {
+        let value = self.to_possible_value().expect("no value is hidden");
+        value.get_name().to_owned()
     }
 }
 
