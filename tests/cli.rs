@@ -7,8 +7,9 @@ use serde_json::Value;
 use std::fmt::Write as _;
 use std::io::{BufRead, BufReader, PipeReader, Read, Write as _};
 use std::net::TcpStream;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 const USAGE: i32 = 2;
 const FALL: i32 = 3;
@@ -675,4 +676,67 @@ fn help_texts_name_things_by_their_terms() {
             );
         }
     }
+}
+
+/// A bench of two worlds that takes longer than any test waits, with its data directory below `parent`.
+#[cfg(unix)]
+fn bench_below(parent: &Path) -> std::process::Child {
+    Command::new(env!("CARGO_BIN_EXE_sinew"))
+        .args(["bench", "--worlds", "2", "--seconds", "600"])
+        .args(["--durability", "group", "--data-dir"])
+        .arg(parent)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the binary starts")
+}
+
+/// Waits until another process has made a directory.
+#[cfg(unix)]
+#[allow(clippy::disallowed_methods, reason = "another process makes it")]
+fn comes(dir: &Path) {
+    let begun = Instant::now();
+    while !dir.is_dir() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "{dir:?}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_bench_that_is_interrupted_takes_its_directory_away_and_no_other() {
+    let parent = Path::new(env!("CARGO_TARGET_TMPDIR")).join("interrupted_bench");
+    let _ = std::fs::remove_dir_all(&parent); // of an earlier run
+    let other = parent.join("sinew-bench-1");
+    std::fs::create_dir_all(&other).expect("a directory");
+    std::fs::write(other.join("kept"), "of another bench").expect("a file");
+    let here = || {
+        let all = std::fs::read_dir(&parent).expect("it is there");
+        let mut names: Vec<_> = all.map(|f| f.expect("an entry").file_name()).collect();
+        names.sort();
+        names
+    };
+    for signal in ["-INT", "-TERM"] {
+        let mut bench = bench_below(&parent);
+        let own = parent.join(format!("sinew-bench-{}", bench.id()));
+        comes(&own.join("worlds"));
+        let pid = bench.id().to_string();
+        let sent = Command::new("kill").args([signal, &pid]).status();
+        assert!(sent.expect("kill is there").success());
+        assert_eq!(bench.wait().expect("it ends").code(), Some(1), "{signal}");
+        assert_eq!(here(), ["sinew-bench-1"], "{signal}");
+    }
+    // Nor does anything stay of a server that does not start.
+    let broken = sinew(&[
+        "bench",
+        "--durability",
+        "group",
+        "--data-dir",
+        parent.to_str().expect("UTF-8"),
+        "--set",
+        "max_worlds=none",
+    ]);
+    assert_eq!(broken.status.code(), Some(1));
+    assert_eq!(here(), ["sinew-bench-1"]);
+    assert!(other.join("kept").is_file());
 }

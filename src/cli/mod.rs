@@ -12,6 +12,7 @@ pub mod convert;
 pub mod exit;
 pub mod grant;
 pub mod health;
+mod interrupt;
 pub mod lint;
 pub mod number;
 pub mod output;

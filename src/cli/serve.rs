@@ -1,6 +1,7 @@
 //! `sinew serve`: serves worlds until Ctrl-C or SIGTERM.
 
 use super::exit::{Usage, usage};
+use super::interrupt::interrupted;
 use super::terminal::{OutputClosed, note, print, stderr_shows_colour};
 use crate::server::api::App;
 use crate::server::config::{Config, Sources};
@@ -188,27 +189,6 @@ fn greeting(address: SocketAddr, config: &Config, figures: &[&str]) -> String {
         );
     }
     out
-}
-
-async fn interrupted() {
-    let interrupt = tokio::signal::ctrl_c();
-    #[cfg(unix)]
-    {
-        use tokio::signal::unix::{SignalKind, signal};
-        match signal(SignalKind::terminate()) {
-            Ok(mut terminate) => {
-                tokio::select! {
-                    _ = interrupt => {}
-                    _ = terminate.recv() => {}
-                }
-            }
-            Err(_) => {
-                let _ = interrupt.await;
-            }
-        }
-    }
-    #[cfg(not(unix))]
-    let _ = interrupt.await;
 }
 
 #[cfg(test)]

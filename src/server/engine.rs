@@ -26,7 +26,7 @@ use crate::sim::world::{FigureSetup, WorldError, WorldParams};
 use crate::wire::status::Fault;
 use crate::wire::types::{
     BvhReading, ConstraintSettings, Disturbance, EventKind, FigureSettings, FigureSnapshot,
-    ForecastInfo, ForecastVerdict, MotionSource, Place, ReadingReport, SecondSegment,
+    Follows, ForecastInfo, ForecastVerdict, MotionSource, Place, ReadingReport, SecondSegment,
     WorldSettings,
 };
 use std::sync::Arc;
@@ -729,5 +729,14 @@ pub fn snapshot(figure: &Figure, start: f64, dt: f64, applied: (i64, i64)) -> Fi
         applied_source_ns: applied.1,
         loads: figure.held(soon).collect(),
         touched: Vec::new(),
+        follows: follows(figure),
+    }
+}
+
+/// How a figure follows its motion.
+pub fn follows(figure: &Figure) -> Follows {
+    Follows {
+        so_far: *figure.following(),
+        most_help: figure.allowed_help(),
     }
 }

@@ -1,5 +1,6 @@
 //! Frames: what a view shows of a world after one tick.
 
+use super::convert::motion::follow_mode_out;
 use super::pb;
 use super::posture::{joint_rotation, positions, segment_poses};
 use super::types::{
@@ -55,11 +56,17 @@ impl Fields {
     }
 }
 
+/// In single precision. What is beyond its range is the largest number of it: nothing infinite is sent.
+fn single(value: f64) -> f32 {
+    let most = f64::from(f32::MAX);
+    value.clamp(-most, most) as f32
+}
+
 /// Numbers in the wanted format.
 pub fn numbers(format: NumberFormat, values: &[f64]) -> Option<pb::Numbers> {
     Some(match format {
         NumberFormat::Float => pb::Numbers {
-            f32: values.iter().map(|v| *v as f32).collect(),
+            f32: values.iter().map(|v| single(*v)).collect(),
             ..Default::default()
         },
         NumberFormat::Double => pb::Numbers {
@@ -69,7 +76,7 @@ pub fn numbers(format: NumberFormat, values: &[f64]) -> Option<pb::Numbers> {
         NumberFormat::Fixed16 => {
             let most = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
             // The scale that is sent is the one that is divided by, so that rounding happens once.
-            let scale = (most / 32767.0) as f32;
+            let scale = single(most / 32767.0);
             let step = f64::from(scale);
             let mut bytes = Vec::with_capacity(2 * values.len());
             for v in values {
@@ -178,7 +185,8 @@ fn balance(format: NumberFormat, r: &TickReport) -> pb::Balance {
     }
 }
 
-fn status(r: &TickReport, carried: &[(SegmentId, Vec3, f64)]) -> pb::Status {
+fn status(r: &TickReport, f: &FigureSnapshot) -> pb::Status {
+    let follows = &f.follows.so_far;
     let square: f64 = r.joints.joint_error.iter().map(|e| e * e).sum();
     pb::Status {
         flags: r.flags.0 as i32,
@@ -189,7 +197,10 @@ fn status(r: &TickReport, carried: &[(SegmentId, Vec3, f64)]) -> pb::Status {
         penetration_m: r.penetration,
         control_iterations: r.control_iterations as i32,
         step_iterations: r.step_iterations as i32,
-        loads: loads(carried),
+        loads: loads(&f.loads),
+        following: follow_mode_out(follows.mode).into(),
+        help_newton_seconds: follows.impulse,
+        help_ratio: follows.help_share(),
     }
 }
 
@@ -288,7 +299,7 @@ pub fn figure_frame(
         out.balance = Some(balance(format, r));
     }
     if fields.has("status") {
-        out.status = Some(status(r, &f.loads));
+        out.status = Some(status(r, f));
     }
     if fields.has("fatigue") {
         let side = |k: usize| r.joints.remaining.iter().map(move |left| left[k]);

@@ -4,8 +4,8 @@ use super::status::Fault;
 use crate::sim::body::{Body, NV, Posture, Profile, SegmentId, State};
 use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
 use crate::sim::figure::{
-    ControlParams, ControllerKind, FigureOptions, SecondHand, StepperKind, StrengthScale,
-    TickReport,
+    ControlParams, ControllerKind, FigureOptions, Following, SecondHand, StepperKind,
+    StrengthScale, TickReport,
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
@@ -209,6 +209,17 @@ pub struct FigureInfo {
     pub index: i32,
     /// Constraints that hold, with the time that they have left.
     pub constraints: Vec<ConstraintSettings>,
+    /// How it follows its motion, as of the last tick.
+    pub follows: Follows,
+}
+
+/// How a figure follows its motion, with the help that it may get.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Follows {
+    /// In which way, and what help that took.
+    pub so_far: Following,
+    /// Largest force of the help over the weight if the motion is being lost; 0: none.
+    pub most_help: f64,
 }
 
 /// A world with its figures, as clients may ask for them at any time.
@@ -657,6 +668,8 @@ pub struct FigureSnapshot {
     pub loads: Vec<(SegmentId, Vec3, f64)>,
     /// What each of the report's touches touches: `figures/{figure}` or `obstacles/{obstacle}`.
     pub touched: Vec<String>,
+    /// How it follows its motion.
+    pub follows: Follows,
 }
 
 /// What happened in a world.

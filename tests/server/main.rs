@@ -12,6 +12,7 @@ mod corpus;
 mod drives;
 mod edge;
 mod ending;
+mod following;
 mod forecast;
 mod history;
 mod limits;

@@ -8,6 +8,7 @@ use sinew::sim::motion::builtin::at_ease;
 use sinew::wire::convert::motion::figure_motion;
 use sinew::wire::frame::values;
 use sinew::wire::pb;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 const FIGURE: &str = "worlds/w/figures/a";
@@ -86,6 +87,10 @@ struct Played {
     /// What helped it most, N·m or N.
     help: f64,
     fallen: bool,
+    /// In which ways it was followed, as frames say.
+    ways: BTreeSet<pb::FollowWay>,
+    /// As the figure says after the last tick.
+    status: pb::FigureStatus,
 }
 
 impl Played {
@@ -120,6 +125,8 @@ async fn played(server: &TestServer, clip: &str, follow: pb::Follow) -> Played {
         path: Vec::new(),
         help: 0.0,
         fallen: false,
+        ways: BTreeSet::new(),
+        status: pb::FigureStatus::default(),
     };
     for _ in 0..TICKS {
         server.step("worlds/w", 1).await;
@@ -129,8 +136,11 @@ async fn played(server: &TestServer, clip: &str, follow: pb::Follow) -> Played {
         out.path.extend(values(f.root_pose.as_ref().unwrap()));
         let help = values(f.assist.as_ref().unwrap());
         out.help = help.iter().fold(out.help, |m, x| m.max(x.abs()));
-        out.fallen |= f.status.as_ref().unwrap().flags & FALLEN != 0;
+        let status = f.status.as_ref().unwrap();
+        out.fallen |= status.flags & FALLEN != 0;
+        out.ways.insert(status.following());
     }
+    out.status = server.look(FIGURE).await.status.unwrap();
     out
 }
 
@@ -166,8 +176,13 @@ async fn a_figure_does_what_was_rehearsed_for_it_also_after_a_restart() {
     let off = follows.off(&plain, TICKS);
     assert!(off > OTHER, "{off}");
     assert_eq!(helped, follows.help > 20.0, "{}", follows.help);
+    assert!(follows.ways.contains(&way), "{:?}", follows.ways);
+    assert_eq!(helped, follows.status.help_newton_seconds > 0.0);
     let strict = played(&first, "slide", pb::Follow::Strict).await;
     assert!(strict.is(&plain) && strict.help == 0.0);
+    let alone = [pb::FollowWay::Unspecified, pb::FollowWay::Tracked];
+    assert!(strict.ways.iter().eq(&alone), "{:?}", strict.ways);
+    assert_eq!(strict.status.help_newton_seconds, 0.0);
     let strong = played(&first, "slide", pb::Follow::Rehearsed).await;
     assert!(strong.is(if helped { &plain } else { &follows }));
     assert_eq!(files(&folder).len(), 1);

@@ -98,6 +98,20 @@ def test_a_state_and_a_recording_say_the_same(server: sinew.Client) -> None:
     assert (state.com_velocity == r.com_velocity[-1]).all() and (state.com == r.com[-1]).all()
 
 
+def test_it_says_in_which_way_a_figure_follows_its_motion(server: sinew.Client) -> None:
+    with server.create_world() as world:
+        figure = world.add_figure("anna")
+        world.step(2)
+        assert figure.state().following == "", "there is nothing to follow"
+        figure.play("wave", follow="assisted")
+        world.step(30)
+        state, status = figure.state(), figure.get().status
+        with pytest.raises(ValueError, match="follow 'maybe' is none of strict, rehearsed, assisted"):
+            figure.play("wave", follow="maybe")  # type: ignore[arg-type]
+    assert (state.following, state.help_newton_seconds, state.help_ratio) == ("tracked", 0.0, 0.0)
+    assert status.max_help_weights > 0.2
+
+
 @pytest.mark.parametrize(("hand", "side"), [("l_hand", -1.0), ("r_hand", 1.0)])
 def test_a_load_is_carried_in_the_palm(server: sinew.Client, hand: str, side: float) -> None:
     with server.create_world() as world:

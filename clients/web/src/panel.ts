@@ -12,6 +12,7 @@ import {
   clamp,
   dof as dofWords,
   forecast as forecastText,
+  following,
   found,
   kilograms,
   margin,
@@ -520,7 +521,7 @@ export class Panel {
     const load = p.loadKg();
     const rms = ((p.frame?.status?.trackingJointRmsRad ?? 0) * 180) / Math.PI;
     return {
-      state: state(has),
+      state: state(has) + following(p.frame?.status),
       margin: has("FALLEN") || has("FLIGHT") ? "–" : margin(p.frame?.balance?.marginM),
       load: load > 0 ? kilograms(load) : "none",
       error: `${rms.toFixed(1)}° rms`,

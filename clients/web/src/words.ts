@@ -1,5 +1,6 @@
 // From names of the protocol to words for people.
-import { ForecastVerdict, type Forecast } from "./gen/sinew/v1/motion_pb.js";
+import type { Status } from "./gen/sinew/v1/frame_pb.js";
+import { FollowWay, ForecastVerdict, type Forecast } from "./gen/sinew/v1/motion_pb.js";
 import { EventType, type Event } from "./gen/sinew/v1/state_pb.js";
 import type { ClampedAngle, RetargetReport } from "./gen/sinew/v1/types_pb.js";
 
@@ -119,6 +120,13 @@ export function state(has: (flag: string) => boolean): string {
           ? "in the air"
           : "standing";
   return has("HANDED_OVER") ? `${base}, torque-driven for now` : base;
+}
+
+/** In which way a figure follows its motion, unless that is by its own strength and as it comes. */
+export function following(status: Status | undefined): string {
+  if (status?.following === FollowWay.REHEARSED) return ", rehearsed";
+  if (status?.following !== FollowWay.HELPED) return "";
+  return `, helped ${status.helpNewtonSeconds.toFixed(0)} N·s (${(100 * status.helpRatio).toFixed(1)} %)`;
 }
 
 /** Distance of the zero-moment point from the edge of the support polygon: positive inside. */

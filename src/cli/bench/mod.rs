@@ -11,12 +11,15 @@ mod page;
 mod report;
 
 use super::args::CredentialArgs;
+use super::interrupt::interrupted;
 use super::terminal::{note, print_line};
 use super::{explain, page::progress};
 use crate::client::Client;
 use crate::wire::pb;
 use anyhow::Context as _;
 use comparison::Comparison;
+use futures_util::FutureExt as _;
+use futures_util::future::BoxFuture;
 use load::{Load, Schedule};
 use own::{OwnArgs, OwnServer, Storing};
 use page::Page;
@@ -92,17 +95,25 @@ fn between(least: f64, most: f64) -> impl Fn(&str) -> Result<f64, String> + Clon
     }
 }
 
-/// Loads the server, prints what was measured, and takes away what it made.
+/// Ready once the bench is to end before its time.
+type Interrupt = BoxFuture<'static, ()>;
+
+/// Loads the server, prints what was measured, and takes away what it made, also if it is interrupted.
 ///
 /// # Errors
-/// No server, a world that cannot be created, or nothing that was measured.
+/// No server, a world that cannot be created, nothing that was measured, or an interruption.
 pub fn run(args: &Args) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()?;
     runtime.block_on(async {
+        let mut interrupt = interrupted().boxed();
+        // Polled once, so that it listens before there is anything to be taken away.
+        if (&mut interrupt).now_or_never().is_some() {
+            anyhow::bail!("interrupted");
+        }
         if args.own.compares() {
-            let comparison = compare(args).await?;
+            let comparison = compare(args, &mut interrupt).await?;
             return if args.json {
                 print_line(&serde_json::to_string_pretty(&comparison)?)
             } else {
@@ -110,8 +121,8 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
             };
         }
         let report = match &args.address {
-            Some(address) => bench(args, address, None).await?,
-            None => bench_own(args, None).await?,
+            Some(address) => bench(args, address, None, &mut interrupt).await?,
+            None => bench_own(args, None, &mut interrupt).await?,
         };
         if args.json {
             print_line(&serde_json::to_string_pretty(&report)?)
@@ -123,39 +134,56 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
 
 /// The same load on one server after the other, each of which stores in another way. Rounds are interleaved, so that
 /// what the machine does beside it meets all of them.
-async fn compare(args: &Args) -> anyhow::Result<Comparison> {
+async fn compare(args: &Args, interrupt: &mut Interrupt) -> anyhow::Result<Comparison> {
     let mut comparison = Comparison::new(&args.own.durability);
     for round in 1..=args.own.rounds {
         for storing in &args.own.durability {
             note(&format!("round {round}: {}", storing.name()));
-            comparison.add(*storing, bench_own(args, Some(*storing)).await?);
+            let report = bench_own(args, Some(*storing), interrupt).await?;
+            comparison.add(*storing, report);
         }
     }
     Ok(comparison)
 }
 
 /// Loads a server of its own, which ends with it.
-async fn bench_own(args: &Args, storing: Option<Storing>) -> anyhow::Result<Report> {
+async fn bench_own(
+    args: &Args,
+    storing: Option<Storing>,
+    interrupt: &mut Interrupt,
+) -> anyhow::Result<Report> {
     let own = OwnServer::start(args, storing)?;
-    bench(args, own.address(), Some(&own)).await
+    bench(args, own.address(), Some(&own), interrupt).await
 }
 
-async fn bench(args: &Args, address: &str, own: Option<&OwnServer>) -> anyhow::Result<Report> {
+async fn bench(
+    args: &Args,
+    address: &str,
+    own: Option<&OwnServer>,
+    interrupt: &mut Interrupt,
+) -> anyhow::Result<Report> {
     let streams = args.worlds as usize * (args.viewers as usize + usize::from(args.figures > 0));
-    let mut clients = Vec::new();
-    for _ in 0..streams.div_ceil(STREAMS_PER_CONNECTION).max(1) {
-        clients.push(args.credentials.connect(address).await?);
-    }
     let names: Vec<String> = (0..args.worlds)
         .map(|i| format!("bench-{}-{i}", std::process::id()))
         .collect();
-    let made = create(args, &clients[0], &names).await;
-    let measured = match made {
-        Ok(()) => measure(args, &clients, &names, own).await,
-        Err(e) => Err(e),
+    let mut clients = Vec::new();
+    let work = async {
+        for _ in 0..streams.div_ceil(STREAMS_PER_CONNECTION).max(1) {
+            clients.push(args.credentials.connect(address).await?);
+        }
+        create(args, &clients[0], &names).await?;
+        measure(args, &clients, &names, own).await
     };
-    if args.address.is_some() {
-        delete(&clients[0], &names).await;
+    let measured = tokio::select! {
+        () = interrupt => Err(anyhow::anyhow!("interrupted")),
+        measured = work => measured,
+    };
+    if let (Some(_), Some(client)) = (&args.address, clients.first()) {
+        tokio::select! {
+            // Once more: it does not wait for a server that does not answer.
+            () = interrupted() => {}
+            () = delete(client, &names) => {}
+        }
     }
     measured
 }

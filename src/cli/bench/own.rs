@@ -2,6 +2,7 @@
 
 use super::Args;
 use anyhow::Context as _;
+use clap::ValueEnum as _;
 use serde::Serialize;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -53,13 +54,9 @@ pub(super) enum Storing {
 
 impl Storing {
     /// As the arguments and the settings have it.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::None => "none",
-            Self::Group => "group",
-            Self::Each => "each",
-        }
+    pub(super) fn name(self) -> String {
+        let value = self.to_possible_value().expect("no value is hidden");
+        value.get_name().to_owned()
     }
 }
 
@@ -121,27 +118,24 @@ impl OwnServer {
             command.args(["--set", &format!("durability={}", storing.name())]);
             command.arg("--data-dir").arg(&dir.0);
         }
-        let mut child = command.spawn().context("the server cannot be started")?;
+        // From here on whatever goes wrong ends the server, and then takes its directory away.
+        let mut own = Self {
+            child: command.spawn().context("the server cannot be started")?,
+            address: String::new(),
+            _data: data,
+        };
         let mut first = String::new();
-        let out = child.stdout.take().context("the server has no output")?;
+        let out = own.child.stdout.take();
+        let out = out.context("the server has no output")?;
         BufReader::new(out).read_line(&mut first)?;
         let address = first
             .split("http://")
             .nth(1)
-            .and_then(|rest| rest.split_whitespace().next())
-            .map(str::to_owned);
-        match address {
-            Some(address) => Ok(Self {
-                child,
-                address,
-                _data: data,
-            }),
-            None => {
-                let _ = child.kill();
-                let _ = child.wait();
-                anyhow::bail!("the server did not start: its messages are above")
-            }
-        }
+            .and_then(|rest| rest.split_whitespace().next());
+        own.address = address
+            .context("the server did not start: its messages are above")?
+            .to_owned();
+        Ok(own)
     }
 
     /// Where it listens.

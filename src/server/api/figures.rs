@@ -64,10 +64,9 @@ impl FigureService for Api {
         let result = || {
             let r = request.get_ref();
             let handle = self.world(&request, "parent", &r.parent)?;
-            let described = handle.described();
+            let figures = handle.figures();
             // Indices grow in the order of creation; padded they sort as text.
-            let items = described
-                .figures
+            let items = figures
                 .iter()
                 .map(|f| (format!("{:010}", f.index), figure::figure_out(f)));
             let list = FIGURE.name([&handle.id, ""]);

@@ -314,10 +314,18 @@ impl WorldHandle {
     /// There is none of that name.
     pub fn figure(&self, figure: &str) -> Result<FigureInfo, Fault> {
         let described = self.described();
-        let found = described.figures.iter().find(|f| f.id == figure).cloned();
-        found.ok_or_else(|| {
+        let found = described.figures.iter().find(|f| f.id == figure);
+        let found = found.ok_or_else(|| {
             Fault::not_found("figure", format!("worlds/{}/figures/{figure}", self.id))
-        })
+        })?;
+        Ok(as_of(&self.latest(), found))
+    }
+
+    /// All figures, in the order of creation.
+    pub fn figures(&self) -> Vec<FigureInfo> {
+        let (described, latest) = (self.described(), self.latest());
+        let figures = described.figures.iter();
+        figures.map(|f| as_of(&latest, f)).collect()
     }
 
     /// Who controls a figure.
@@ -381,6 +389,16 @@ impl WorldHandle {
             budget_used: summary[STAGES.len() - 1].p99 * 1e-6 * self.rate_hz * speed,
             stages: std::array::from_fn(|i| (STAGES[i], summary[i])),
         }
+    }
+}
+
+/// A figure as it was described last, with what a frame says of it that changes from tick to tick.
+fn as_of(latest: &Snapshot, described: &FigureInfo) -> FigureInfo {
+    let mut figures = latest.roster.iter().zip(&latest.figures);
+    let shown = figures.find(|(entry, _)| entry.index == described.index);
+    FigureInfo {
+        follows: shown.map_or(described.follows, |(_, f)| f.follows),
+        ..described.clone()
     }
 }
 

@@ -44,6 +44,12 @@ pub struct PointTarget {
 }
 
 impl PointTarget {
+    /// True if every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let all = [self.now, self.now_velocity, self.next, self.next_velocity];
+        all.iter().all(|v| v.is_finite())
+    }
+
     /// A point that rests at `p` (world, m).
     pub fn still(p: Vec3) -> Self {
         Self {

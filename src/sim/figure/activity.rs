@@ -13,6 +13,7 @@
 //! A motion that is replaced as a whole ([`MotionState::follow`]) ends a switch, and getting up, at once.
 
 use super::drive::{Drive, QueuedClip};
+use super::following::{FollowMode, Following};
 use super::rehearsed::RehearsedPlayback;
 use super::tick::{ExitPlan, StreamEntryPlan};
 use crate::sim::body::Posture;
@@ -57,6 +58,7 @@ impl Switch {
 pub(super) struct MotionState {
     source: Drive,
     activity: Activity,
+    following: Following,
 }
 
 impl MotionState {
@@ -65,6 +67,7 @@ impl MotionState {
         Self {
             source: Drive::Hold(posture),
             activity: Activity::Hold,
+            following: Following::default(),
         }
     }
 
@@ -72,7 +75,7 @@ impl MotionState {
     pub fn is_valid(&self) -> bool {
         let next = self.next().is_none_or(QueuedClip::is_valid);
         let entry = self.stream_entry().is_none_or(StreamEntryPlan::is_valid);
-        self.source.is_valid() && next && entry
+        self.source.is_valid() && next && entry && self.following.is_valid()
     }
 
     /// Source of the desired motion.
@@ -106,6 +109,21 @@ impl MotionState {
             (Drive::Rehearsed(play), Activity::Track) => Some(play),
             _ => None,
         }
+    }
+
+    /// How it is followed.
+    pub fn following(&self) -> &Following {
+        &self.following
+    }
+
+    /// Notes how it was followed in a tick of `dt` s: helped by a force of norm `force`, for a body of this weight, N.
+    pub fn note(&mut self, mode: FollowMode, force: f64, weight: f64, dt: f64) {
+        self.following.add(mode, force, weight, dt);
+    }
+
+    /// Forgets how it was followed.
+    pub fn forget_following(&mut self) {
+        self.following = Following::default();
     }
 
     fn switch(&self) -> Option<&Switch> {
@@ -165,6 +183,11 @@ impl MotionState {
 
     /// Replaces the motion as a whole. What was switched to, and getting up, ends.
     pub fn follow(&mut self, source: Drive) {
+        match (&self.source, &source) {
+            // What is held is the end of a motion, and targets of a stream are one motion.
+            (_, Drive::Hold(_)) | (Drive::External(_), Drive::External(_)) => {}
+            _ => self.following = Following::default(),
+        }
         self.source = source;
         self.lie_down();
         self.change(|s| *s = Switch::default());
@@ -218,6 +241,7 @@ impl MotionState {
 
     /// Goes over to a clip: the switch is done.
     pub fn enter(&mut self, clip: Drive) {
+        self.following = Following::default();
         self.source = clip;
         self.change(|s| s.stops = false);
     }

@@ -9,6 +9,7 @@ mod bracing;
 pub mod constraints;
 pub mod drive;
 pub mod events;
+pub mod following;
 mod get_up;
 pub mod help;
 pub mod kinematic_step;
@@ -31,6 +32,7 @@ pub use crate::sim::setup::{
 pub use constraints::{Constrained, Constraint, MAX_CONSTRAINTS};
 pub use drive::{ClipPlayback, Drive, LivePlayback};
 pub use events::FigureEvent;
+pub use following::{FollowMode, Following};
 pub use plan_task::{LatePlans, PlanRequest, Planning};
 pub use rehearsed::{RehearsedMotion, RehearsedPlayback};
 pub use second_hand::Help;

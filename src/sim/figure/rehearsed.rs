@@ -139,6 +139,12 @@ pub struct RootStep {
     pub help: [Vec3; 2],
 }
 
+impl RootStep {
+    fn is_helped(&self) -> bool {
+        self.help.iter().any(|p| *p != Vec3::zero())
+    }
+}
+
 /// The substeps of a tick, and where the path lies in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct RootPath<'a> {
@@ -222,11 +228,7 @@ impl Hold {
             gain: [turning.0, moving.0],
             rest: [turning.1, moving.1],
             most: [self.most[1] * h, self.most[0] * h],
-            given: step
-                .help
-                .iter()
-                .any(|p| *p != Vec3::zero())
-                .then_some(step.help),
+            given: step.is_helped().then_some(step.help),
         }
     }
 }
@@ -344,16 +346,31 @@ pub struct RehearsedPlayback {
     pub start: f64,
     /// Where it lies in the world.
     pub origin: PlanarTransform,
+    /// Help is part of it.
+    helped: bool,
 }
 
 impl RehearsedPlayback {
     /// `motion` at its own place, from world time `start` on, s.
     pub fn new(motion: Arc<RehearsedMotion>, start: f64) -> Self {
         Self {
+            helped: motion.path.iter().any(RootStep::is_helped),
             motion,
             start,
             origin: PlanarTransform::default(),
         }
+    }
+
+    /// The same at another place.
+    #[must_use]
+    pub fn at(mut self, origin: PlanarTransform) -> Self {
+        self.origin = origin;
+        self
+    }
+
+    /// True if help is part of it.
+    pub fn is_helped(&self) -> bool {
+        self.helped
     }
 
     /// Ticks since its start that world time `t` is nearest to.
@@ -399,9 +416,7 @@ impl RehearsedPlayback {
     /// What helps the pelvis in the tick that begins at world time `t`, s, if anything can.
     pub(super) fn help(&self, t: f64) -> Option<PelvisHelp<'_>> {
         let (hold, path) = (self.motion.hold, self.path(t));
-        let given = path.steps.iter().flat_map(|s| s.help);
-        let acts =
-            hold.most.iter().any(|m| *m > 0.0) || given.into_iter().any(|p| p != Vec3::zero());
+        let acts = hold.most.iter().any(|m| *m > 0.0) || path.steps.iter().any(RootStep::is_helped);
         acts.then_some(PelvisHelp::Rehearsed(hold, path))
     }
 

@@ -39,6 +39,7 @@ use super::activity::MotionState;
 use super::assist::{Assist, PelvisHelp};
 use super::constraints::MAX_CONSTRAINTS;
 use super::events::Watcher;
+use super::following::FollowMode;
 use super::kinematic_step::{Decision, KinematicStepper};
 use super::loads::MAX_APPLIED;
 use super::plan_task::{LatePlans, Planning};
@@ -160,6 +161,7 @@ impl Figure {
         self.commands(world);
         if self.physical.frozen {
             self.outcome.report.flags = Flags::QUARANTINED;
+            self.motion.note(FollowMode::Nothing, 0.0, 0.0, world.dt);
             return false;
         }
         self.sense(world);

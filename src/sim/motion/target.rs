@@ -32,6 +32,12 @@ impl Target {
         }
     }
 
+    /// True if every number is finite.
+    pub fn is_finite(&self) -> bool {
+        let mut rates = self.velocity.iter().chain(&self.acceleration);
+        self.posture.is_finite() && rates.all(|x| x.is_finite())
+    }
+
     /// The state of a body that does exactly this.
     pub fn state(&self) -> State {
         State {

@@ -398,6 +398,8 @@ impl StepTracker {
     ///
     /// * `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as
     ///   planned, at two world times.
+    /// * `carried`: stiff motors and a pull keep the figure with its motion. The clock, the lag and the place stay, and
+    ///   what touches does not matter: that is looked up anew afterwards.
     pub fn targets(
         &mut self,
         time: f64,
@@ -405,9 +407,17 @@ impl StepTracker {
         terms: &Terms,
         clip_time: impl Fn(f64) -> f64,
         pair: impl Fn(f64, f64) -> TargetPair,
+        carried: bool,
     ) -> TargetPair {
         self.events = TickEvents::default();
-        self.anchor.settle(dt);
+        if carried {
+            self.feet = [Foot::default(); 2];
+            self.recovery = Recovery::default();
+            self.timing = StepTiming::default();
+            self.clock.started = false;
+        } else {
+            self.anchor.settle(dt);
+        }
         let now = time - self.clock.lag;
         self.clock.phase = clip_time(now);
         let over = self.plan().is_some_and(|p| p.is_over(self.clock.phase));
@@ -416,6 +426,8 @@ impl StepTracker {
         }
         let (mut out, planted) = if let Some(standing) = self.advance_stop(dt) {
             (standing, Some([true; 2]))
+        } else if carried {
+            (pair(now, now + dt), None)
         } else if self.followed.is_some() {
             let rate = self.update_contacts(terms, dt, || pair(now, now).now);
             self.clock.lag += (1.0 - rate) * dt;
@@ -427,7 +439,7 @@ impl StepTracker {
         } else {
             (pair(time, time + dt), None)
         };
-        if self.anchor != Anchor::default() {
+        if carried || self.anchor != Anchor::default() {
             let place = self.anchor.transform();
             place.apply_to(&mut out.now);
             place.apply_to(&mut out.next);
@@ -441,42 +453,9 @@ impl StepTracker {
             step.since += dt;
             planted[step.side] = false;
         }
-        if self.followed.is_some() || self.recovery_step().is_some() {
+        if !carried && (self.followed.is_some() || self.recovery_step().is_some()) {
             out.now.planted = planted;
             out.next.planted = planted;
-        }
-        out
-    }
-
-    /// As [`Self::targets`], while the figure is carried: the motion keeps its clock, its lag and its place, and what
-    /// touches does not matter. Contacts are looked up anew when [`Self::targets`] goes on.
-    pub fn carried(
-        &mut self,
-        time: f64,
-        dt: f64,
-        terms: &Terms,
-        clip_time: impl Fn(f64) -> f64,
-        pair: impl Fn(f64, f64) -> TargetPair,
-    ) -> TargetPair {
-        self.events = TickEvents::default();
-        self.feet = [Foot::default(); 2];
-        self.recovery = Recovery::default();
-        self.timing = StepTiming::default();
-        self.clock.started = false;
-        let now = time - self.clock.lag;
-        self.clock.phase = clip_time(now);
-        let over = self.plan().is_some_and(|p| p.is_over(self.clock.phase));
-        if over && !self.is_stopping() && self.clock.last_speed > SETTLED_SPEED {
-            self.begin_stop(terms, &pair(now, now).now.posture);
-        }
-        let standing = self.advance_stop(dt);
-        let mut out = standing.unwrap_or_else(|| pair(now, now + dt));
-        let place = self.anchor.transform();
-        place.apply_to(&mut out.now);
-        place.apply_to(&mut out.next);
-        if !over {
-            let v = &out.now.velocity;
-            self.clock.last_speed = (v[3] * v[3] + v[4] * v[4]).sqrt();
         }
         out
     }

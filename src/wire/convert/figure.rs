@@ -6,7 +6,7 @@ use super::super::types::{FigureInfo, FigureSettings, FigureUpdate};
 use super::masks::Fields;
 use super::names::{BODY, CLIP, FIGURE};
 use super::{
-    body, constraint, display_name, etags, or_default, place, place_out, shortened, within,
+    body, constraint, display_name, etags, motion, or_default, place, place_out, shortened, within,
 };
 use crate::sim::body::topology::DOF_NAMES;
 use crate::sim::figure::{
@@ -299,6 +299,10 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
             next_clip: clip_resource(&f.next_clip),
             driver_id: f.driver.clone().unwrap_or_default(),
             figure_index: f.index,
+            following: motion::follow_mode_out(f.follows.so_far.mode).into(),
+            help_newton_seconds: f.follows.so_far.impulse,
+            help_ratio: f.follows.so_far.help_share(),
+            max_help_weights: f.follows.most_help,
         }),
         fatigue_time_scale: s.options.fatigue_time_scale,
         assist: s.options.assist,

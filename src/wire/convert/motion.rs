@@ -15,6 +15,7 @@ use super::{
 use crate::sim::body::angles::set_anatomical_angles;
 use crate::sim::body::topology::{BONE_NAMES, PARENT};
 use crate::sim::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
+use crate::sim::figure::FollowMode;
 use crate::sim::math::Quat;
 use std::sync::Arc;
 use std::time::Duration;
@@ -597,6 +598,16 @@ pub fn follow_settings(
         follow: follow("follow", value)?.unwrap_or(unless.follow),
         most_help: most_help.unwrap_or(unless.most_help),
     })
+}
+
+/// In which way a figure follows its motion, for its status.
+pub fn follow_mode_out(mode: FollowMode) -> pb::FollowWay {
+    match mode {
+        FollowMode::Nothing => pb::FollowWay::Unspecified,
+        FollowMode::Tracked => pb::FollowWay::Tracked,
+        FollowMode::Rehearsed => pb::FollowWay::Rehearsed,
+        FollowMode::Helped => pb::FollowWay::Helped,
+    }
 }
 
 /// What came of a rehearsal, for a response.

@@ -5590,6 +5590,2256 @@ pub mod control_service_server {
         const NAME: &'static str = SERVICE_NAME;
     }
 }
+/// A stored desired motion.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Clip {
+    /// Resource name `clips/{clip}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Name for people.
+    #[prost(string, tag = "2")]
+    pub display_name: ::prost::alloc::string::String,
+    /// True for motions that come with the server.
+    #[prost(bool, tag = "3")]
+    pub builtin: bool,
+    /// Body it was prepared for. On figures with another body the motion is prepared anew for that body.
+    #[prost(string, tag = "4")]
+    pub body: ::prost::alloc::string::String,
+    /// Frames per second.
+    #[prost(double, tag = "5")]
+    pub rate_hz: f64,
+    /// Number of frames.
+    #[prost(int32, tag = "6")]
+    pub frame_count: i32,
+    /// Length, s.
+    #[prost(double, tag = "7")]
+    pub duration_s: f64,
+    /// How the file was understood; absent for built-in clips and clips made of frames.
+    #[prost(message, optional, tag = "8")]
+    pub report: ::core::option::Option<RetargetReport>,
+    /// When it was stored; absent for built-in clips.
+    #[prost(message, optional, tag = "9")]
+    pub create_time: ::core::option::Option<::prost_types::Timestamp>,
+    /// Forecast for that body following it by its own strength, without loads; absent for built-in clips, and
+    /// in lists.
+    #[prost(message, optional, tag = "10")]
+    pub forecast: ::core::option::Option<Forecast>,
+    /// How far it may go so that a figure keeps to it.
+    #[prost(enumeration = "Follow", tag = "11")]
+    pub follow: i32,
+    /// Largest force of the help, body weights.
+    #[prost(double, tag = "12")]
+    pub max_help_weights: f64,
+}
+impl ::prost::Name for Clip {
+    const NAME: &'static str = "Clip";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Clip".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Clip".into()
+    }
+}
+/// What came of a rehearsal. It is for one body, its strength and loads, and for the rate, substeps, friction and
+/// gravity of its world.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Rehearsal {
+    /// In which way the figure keeps to the clip.
+    #[prost(enumeration = "FollowWay", tag = "1")]
+    pub way: i32,
+    /// Why not in an easier one, in words.
+    #[prost(string, tag = "2")]
+    pub reason: ::prost::alloc::string::String,
+    /// When the figure is more than half a metre from the recording, mean of its segments, s; absent if it never is.
+    #[prost(double, optional, tag = "3")]
+    pub lost_at_s: ::core::option::Option<f64>,
+    /// Mean distance of its segments from the recording, m, until then.
+    #[prost(double, tag = "4")]
+    pub error_m: f64,
+    /// The same with both pelvis origins in one place, m.
+    #[prost(double, tag = "5")]
+    pub root_relative_error_m: f64,
+    /// Impulse of the help, N·s.
+    #[prost(double, tag = "6")]
+    pub help_newton_seconds: f64,
+    /// The same over weight times time.
+    #[prost(double, tag = "7")]
+    pub help_ratio: f64,
+    /// Largest force of the help, N.
+    #[prost(double, tag = "8")]
+    pub help_peak_newtons: f64,
+    /// Share of the time in which there is help.
+    #[prost(double, tag = "9")]
+    pub helped_ratio: f64,
+    /// The DOF that uses most of its strength, and that share for 5 % of the time.
+    #[prost(string, tag = "10")]
+    pub hardest_dof: ::prost::alloc::string::String,
+    /// See `hardest_dof`.
+    #[prost(double, tag = "11")]
+    pub hardest_ratio: f64,
+    /// The search was stopped by its budget.
+    #[prost(bool, tag = "12")]
+    pub stopped: bool,
+}
+impl ::prost::Name for Rehearsal {
+    const NAME: &'static str = "Rehearsal";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Rehearsal".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Rehearsal".into()
+    }
+}
+/// How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the
+/// clip, negative on the way into it.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct Forecast {
+    /// Verdict of the forecast.
+    #[prost(enumeration = "ForecastVerdict", tag = "1")]
+    pub verdict: i32,
+    /// The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the
+    /// right knee (flexion) at 1.2 s`.
+    #[prost(string, tag = "2")]
+    pub reason: ::prost::alloc::string::String,
+    /// How large that demand is: up to 1 motions are believed to be followed, from 2 on not even with a little help.
+    #[prost(double, tag = "3")]
+    pub demand: f64,
+    /// Force that no push of the floor gives, root mean square, body weights.
+    #[prost(double, tag = "4")]
+    pub lacking_force_rms_weights: f64,
+    /// Its peak, body weights.
+    #[prost(double, tag = "5")]
+    pub lacking_force_peak_weights: f64,
+    /// When, s.
+    #[prost(double, tag = "6")]
+    pub lacking_force_peak_time_s: f64,
+    /// Peak of the moment about the centre of mass that no push of the floor gives, body weight times metre.
+    #[prost(double, tag = "7")]
+    pub lacking_moment_peak_weight_m: f64,
+    /// How far what is lacking drives the capture point within 0.5 s, m.
+    #[prost(double, tag = "8")]
+    pub capture_point_drift_m: f64,
+    /// Largest torque of `strength_dof` over the strength at those angles and speeds.
+    #[prost(double, tag = "9")]
+    pub strength_peak_ratio: f64,
+    /// DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if
+    /// none is needed.
+    #[prost(string, tag = "10")]
+    pub strength_dof: ::prost::alloc::string::String,
+    /// When, s.
+    #[prost(double, tag = "11")]
+    pub strength_peak_time_s: f64,
+    /// 95th percentile of the torque of `strength_dof` over its strength.
+    #[prost(double, tag = "12")]
+    pub strength_p95_ratio: f64,
+    /// Time with nothing on the floor, s.
+    #[prost(double, tag = "13")]
+    pub flight_s: f64,
+    /// Longest of those times, s.
+    #[prost(double, tag = "14")]
+    pub longest_flight_s: f64,
+    /// Time with something other than the feet on the floor, s.
+    #[prost(double, tag = "15")]
+    pub floor_contact_s: f64,
+    /// Time with the pelvis upside down, s.
+    #[prost(double, tag = "16")]
+    pub inverted_s: f64,
+}
+impl ::prost::Name for Forecast {
+    const NAME: &'static str = "Forecast";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.Forecast".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.Forecast".into()
+    }
+}
+/// How a BVH file is read. Everything may be left out.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct BvhOptions {
+    /// Length of one file unit, m, 0.000001…100. Absent: guessed from the stature.
+    #[prost(double, optional, tag = "1")]
+    pub unit_m: ::core::option::Option<f64>,
+    /// File axis that points up: `y` or `z`. Empty: guessed from the motion.
+    #[prost(string, tag = "2")]
+    pub up_axis: ::prost::alloc::string::String,
+    /// Frames per second, 1…1000, in place of the file's frame time. Absent: as the file says.
+    #[prost(double, optional, tag = "3")]
+    pub rate_hz: ::core::option::Option<f64>,
+    /// Moves the motion so that the feet stand on the floor. Absent: true.
+    #[prost(bool, optional, tag = "4")]
+    pub fit_floor: ::core::option::Option<bool>,
+    /// Keeps planted feet from sliding. Absent: true.
+    #[prost(bool, optional, tag = "5")]
+    pub lock_feet: ::core::option::Option<bool>,
+    /// Corner frequency of the zero-phase low-pass, Hz, 0.5…60. Absent: 6.
+    #[prost(double, optional, tag = "6")]
+    pub cutoff_hz: ::core::option::Option<f64>,
+    /// Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is
+    /// measured in people's joints does not run: left as recorded, a run fells its figure. Absent: true.
+    #[prost(bool, optional, tag = "7")]
+    pub walk_runs: ::core::option::Option<bool>,
+}
+impl ::prost::Name for BvhOptions {
+    const NAME: &'static str = "BvhOptions";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BvhOptions".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BvhOptions".into()
+    }
+}
+/// A BVH file.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct BvhSource {
+    /// The bytes of the file, at most the server's `max_clip_bytes` (default 16 MiB).
+    #[prost(bytes = "bytes", tag = "1")]
+    pub data: ::prost::bytes::Bytes,
+    /// How to read it. Absent: all defaults.
+    #[prost(message, optional, tag = "2")]
+    pub options: ::core::option::Option<BvhOptions>,
+}
+impl ::prost::Name for BvhSource {
+    const NAME: &'static str = "BvhSource";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BvhSource".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BvhSource".into()
+    }
+}
+/// A motion as frames of one figure, at a constant rate.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct FrameSource {
+    /// Frames per second, 1…1000. Required.
+    #[prost(double, tag = "1")]
+    pub rate_hz: f64,
+    /// At least two. `figure_id`, velocities, sequence and source time are ignored.
+    #[prost(message, repeated, tag = "2")]
+    pub frames: ::prost::alloc::vec::Vec<FigureMotion>,
+}
+impl ::prost::Name for FrameSource {
+    const NAME: &'static str = "FrameSource";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.FrameSource".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.FrameSource".into()
+    }
+}
+/// Asks to store a clip.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct CreateClipRequest {
+    /// Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
+    #[prost(string, tag = "1")]
+    pub clip_id: ::prost::alloc::string::String,
+    /// Name for people, at most 128 bytes. Default: empty.
+    #[prost(string, tag = "2")]
+    pub display_name: ::prost::alloc::string::String,
+    /// Body to prepare it for: `bodies/{body}`. Empty: `bodies/adult-man`.
+    #[prost(string, tag = "3")]
+    pub body: ::prost::alloc::string::String,
+    /// How far it may go so that a figure keeps to it, unless `RehearseClip` or `PlayClip` say otherwise. Absent:
+    /// FOLLOW_STRICT.
+    #[prost(enumeration = "Follow", tag = "6")]
+    pub follow: i32,
+    /// Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: 0.3.
+    #[prost(double, optional, tag = "7")]
+    pub max_help_weights: ::core::option::Option<f64>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
+    #[prost(bool, tag = "14")]
+    pub validate_only: bool,
+    /// The motion. Required.
+    #[prost(oneof = "create_clip_request::Source", tags = "4, 5")]
+    pub source: ::core::option::Option<create_clip_request::Source>,
+}
+/// Nested message and enum types in `CreateClipRequest`.
+pub mod create_clip_request {
+    /// The motion. Required.
+    #[derive(Clone, PartialEq, ::prost::Oneof)]
+    pub enum Source {
+        /// A BVH file.
+        #[prost(message, tag = "4")]
+        Bvh(super::BvhSource),
+        /// Frames.
+        #[prost(message, tag = "5")]
+        Frames(super::FrameSource),
+    }
+}
+impl ::prost::Name for CreateClipRequest {
+    const NAME: &'static str = "CreateClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateClipRequest".into()
+    }
+}
+/// The stored clip.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct CreateClipResponse {
+    /// With its report.
+    #[prost(message, optional, tag = "1")]
+    pub clip: ::core::option::Option<Clip>,
+}
+impl ::prost::Name for CreateClipResponse {
+    const NAME: &'static str = "CreateClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.CreateClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.CreateClipResponse".into()
+    }
+}
+/// Asks to store a clip and to be told how far it is.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct StreamCreateClipRequest {
+    /// The clip. Its `request_id` is ignored: a stream is not repeated. Required.
+    #[prost(message, optional, tag = "1")]
+    pub create_clip: ::core::option::Option<CreateClipRequest>,
+}
+impl ::prost::Name for StreamCreateClipRequest {
+    const NAME: &'static str = "StreamCreateClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StreamCreateClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StreamCreateClipRequest".into()
+    }
+}
+/// How far it is, and in the end the clip.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct StreamCreateClipResponse {
+    /// What is sent.
+    #[prost(oneof = "stream_create_clip_response::Message", tags = "1, 2")]
+    pub message: ::core::option::Option<stream_create_clip_response::Message>,
+}
+/// Nested message and enum types in `StreamCreateClipResponse`.
+pub mod stream_create_clip_response {
+    /// What is sent.
+    #[derive(Clone, PartialEq, ::prost::Oneof)]
+    pub enum Message {
+        /// Share of the work that is done, 0…1.
+        #[prost(double, tag = "1")]
+        Progress(f64),
+        /// The stored clip; the last message.
+        #[prost(message, tag = "2")]
+        CreateClip(super::CreateClipResponse),
+    }
+}
+impl ::prost::Name for StreamCreateClipResponse {
+    const NAME: &'static str = "StreamCreateClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StreamCreateClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StreamCreateClipResponse".into()
+    }
+}
+/// Asks for one clip.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetClipRequest {
+    /// Resource name `clips/{clip}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+}
+impl ::prost::Name for GetClipRequest {
+    const NAME: &'static str = "GetClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetClipRequest".into()
+    }
+}
+/// One clip.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct GetClipResponse {
+    /// With its report.
+    #[prost(message, optional, tag = "1")]
+    pub clip: ::core::option::Option<Clip>,
+}
+impl ::prost::Name for GetClipResponse {
+    const NAME: &'static str = "GetClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.GetClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.GetClipResponse".into()
+    }
+}
+/// Asks for clips.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ListClipsRequest {
+    /// Most clips to return. 0: 100; more than 1000 are taken as 1000.
+    #[prost(int32, tag = "1")]
+    pub page_size: i32,
+    /// `next_page_token` of the page before. Empty: from the start.
+    #[prost(string, tag = "2")]
+    pub page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListClipsRequest {
+    const NAME: &'static str = "ListClipsRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListClipsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListClipsRequest".into()
+    }
+}
+/// A page of clips.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ListClipsResponse {
+    /// Ordered by name, without their reports.
+    #[prost(message, repeated, tag = "1")]
+    pub clips: ::prost::alloc::vec::Vec<Clip>,
+    /// Token of the next page; empty at the end.
+    #[prost(string, tag = "2")]
+    pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListClipsResponse {
+    const NAME: &'static str = "ListClipsResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.ListClipsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.ListClipsResponse".into()
+    }
+}
+/// Forgets a clip.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteClipRequest {
+    /// Resource name `clips/{clip}`.
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+}
+impl ::prost::Name for DeleteClipRequest {
+    const NAME: &'static str = "DeleteClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteClipRequest".into()
+    }
+}
+/// The clip is gone.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteClipResponse {}
+impl ::prost::Name for DeleteClipResponse {
+    const NAME: &'static str = "DeleteClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DeleteClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DeleteClipResponse".into()
+    }
+}
+/// Asks to rehearse a clip for a figure.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct RehearseClipRequest {
+    /// Resource name `clips/{clip}`.
+    #[prost(string, tag = "1")]
+    pub clip: ::prost::alloc::string::String,
+    /// The figure, as it is now: body, strength, the loads that it holds, and its world. Resource name
+    /// `worlds/{world}/figures/{figure}`.
+    #[prost(string, tag = "2")]
+    pub figure: ::prost::alloc::string::String,
+    /// How far it may go. Absent: as the clip says.
+    #[prost(enumeration = "Follow", tag = "3")]
+    pub follow: i32,
+    /// Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: as the clip says.
+    #[prost(double, optional, tag = "4")]
+    pub max_help_weights: ::core::option::Option<f64>,
+    /// Longest time for the search, 1 s to 1 h: the best that was found until then is the result. Absent: 10 min.
+    #[prost(message, optional, tag = "5")]
+    pub budget: ::core::option::Option<::prost_types::Duration>,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+}
+impl ::prost::Name for RehearseClipRequest {
+    const NAME: &'static str = "RehearseClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RehearseClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RehearseClipRequest".into()
+    }
+}
+/// The clip is rehearsed, if it was found to need that and a way was found.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct RehearseClipResponse {
+    /// What came of it.
+    #[prost(message, optional, tag = "1")]
+    pub rehearsal: ::core::option::Option<Rehearsal>,
+}
+impl ::prost::Name for RehearseClipResponse {
+    const NAME: &'static str = "RehearseClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.RehearseClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.RehearseClipResponse".into()
+    }
+}
+/// Lets a figure play a clip.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct PlayClipRequest {
+    /// Figure: resource name `worlds/{world}/figures/{figure}`.
+    #[prost(string, tag = "1")]
+    pub figure: ::prost::alloc::string::String,
+    /// Clip: resource name `clips/{clip}`.
+    #[prost(string, tag = "2")]
+    pub clip: ::prost::alloc::string::String,
+    /// Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps
+    /// and balance are those of that pace. The first time for a body and a speed takes as long as an upload does.
+    #[prost(double, tag = "3")]
+    pub speed: f64,
+    /// Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like
+    /// its beginning is led back to it by steps. Default: false.
+    #[prost(bool, tag = "4")]
+    pub r#loop: bool,
+    /// World time at which the clip starts, s, or later if the figure does not stand by then. Absent: at the next tick.
+    #[prost(double, optional, tag = "5")]
+    pub start_time_s: ::core::option::Option<f64>,
+    /// Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
+    /// by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
+    #[prost(bool, tag = "6")]
+    pub reset: bool,
+    /// Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it
+    /// stands.
+    #[prost(message, optional, tag = "7")]
+    pub placement: ::core::option::Option<Placement>,
+    /// How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
+    /// else the clip is tracked as it is, with FOLLOW_ASSISTED with help while it is being lost (at most as the clip
+    /// says). FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help. Absent: as the clip says, and any
+    /// rehearsal.
+    #[prost(enumeration = "Follow", tag = "8")]
+    pub follow: i32,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    /// the valid one.
+    #[prost(string, tag = "15")]
+    pub control_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for PlayClipRequest {
+    const NAME: &'static str = "PlayClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PlayClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PlayClipRequest".into()
+    }
+}
+/// The clip plays, or waits until the figure stands.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct PlayClipResponse {
+    /// World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
+    /// Gone over to from step to step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then
+    /// this may be before the request. If the figure has to stand first, or is led into it, it is what is expected; the
+    /// clip begins when the figure has settled, up to 2 s sooner or 3 s later.
+    #[prost(double, tag = "1")]
+    pub start_time_s: f64,
+}
+impl ::prost::Name for PlayClipResponse {
+    const NAME: &'static str = "PlayClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PlayClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PlayClipResponse".into()
+    }
+}
+/// Ends a clip.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct StopClipRequest {
+    /// Figure: resource name `worlds/{world}/figures/{figure}`.
+    #[prost(string, tag = "1")]
+    pub figure: ::prost::alloc::string::String,
+    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
+    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
+    #[prost(string, tag = "13")]
+    pub request_id: ::prost::alloc::string::String,
+    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
+    /// the valid one.
+    #[prost(string, tag = "15")]
+    pub control_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for StopClipRequest {
+    const NAME: &'static str = "StopClipRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StopClipRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StopClipRequest".into()
+    }
+}
+/// The figure stands, or comes to a stand.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct StopClipResponse {}
+impl ::prost::Name for StopClipResponse {
+    const NAME: &'static str = "StopClipResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.StopClipResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.StopClipResponse".into()
+    }
+}
+/// Rotation of one bone.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct BoneRotation {
+    /// Canonical bone name (VRM), for example `leftUpperArm`, as `GetBody` lists it.
+    #[prost(string, tag = "1")]
+    pub bone: ::prost::alloc::string::String,
+    /// The rotation. Required.
+    #[prost(message, optional, tag = "2")]
+    pub rotation: ::core::option::Option<Quaternion>,
+}
+impl ::prost::Name for BoneRotation {
+    const NAME: &'static str = "BoneRotation";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.BoneRotation".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.BoneRotation".into()
+    }
+}
+/// Desired motion of one figure at one instant: joint angles or bone rotations, not both.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct FigureMotion {
+    /// Figure: last part of its name. May be empty if the header names exactly one.
+    #[prost(string, tag = "1")]
+    pub figure_id: ::prost::alloc::string::String,
+    /// Pelvis in the world. Absent: the pelvis stays where it is asked to be now.
+    #[prost(message, optional, tag = "2")]
+    pub root: ::core::option::Option<Pose>,
+    /// The 39 anatomical angles, rad, in DOF order, each within ±2π.
+    #[prost(double, repeated, packed = "false", tag = "3")]
+    pub joint_angles_rad: ::prost::alloc::vec::Vec<f64>,
+    /// Rotations by bone; bones that are left out are in the zero pose. What a hinge cannot do is dropped.
+    #[prost(message, repeated, tag = "4")]
+    pub bone_rotations: ::prost::alloc::vec::Vec<BoneRotation>,
+    /// What `bone_rotations` are relative to.
+    #[prost(enumeration = "RotationSpace", tag = "5")]
+    pub rotation_space: i32,
+    /// Velocity, 45 numbers laid out as `FigureFrame.velocity`, each within ±1000. Empty: formed from neighbouring frames.
+    #[prost(double, repeated, packed = "false", tag = "6")]
+    pub velocity: ::prost::alloc::vec::Vec<f64>,
+    /// Whether left and right foot are planted: empty (the server decides from height and speed) or two values.
+    #[prost(bool, repeated, packed = "false", tag = "7")]
+    pub planted: ::prost::alloc::vec::Vec<bool>,
+}
+impl ::prost::Name for FigureMotion {
+    const NAME: &'static str = "FigureMotion";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.FigureMotion".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.FigureMotion".into()
+    }
+}
+/// Desired motion at one instant.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct MotionFrame {
+    /// Counts up by one from frame to frame; must grow. Frames that do not are dropped and counted; if they go on for
+    /// 0.25 s in an order of their own, the stream begins anew with them.
+    #[prost(int64, tag = "1")]
+    pub sequence: i64,
+    /// When the motion was captured, ns on the driver's clock; must grow with the sequence.
+    #[prost(sfixed64, tag = "2")]
+    pub source_time_ns: i64,
+    /// One entry per driven figure.
+    #[prost(message, repeated, tag = "3")]
+    pub figures: ::prost::alloc::vec::Vec<FigureMotion>,
+}
+impl ::prost::Name for MotionFrame {
+    const NAME: &'static str = "MotionFrame";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.MotionFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.MotionFrame".into()
+    }
+}
+/// How figures are driven.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct DriveHeader {
+    /// World: resource name `worlds/{world}`.
+    #[prost(string, tag = "1")]
+    pub world: ::prost::alloc::string::String,
+    /// Figures that are driven: last parts of their names. At least one.
+    #[prost(string, repeated, tag = "2")]
+    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
+    /// Empty: the server chooses, and `PushMotion` takes it as `push`.
+    #[prost(string, tag = "3")]
+    pub driver_id: ::prost::alloc::string::String,
+    /// Frames per second that will come, 1…1000. 0 or absent: 60. Used for the first estimates only.
+    #[prost(double, tag = "4")]
+    pub nominal_rate_hz: f64,
+    /// Fixed delay between arrival and use, ms, 0…2000. Absent: adaptive (p99 of the arrival jitter and one tick, at most
+    /// `max_playout_delay_ms`).
+    #[prost(double, optional, tag = "5")]
+    pub playout_delay_ms: ::core::option::Option<f64>,
+    /// Largest adaptive delay, ms, 1…2000. 0 or absent: 100.
+    #[prost(double, tag = "6")]
+    pub max_playout_delay_ms: f64,
+    /// What happens when frames are late.
+    #[prost(enumeration = "Underrun", tag = "7")]
+    pub underrun: i32,
+    /// How long the last velocity is continued, ms, 0…1000. Absent: 100.
+    #[prost(double, optional, tag = "8")]
+    pub extrapolation_limit_ms: ::core::option::Option<f64>,
+    /// How long the last posture is held before the figure relaxes into quiet standing, ms, 0…600000. Absent: 5000.
+    #[prost(double, optional, tag = "9")]
+    pub hold_limit_ms: ::core::option::Option<f64>,
+    /// How long the figures are kept for this driver after its connection is lost or after its last push, ms, 0…60000.
+    /// Absent: 5000.
+    #[prost(double, optional, tag = "10")]
+    pub grace_ms: ::core::option::Option<f64>,
+    /// Puts each figure into its first desired posture when the drive begins. Default: false, it moves there by itself.
+    #[prost(bool, tag = "11")]
+    pub reset: bool,
+    /// How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted
+    /// feet are locked, swings clear the floor and the zero-moment point is brought over the feet, so that a stream may
+    /// walk; steps then follow events. It is added to the playout delay. 0 uses frames as they come, without that delay,
+    /// for streams that stand. Absent: the server's `live_window_ms`.
+    #[prost(double, optional, tag = "12")]
+    pub preparation_window_ms: ::core::option::Option<f64>,
+    /// Tokens of the leases of those figures that have one (`AcquireControl`), in any order. CONTROL_FENCED if one of them
+    /// is no longer valid.
+    #[prost(string, repeated, tag = "15")]
+    pub control_tokens: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+}
+impl ::prost::Name for DriveHeader {
+    const NAME: &'static str = "DriveHeader";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DriveHeader".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DriveHeader".into()
+    }
+}
+/// Batch of desired motion.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct MotionBatch {
+    /// In order of sequence, at most 64.
+    #[prost(message, repeated, tag = "1")]
+    pub frames: ::prost::alloc::vec::Vec<MotionFrame>,
+}
+impl ::prost::Name for MotionBatch {
+    const NAME: &'static str = "MotionBatch";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.MotionBatch".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.MotionBatch".into()
+    }
+}
+/// What a driver sends.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct DriveFiguresRequest {
+    /// The header first, then batches.
+    #[prost(oneof = "drive_figures_request::Message", tags = "1, 2")]
+    pub message: ::core::option::Option<drive_figures_request::Message>,
+}
+/// Nested message and enum types in `DriveFiguresRequest`.
+pub mod drive_figures_request {
+    /// The header first, then batches.
+    #[derive(Clone, PartialEq, ::prost::Oneof)]
+    pub enum Message {
+        /// How figures are driven.
+        #[prost(message, tag = "1")]
+        Header(super::DriveHeader),
+        /// Desired motion.
+        #[prost(message, tag = "2")]
+        Batch(super::MotionBatch),
+    }
+}
+impl ::prost::Name for DriveFiguresRequest {
+    const NAME: &'static str = "DriveFiguresRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DriveFiguresRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DriveFiguresRequest".into()
+    }
+}
+/// What a driver is told.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct DriveFiguresResponse {
+    /// State of the drive.
+    #[prost(message, optional, tag = "1")]
+    pub feedback: ::core::option::Option<DriveFeedback>,
+}
+impl ::prost::Name for DriveFiguresResponse {
+    const NAME: &'static str = "DriveFiguresResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DriveFiguresResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DriveFiguresResponse".into()
+    }
+}
+/// A batch of live desired motion.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct PushMotionRequest {
+    /// How figures are driven; the settings of the first push of a driver hold until its grace time is over.
+    #[prost(message, optional, tag = "1")]
+    pub header: ::core::option::Option<DriveHeader>,
+    /// The batch.
+    #[prost(message, optional, tag = "2")]
+    pub batch: ::core::option::Option<MotionBatch>,
+}
+impl ::prost::Name for PushMotionRequest {
+    const NAME: &'static str = "PushMotionRequest";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PushMotionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PushMotionRequest".into()
+    }
+}
+/// The batch was taken. It acts from the next tick on; the call does not wait for it.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct PushMotionResponse {
+    /// State of the drive after the last tick; `received_sequence` and `refused_batch_count` are of now.
+    #[prost(message, optional, tag = "1")]
+    pub feedback: ::core::option::Option<DriveFeedback>,
+}
+impl ::prost::Name for PushMotionResponse {
+    const NAME: &'static str = "PushMotionResponse";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.PushMotionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.PushMotionResponse".into()
+    }
+}
+/// State of a drive.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct DriveFeedback {
+    /// The driver, as given or as chosen by the server.
+    #[prost(string, tag = "1")]
+    pub driver_id: ::prost::alloc::string::String,
+    /// Tick of the world at which this was true.
+    #[prost(int64, tag = "2")]
+    pub tick: i64,
+    /// Largest sequence that was taken; -1 if none.
+    #[prost(int64, tag = "3")]
+    pub received_sequence: i64,
+    /// Batches that came too fast and were dropped: a driver may send 1000 frames per second for each of its figures, and
+    /// 512 at once.
+    #[prost(int64, tag = "4")]
+    pub refused_batch_count: i64,
+    /// One entry per driven figure.
+    #[prost(message, repeated, tag = "5")]
+    pub figures: ::prost::alloc::vec::Vec<FigureFeedback>,
+}
+impl ::prost::Name for DriveFeedback {
+    const NAME: &'static str = "DriveFeedback";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.DriveFeedback".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.DriveFeedback".into()
+    }
+}
+/// State of the jitter buffer of one figure.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct FigureFeedback {
+    /// Last part of the figure's name.
+    #[prost(string, tag = "1")]
+    pub figure_id: ::prost::alloc::string::String,
+    /// Sequence of the newest frame that acts now; -1 if none yet.
+    #[prost(int64, tag = "2")]
+    pub applied_sequence: i64,
+    /// Source time that acts now, ns.
+    #[prost(sfixed64, tag = "3")]
+    pub applied_source_time_ns: i64,
+    /// Desired motion that is held but not used yet, ms.
+    #[prost(double, tag = "4")]
+    pub buffered_ms: f64,
+    /// Delay between arrival and use at present, with the preparation window, ms.
+    #[prost(double, tag = "5")]
+    pub playout_delay_ms: f64,
+    /// Measured arrival jitter, p99 of the last frames, ms.
+    #[prost(double, tag = "6")]
+    pub jitter_ms: f64,
+    /// How the last tick was answered.
+    #[prost(enumeration = "Supply", tag = "7")]
+    pub supply: i32,
+    /// Ticks answered by a frame exactly at the wanted time.
+    #[prost(int64, tag = "8")]
+    pub present_count: i64,
+    /// Ticks answered between two frames.
+    #[prost(int64, tag = "9")]
+    pub interpolated_count: i64,
+    /// Ticks answered beyond the newest frame.
+    #[prost(int64, tag = "10")]
+    pub extrapolated_count: i64,
+    /// Ticks in which the last posture was held.
+    #[prost(int64, tag = "11")]
+    pub held_count: i64,
+    /// Ticks in which the figure relaxed.
+    #[prost(int64, tag = "12")]
+    pub relaxed_count: i64,
+    /// Frames that came too late to act.
+    #[prost(int64, tag = "13")]
+    pub late_count: i64,
+    /// Frames dropped because they were not newer than what was there.
+    #[prost(int64, tag = "14")]
+    pub stale_count: i64,
+    /// Frames dropped because the buffer was full.
+    #[prost(int64, tag = "15")]
+    pub overflow_count: i64,
+    /// Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they
+    /// come.
+    #[prost(double, tag = "16")]
+    pub preparation_window_ms: f64,
+    /// Times that the stream began anew: its sequence or source time started again or was set ahead, or it fell too far
+    /// behind. The figure stands until there is motion again. An event says why.
+    #[prost(int64, tag = "17")]
+    pub resync_count: i64,
+    /// How far the stream is behind because its world leaves ticks out, because it took another one over in the middle of
+    /// a walk, or because the figure had to be led into it by steps, ms; contained in `playout_delay_ms`. It is played in
+    /// world time, never faster than the body moves, and begins anew when its world has left 2 s of it out.
+    #[prost(double, tag = "18")]
+    pub behind_ms: f64,
+}
+impl ::prost::Name for FigureFeedback {
+    const NAME: &'static str = "FigureFeedback";
+    const PACKAGE: &'static str = "sinew.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "sinew.v1.FigureFeedback".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/sinew.v1.FigureFeedback".into()
+    }
+}
+/// How far it may go so that a figure keeps to a clip that it loses as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum Follow {
+    /// The default, as the comment of the field says.
+    Unspecified = 0,
+    /// Not at all: physics alone, the figure falls honestly.
+    Strict = 1,
+    /// The clip is rehearsed: what has to be added to it is found out beforehand. Strength alone does it.
+    Rehearsed = 2,
+    /// The same, and as little help as will do, in newtons, which every frame tells (`assist`).
+    Assisted = 3,
+}
+impl Follow {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "FOLLOW_UNSPECIFIED",
+            Self::Strict => "FOLLOW_STRICT",
+            Self::Rehearsed => "FOLLOW_REHEARSED",
+            Self::Assisted => "FOLLOW_ASSISTED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "FOLLOW_UNSPECIFIED" => Some(Self::Unspecified),
+            "FOLLOW_STRICT" => Some(Self::Strict),
+            "FOLLOW_REHEARSED" => Some(Self::Rehearsed),
+            "FOLLOW_ASSISTED" => Some(Self::Assisted),
+            _ => None,
+        }
+    }
+}
+/// In which way a figure keeps to a motion: what a rehearsal found, or what the figure does now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum FollowWay {
+    /// Not told. In the status of a figure: it has nothing to follow, as it holds a posture, lies or gets up.
+    Unspecified = 0,
+    /// As it is, by the strength of the figure, with balance and steps. Of a rehearsal: there is nothing to rehearse.
+    Tracked = 1,
+    /// Rehearsed, by strength alone. A weak spring may lead the pelvis back to the path of the rehearsal.
+    Rehearsed = 2,
+    /// With help: it is part of the rehearsal, or acts now because the motion is being lost or `Figure.assist` is on.
+    Helped = 3,
+    /// Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may. Never
+    /// in the status of a figure.
+    Lost = 4,
+}
+impl FollowWay {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "FOLLOW_WAY_UNSPECIFIED",
+            Self::Tracked => "FOLLOW_WAY_TRACKED",
+            Self::Rehearsed => "FOLLOW_WAY_REHEARSED",
+            Self::Helped => "FOLLOW_WAY_HELPED",
+            Self::Lost => "FOLLOW_WAY_LOST",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "FOLLOW_WAY_UNSPECIFIED" => Some(Self::Unspecified),
+            "FOLLOW_WAY_TRACKED" => Some(Self::Tracked),
+            "FOLLOW_WAY_REHEARSED" => Some(Self::Rehearsed),
+            "FOLLOW_WAY_HELPED" => Some(Self::Helped),
+            "FOLLOW_WAY_LOST" => Some(Self::Lost),
+            _ => None,
+        }
+    }
+}
+/// Forecast of how a figure follows a clip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum ForecastVerdict {
+    /// Not told.
+    Unspecified = 0,
+    /// The figure follows it by its own strength.
+    Follows = 1,
+    /// It deviates or falls, unless it is helped.
+    NeedsHelp = 2,
+    /// No help short of carrying it will do.
+    Cannot = 3,
+}
+impl ForecastVerdict {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "FORECAST_VERDICT_UNSPECIFIED",
+            Self::Follows => "FORECAST_VERDICT_FOLLOWS",
+            Self::NeedsHelp => "FORECAST_VERDICT_NEEDS_HELP",
+            Self::Cannot => "FORECAST_VERDICT_CANNOT",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "FORECAST_VERDICT_UNSPECIFIED" => Some(Self::Unspecified),
+            "FORECAST_VERDICT_FOLLOWS" => Some(Self::Follows),
+            "FORECAST_VERDICT_NEEDS_HELP" => Some(Self::NeedsHelp),
+            "FORECAST_VERDICT_CANNOT" => Some(Self::Cannot),
+            _ => None,
+        }
+    }
+}
+/// What a bone rotation is relative to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum RotationSpace {
+    /// The default: ROTATION_SPACE_PARENT.
+    Unspecified = 0,
+    /// `parent_from_segment`: identity in the zero pose (upright, arms hanging, palms to the thighs).
+    Parent = 1,
+    /// `world_from_segment`.
+    World = 2,
+}
+impl RotationSpace {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "ROTATION_SPACE_UNSPECIFIED",
+            Self::Parent => "ROTATION_SPACE_PARENT",
+            Self::World => "ROTATION_SPACE_WORLD",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "ROTATION_SPACE_UNSPECIFIED" => Some(Self::Unspecified),
+            "ROTATION_SPACE_PARENT" => Some(Self::Parent),
+            "ROTATION_SPACE_WORLD" => Some(Self::World),
+            _ => None,
+        }
+    }
+}
+/// What a figure does when desired motion is late.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum Underrun {
+    /// The default: UNDERRUN_EXTRAPOLATE.
+    Unspecified = 0,
+    /// Continues the last velocity, fading out over `extrapolation_limit_ms`, then holds, then relaxes.
+    Extrapolate = 1,
+    /// Stays in the last posture, balanced, then relaxes.
+    Hold = 2,
+}
+impl Underrun {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "UNDERRUN_UNSPECIFIED",
+            Self::Extrapolate => "UNDERRUN_EXTRAPOLATE",
+            Self::Hold => "UNDERRUN_HOLD",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "UNDERRUN_UNSPECIFIED" => Some(Self::Unspecified),
+            "UNDERRUN_EXTRAPOLATE" => Some(Self::Extrapolate),
+            "UNDERRUN_HOLD" => Some(Self::Hold),
+            _ => None,
+        }
+    }
+}
+/// How desired motion answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum Supply {
+    /// Nothing was asked of it yet.
+    Unspecified = 0,
+    /// A frame exactly at the wanted time.
+    Present = 1,
+    /// Between two frames.
+    Interpolated = 2,
+    /// Beyond the newest frame, within the limit.
+    Extrapolated = 3,
+    /// The last posture is held.
+    Held = 4,
+    /// The figure relaxes into quiet standing.
+    Relaxed = 5,
+    /// Before the first frame.
+    Waiting = 6,
+}
+impl Supply {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "SUPPLY_UNSPECIFIED",
+            Self::Present => "SUPPLY_PRESENT",
+            Self::Interpolated => "SUPPLY_INTERPOLATED",
+            Self::Extrapolated => "SUPPLY_EXTRAPOLATED",
+            Self::Held => "SUPPLY_HELD",
+            Self::Relaxed => "SUPPLY_RELAXED",
+            Self::Waiting => "SUPPLY_WAITING",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "SUPPLY_UNSPECIFIED" => Some(Self::Unspecified),
+            "SUPPLY_PRESENT" => Some(Self::Present),
+            "SUPPLY_INTERPOLATED" => Some(Self::Interpolated),
+            "SUPPLY_EXTRAPOLATED" => Some(Self::Extrapolated),
+            "SUPPLY_HELD" => Some(Self::Held),
+            "SUPPLY_RELAXED" => Some(Self::Relaxed),
+            "SUPPLY_WAITING" => Some(Self::Waiting),
+            _ => None,
+        }
+    }
+}
+/// Generated client implementations.
+pub mod motion_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    /// Desired motions: stored clips and live streams.
+    #[derive(Debug, Clone)]
+    pub struct MotionServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl MotionServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> MotionServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> MotionServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            MotionServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// Stores a clip from BVH bytes or from frames, retargeted to a body; the response says how the file was understood.
+        pub async fn create_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::CreateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CreateClipResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/CreateClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "CreateClip"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up.
+        pub async fn stream_create_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::StreamCreateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<tonic::codec::Streaming<super::StreamCreateClipResponse>>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/StreamCreateClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "StreamCreateClip"));
+            self.inner.server_streaming(req, path, codec).await
+        }
+        /// One clip.
+        pub async fn get_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetClipResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/GetClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "GetClip"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// All clips, built-in ones included, by name.
+        pub async fn list_clips(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ListClipsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListClipsResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/ListClips",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "ListClips"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted.
+        pub async fn delete_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::DeleteClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteClipResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/DeleteClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "DeleteClip"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
+        /// to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
+        /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
+        /// further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
+        /// gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
+        /// figure that holds one load in both hands, or may.
+        pub async fn rehearse_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::RehearseClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RehearseClipResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/RehearseClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "RehearseClip"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
+        /// it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
+        /// `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
+        /// (`FIGURE_CONTROLLED`) while someone drives it live.
+        pub async fn play_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::PlayClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::PlayClipResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/PlayClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "PlayClip"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
+        /// other holds the posture that is asked of it now.
+        pub async fn stop_clip(
+            &mut self,
+            request: impl tonic::IntoRequest<super::StopClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StopClipResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/StopClip",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "StopClip"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// A batch of live desired motion: the unary twin of `DriveFigures`.
+        pub async fn push_motion(
+            &mut self,
+            request: impl tonic::IntoRequest<super::PushMotionRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::PushMotionResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/PushMotion",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "PushMotion"));
+            self.inner.unary(req, path, codec).await
+        }
+        /// Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
+        /// ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
+        /// for the grace time.
+        pub async fn drive_figures(
+            &mut self,
+            request: impl tonic::IntoStreamingRequest<
+                Message = super::DriveFiguresRequest,
+            >,
+        ) -> std::result::Result<
+            tonic::Response<tonic::codec::Streaming<super::DriveFiguresResponse>>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = crate::wire::codec::Codec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/sinew.v1.MotionService/DriveFigures",
+            );
+            let mut req = request.into_streaming_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("sinew.v1.MotionService", "DriveFigures"));
+            self.inner.streaming(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod motion_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with MotionServiceServer.
+    #[async_trait]
+    pub trait MotionService: std::marker::Send + std::marker::Sync + 'static {
+        /// Stores a clip from BVH bytes or from frames, retargeted to a body; the response says how the file was understood.
+        async fn create_clip(
+            &self,
+            request: tonic::Request<super::CreateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::CreateClipResponse>,
+            tonic::Status,
+        >;
+        /// Server streaming response type for the StreamCreateClip method.
+        type StreamCreateClipStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<
+                    super::StreamCreateClipResponse,
+                    tonic::Status,
+                >,
+            >
+            + std::marker::Send
+            + 'static;
+        /// As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up.
+        async fn stream_create_clip(
+            &self,
+            request: tonic::Request<super::StreamCreateClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<Self::StreamCreateClipStream>,
+            tonic::Status,
+        >;
+        /// One clip.
+        async fn get_clip(
+            &self,
+            request: tonic::Request<super::GetClipRequest>,
+        ) -> std::result::Result<tonic::Response<super::GetClipResponse>, tonic::Status>;
+        /// All clips, built-in ones included, by name.
+        async fn list_clips(
+            &self,
+            request: tonic::Request<super::ListClipsRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ListClipsResponse>,
+            tonic::Status,
+        >;
+        /// Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted.
+        async fn delete_clip(
+            &self,
+            request: tonic::Request<super::DeleteClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::DeleteClipResponse>,
+            tonic::Status,
+        >;
+        /// Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
+        /// to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
+        /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
+        /// further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
+        /// gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
+        /// figure that holds one load in both hands, or may.
+        async fn rehearse_clip(
+            &self,
+            request: tonic::Request<super::RehearseClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::RehearseClipResponse>,
+            tonic::Status,
+        >;
+        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
+        /// it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
+        /// `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
+        /// (`FIGURE_CONTROLLED`) while someone drives it live.
+        async fn play_clip(
+            &self,
+            request: tonic::Request<super::PlayClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::PlayClipResponse>,
+            tonic::Status,
+        >;
+        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
+        /// other holds the posture that is asked of it now.
+        async fn stop_clip(
+            &self,
+            request: tonic::Request<super::StopClipRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::StopClipResponse>,
+            tonic::Status,
+        >;
+        /// A batch of live desired motion: the unary twin of `DriveFigures`.
+        async fn push_motion(
+            &self,
+            request: tonic::Request<super::PushMotionRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::PushMotionResponse>,
+            tonic::Status,
+        >;
+        /// Server streaming response type for the DriveFigures method.
+        type DriveFiguresStream: tonic::codegen::tokio_stream::Stream<
+                Item = std::result::Result<super::DriveFiguresResponse, tonic::Status>,
+            >
+            + std::marker::Send
+            + 'static;
+        /// Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
+        /// ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
+        /// for the grace time.
+        async fn drive_figures(
+            &self,
+            request: tonic::Request<tonic::Streaming<super::DriveFiguresRequest>>,
+        ) -> std::result::Result<
+            tonic::Response<Self::DriveFiguresStream>,
+            tonic::Status,
+        >;
+    }
+    /// Desired motions: stored clips and live streams.
+    #[derive(Debug)]
+    pub struct MotionServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> MotionServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for MotionServiceServer<T>
+    where
+        T: MotionService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/sinew.v1.MotionService/CreateClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct CreateClipSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::UnaryService<super::CreateClipRequest>
+                    for CreateClipSvc<T> {
+                        type Response = super::CreateClipResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::CreateClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::create_clip(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = CreateClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/StreamCreateClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct StreamCreateClipSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::ServerStreamingService<
+                        super::StreamCreateClipRequest,
+                    > for StreamCreateClipSvc<T> {
+                        type Response = super::StreamCreateClipResponse;
+                        type ResponseStream = T::StreamCreateClipStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::StreamCreateClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::stream_create_clip(&inner, request)
+                                    .await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = StreamCreateClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.server_streaming(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/GetClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetClipSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::UnaryService<super::GetClipRequest>
+                    for GetClipSvc<T> {
+                        type Response = super::GetClipResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::get_clip(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/ListClips" => {
+                    #[allow(non_camel_case_types)]
+                    struct ListClipsSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::UnaryService<super::ListClipsRequest>
+                    for ListClipsSvc<T> {
+                        type Response = super::ListClipsResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ListClipsRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::list_clips(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ListClipsSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/DeleteClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct DeleteClipSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::UnaryService<super::DeleteClipRequest>
+                    for DeleteClipSvc<T> {
+                        type Response = super::DeleteClipResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::DeleteClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::delete_clip(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = DeleteClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/RehearseClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct RehearseClipSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::UnaryService<super::RehearseClipRequest>
+                    for RehearseClipSvc<T> {
+                        type Response = super::RehearseClipResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::RehearseClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::rehearse_clip(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = RehearseClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/PlayClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct PlayClipSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::UnaryService<super::PlayClipRequest>
+                    for PlayClipSvc<T> {
+                        type Response = super::PlayClipResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::PlayClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::play_clip(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = PlayClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/StopClip" => {
+                    #[allow(non_camel_case_types)]
+                    struct StopClipSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::UnaryService<super::StopClipRequest>
+                    for StopClipSvc<T> {
+                        type Response = super::StopClipResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::StopClipRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::stop_clip(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = StopClipSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/PushMotion" => {
+                    #[allow(non_camel_case_types)]
+                    struct PushMotionSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::UnaryService<super::PushMotionRequest>
+                    for PushMotionSvc<T> {
+                        type Response = super::PushMotionResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::PushMotionRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::push_motion(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = PushMotionSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                "/sinew.v1.MotionService/DriveFigures" => {
+                    #[allow(non_camel_case_types)]
+                    struct DriveFiguresSvc<T: MotionService>(pub Arc<T>);
+                    impl<
+                        T: MotionService,
+                    > tonic::server::StreamingService<super::DriveFiguresRequest>
+                    for DriveFiguresSvc<T> {
+                        type Response = super::DriveFiguresResponse;
+                        type ResponseStream = T::DriveFiguresStream;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::ResponseStream>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<
+                                tonic::Streaming<super::DriveFiguresRequest>,
+                            >,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as MotionService>::drive_figures(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = DriveFiguresSvc(inner);
+                        let codec = crate::wire::codec::Codec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.streaming(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for MotionServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "sinew.v1.MotionService";
+    impl<T> tonic::server::NamedService for MotionServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
 /// Choices of the paper's controller, CONTROLLER_PAPER. The others ignore them.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct PaperOptions {
@@ -5778,7 +8028,7 @@ impl ::prost::Name for Figure {
     }
 }
 /// What a figure does, as opposed to how it is set.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+#[derive(Clone, PartialEq, ::prost::Message)]
 pub struct FigureStatus {
     /// Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand.
     #[prost(string, tag = "1")]
@@ -5792,6 +8042,20 @@ pub struct FigureStatus {
     /// Index by which frames refer to it: position in the roster.
     #[prost(int32, tag = "4")]
     pub figure_index: i32,
+    /// In which way it followed its motion (a clip, a stream, or the steps out of one) in the last tick.
+    #[prost(enumeration = "FollowWay", tag = "5")]
+    pub following: i32,
+    /// Impulse of the help since its motion began, N·s: the norm of the force in `assist` over time. It stays until the
+    /// next motion begins or the figure is reset.
+    #[prost(double, tag = "6")]
+    pub help_newton_seconds: f64,
+    /// The same over weight times time.
+    #[prost(double, tag = "7")]
+    pub help_ratio: f64,
+    /// Largest force of the help that its motion gets if it is being lost, body weights: by the figure and by how its clip
+    /// is played, whichever allows more. 0: none, as in a rehearsal, where help is what was rehearsed.
+    #[prost(double, tag = "8")]
+    pub max_help_weights: f64,
 }
 impl ::prost::Name for FigureStatus {
     const NAME: &'static str = "FigureStatus";
@@ -7323,6 +9587,15 @@ pub struct Status {
     /// Loads carried at the end of the tick.
     #[prost(message, repeated, tag = "9")]
     pub loads: ::prost::alloc::vec::Vec<CarriedLoad>,
+    /// In which way it followed its motion.
+    #[prost(enumeration = "FollowWay", tag = "10")]
+    pub following: i32,
+    /// Impulse of the help since its motion began, N·s, as in `FigureStatus`.
+    #[prost(double, tag = "11")]
+    pub help_newton_seconds: f64,
+    /// The same over weight times time.
+    #[prost(double, tag = "12")]
+    pub help_ratio: f64,
 }
 impl ::prost::Name for Status {
     const NAME: &'static str = "Status";
@@ -9057,2255 +11330,6 @@ pub mod history_service_server {
     /// Generated gRPC service name
     pub const SERVICE_NAME: &str = "sinew.v1.HistoryService";
     impl<T> tonic::server::NamedService for HistoryServiceServer<T> {
-        const NAME: &'static str = SERVICE_NAME;
-    }
-}
-/// A stored desired motion.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct Clip {
-    /// Resource name `clips/{clip}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-    /// Name for people.
-    #[prost(string, tag = "2")]
-    pub display_name: ::prost::alloc::string::String,
-    /// True for motions that come with the server.
-    #[prost(bool, tag = "3")]
-    pub builtin: bool,
-    /// Body it was prepared for. On figures with another body the motion is prepared anew for that body.
-    #[prost(string, tag = "4")]
-    pub body: ::prost::alloc::string::String,
-    /// Frames per second.
-    #[prost(double, tag = "5")]
-    pub rate_hz: f64,
-    /// Number of frames.
-    #[prost(int32, tag = "6")]
-    pub frame_count: i32,
-    /// Length, s.
-    #[prost(double, tag = "7")]
-    pub duration_s: f64,
-    /// How the file was understood; absent for built-in clips and clips made of frames.
-    #[prost(message, optional, tag = "8")]
-    pub report: ::core::option::Option<RetargetReport>,
-    /// When it was stored; absent for built-in clips.
-    #[prost(message, optional, tag = "9")]
-    pub create_time: ::core::option::Option<::prost_types::Timestamp>,
-    /// Forecast for that body following it by its own strength, without loads; absent for built-in clips, and
-    /// in lists.
-    #[prost(message, optional, tag = "10")]
-    pub forecast: ::core::option::Option<Forecast>,
-    /// How far it may go so that a figure keeps to it.
-    #[prost(enumeration = "Follow", tag = "11")]
-    pub follow: i32,
-    /// Largest force of the help, body weights.
-    #[prost(double, tag = "12")]
-    pub max_help_weights: f64,
-}
-impl ::prost::Name for Clip {
-    const NAME: &'static str = "Clip";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.Clip".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.Clip".into()
-    }
-}
-/// What came of a rehearsal. It is for one body, its strength and loads, and for the rate, substeps, friction and
-/// gravity of its world.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct Rehearsal {
-    /// In which way the figure keeps to the clip.
-    #[prost(enumeration = "FollowWay", tag = "1")]
-    pub way: i32,
-    /// Why not in an easier one, in words.
-    #[prost(string, tag = "2")]
-    pub reason: ::prost::alloc::string::String,
-    /// When the figure is more than half a metre from the recording, mean of its segments, s; absent if it never is.
-    #[prost(double, optional, tag = "3")]
-    pub lost_at_s: ::core::option::Option<f64>,
-    /// Mean distance of its segments from the recording, m, until then.
-    #[prost(double, tag = "4")]
-    pub error_m: f64,
-    /// The same with both pelvis origins in one place, m.
-    #[prost(double, tag = "5")]
-    pub root_relative_error_m: f64,
-    /// Impulse of the help, N·s.
-    #[prost(double, tag = "6")]
-    pub help_newton_seconds: f64,
-    /// The same over weight times time.
-    #[prost(double, tag = "7")]
-    pub help_ratio: f64,
-    /// Largest force of the help, N.
-    #[prost(double, tag = "8")]
-    pub help_peak_newtons: f64,
-    /// Share of the time in which there is help.
-    #[prost(double, tag = "9")]
-    pub helped_ratio: f64,
-    /// The DOF that uses most of its strength, and that share for 5 % of the time.
-    #[prost(string, tag = "10")]
-    pub hardest_dof: ::prost::alloc::string::String,
-    /// See `hardest_dof`.
-    #[prost(double, tag = "11")]
-    pub hardest_ratio: f64,
-    /// The search was stopped by its budget.
-    #[prost(bool, tag = "12")]
-    pub stopped: bool,
-}
-impl ::prost::Name for Rehearsal {
-    const NAME: &'static str = "Rehearsal";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.Rehearsal".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.Rehearsal".into()
-    }
-}
-/// How hard a clip is, from inverse dynamics of the prepared motion. Peaks are means over 0.1 s; times are those of the
-/// clip, negative on the way into it.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct Forecast {
-    /// Verdict of the forecast.
-    #[prost(enumeration = "ForecastVerdict", tag = "1")]
-    pub verdict: i32,
-    /// The demand that decided, as a sentence without its beginning, for example `needs 1.8 times the strength of the
-    /// right knee (flexion) at 1.2 s`.
-    #[prost(string, tag = "2")]
-    pub reason: ::prost::alloc::string::String,
-    /// How large that demand is: up to 1 motions are believed to be followed, from 2 on not even with a little help.
-    #[prost(double, tag = "3")]
-    pub demand: f64,
-    /// Force that no push of the floor gives, root mean square, body weights.
-    #[prost(double, tag = "4")]
-    pub lacking_force_rms_weights: f64,
-    /// Its peak, body weights.
-    #[prost(double, tag = "5")]
-    pub lacking_force_peak_weights: f64,
-    /// When, s.
-    #[prost(double, tag = "6")]
-    pub lacking_force_peak_time_s: f64,
-    /// Peak of the moment about the centre of mass that no push of the floor gives, body weight times metre.
-    #[prost(double, tag = "7")]
-    pub lacking_moment_peak_weight_m: f64,
-    /// How far what is lacking drives the capture point within 0.5 s, m.
-    #[prost(double, tag = "8")]
-    pub capture_point_drift_m: f64,
-    /// Largest torque of `strength_dof` over the strength at those angles and speeds.
-    #[prost(double, tag = "9")]
-    pub strength_peak_ratio: f64,
-    /// DOF among hips, knees, waist and thorax that is closest to its strength, for example `r_knee_flexion`; empty if
-    /// none is needed.
-    #[prost(string, tag = "10")]
-    pub strength_dof: ::prost::alloc::string::String,
-    /// When, s.
-    #[prost(double, tag = "11")]
-    pub strength_peak_time_s: f64,
-    /// 95th percentile of the torque of `strength_dof` over its strength.
-    #[prost(double, tag = "12")]
-    pub strength_p95_ratio: f64,
-    /// Time with nothing on the floor, s.
-    #[prost(double, tag = "13")]
-    pub flight_s: f64,
-    /// Longest of those times, s.
-    #[prost(double, tag = "14")]
-    pub longest_flight_s: f64,
-    /// Time with something other than the feet on the floor, s.
-    #[prost(double, tag = "15")]
-    pub floor_contact_s: f64,
-    /// Time with the pelvis upside down, s.
-    #[prost(double, tag = "16")]
-    pub inverted_s: f64,
-}
-impl ::prost::Name for Forecast {
-    const NAME: &'static str = "Forecast";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.Forecast".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.Forecast".into()
-    }
-}
-/// How a BVH file is read. Everything may be left out.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct BvhOptions {
-    /// Length of one file unit, m, 0.000001…100. Absent: guessed from the stature.
-    #[prost(double, optional, tag = "1")]
-    pub unit_m: ::core::option::Option<f64>,
-    /// File axis that points up: `y` or `z`. Empty: guessed from the motion.
-    #[prost(string, tag = "2")]
-    pub up_axis: ::prost::alloc::string::String,
-    /// Frames per second, 1…1000, in place of the file's frame time. Absent: as the file says.
-    #[prost(double, optional, tag = "3")]
-    pub rate_hz: ::core::option::Option<f64>,
-    /// Moves the motion so that the feet stand on the floor. Absent: true.
-    #[prost(bool, optional, tag = "4")]
-    pub fit_floor: ::core::option::Option<bool>,
-    /// Keeps planted feet from sliding. Absent: true.
-    #[prost(bool, optional, tag = "5")]
-    pub lock_feet: ::core::option::Option<bool>,
-    /// Corner frequency of the zero-phase low-pass, Hz, 0.5…60. Absent: 6.
-    #[prost(double, optional, tag = "6")]
-    pub cutoff_hz: ::core::option::Option<f64>,
-    /// Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is
-    /// measured in people's joints does not run: left as recorded, a run fells its figure. Absent: true.
-    #[prost(bool, optional, tag = "7")]
-    pub walk_runs: ::core::option::Option<bool>,
-}
-impl ::prost::Name for BvhOptions {
-    const NAME: &'static str = "BvhOptions";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.BvhOptions".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.BvhOptions".into()
-    }
-}
-/// A BVH file.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct BvhSource {
-    /// The bytes of the file, at most the server's `max_clip_bytes` (default 16 MiB).
-    #[prost(bytes = "bytes", tag = "1")]
-    pub data: ::prost::bytes::Bytes,
-    /// How to read it. Absent: all defaults.
-    #[prost(message, optional, tag = "2")]
-    pub options: ::core::option::Option<BvhOptions>,
-}
-impl ::prost::Name for BvhSource {
-    const NAME: &'static str = "BvhSource";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.BvhSource".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.BvhSource".into()
-    }
-}
-/// A motion as frames of one figure, at a constant rate.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct FrameSource {
-    /// Frames per second, 1…1000. Required.
-    #[prost(double, tag = "1")]
-    pub rate_hz: f64,
-    /// At least two. `figure_id`, velocities, sequence and source time are ignored.
-    #[prost(message, repeated, tag = "2")]
-    pub frames: ::prost::alloc::vec::Vec<FigureMotion>,
-}
-impl ::prost::Name for FrameSource {
-    const NAME: &'static str = "FrameSource";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.FrameSource".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.FrameSource".into()
-    }
-}
-/// Asks to store a clip.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct CreateClipRequest {
-    /// Last part of the new name: 1 to 63 of `a-z 0-9 -`, beginning with a letter. Empty: the server chooses.
-    #[prost(string, tag = "1")]
-    pub clip_id: ::prost::alloc::string::String,
-    /// Name for people, at most 128 bytes. Default: empty.
-    #[prost(string, tag = "2")]
-    pub display_name: ::prost::alloc::string::String,
-    /// Body to prepare it for: `bodies/{body}`. Empty: `bodies/adult-man`.
-    #[prost(string, tag = "3")]
-    pub body: ::prost::alloc::string::String,
-    /// How far it may go so that a figure keeps to it, unless `RehearseClip` or `PlayClip` say otherwise. Absent:
-    /// FOLLOW_STRICT.
-    #[prost(enumeration = "Follow", tag = "6")]
-    pub follow: i32,
-    /// Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: 0.3.
-    #[prost(double, optional, tag = "7")]
-    pub max_help_weights: ::core::option::Option<f64>,
-    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
-    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
-    #[prost(string, tag = "13")]
-    pub request_id: ::prost::alloc::string::String,
-    /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
-    #[prost(bool, tag = "14")]
-    pub validate_only: bool,
-    /// The motion. Required.
-    #[prost(oneof = "create_clip_request::Source", tags = "4, 5")]
-    pub source: ::core::option::Option<create_clip_request::Source>,
-}
-/// Nested message and enum types in `CreateClipRequest`.
-pub mod create_clip_request {
-    /// The motion. Required.
-    #[derive(Clone, PartialEq, ::prost::Oneof)]
-    pub enum Source {
-        /// A BVH file.
-        #[prost(message, tag = "4")]
-        Bvh(super::BvhSource),
-        /// Frames.
-        #[prost(message, tag = "5")]
-        Frames(super::FrameSource),
-    }
-}
-impl ::prost::Name for CreateClipRequest {
-    const NAME: &'static str = "CreateClipRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.CreateClipRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.CreateClipRequest".into()
-    }
-}
-/// The stored clip.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct CreateClipResponse {
-    /// With its report.
-    #[prost(message, optional, tag = "1")]
-    pub clip: ::core::option::Option<Clip>,
-}
-impl ::prost::Name for CreateClipResponse {
-    const NAME: &'static str = "CreateClipResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.CreateClipResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.CreateClipResponse".into()
-    }
-}
-/// Asks to store a clip and to be told how far it is.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct StreamCreateClipRequest {
-    /// The clip. Its `request_id` is ignored: a stream is not repeated. Required.
-    #[prost(message, optional, tag = "1")]
-    pub create_clip: ::core::option::Option<CreateClipRequest>,
-}
-impl ::prost::Name for StreamCreateClipRequest {
-    const NAME: &'static str = "StreamCreateClipRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.StreamCreateClipRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.StreamCreateClipRequest".into()
-    }
-}
-/// How far it is, and in the end the clip.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct StreamCreateClipResponse {
-    /// What is sent.
-    #[prost(oneof = "stream_create_clip_response::Message", tags = "1, 2")]
-    pub message: ::core::option::Option<stream_create_clip_response::Message>,
-}
-/// Nested message and enum types in `StreamCreateClipResponse`.
-pub mod stream_create_clip_response {
-    /// What is sent.
-    #[derive(Clone, PartialEq, ::prost::Oneof)]
-    pub enum Message {
-        /// Share of the work that is done, 0…1.
-        #[prost(double, tag = "1")]
-        Progress(f64),
-        /// The stored clip; the last message.
-        #[prost(message, tag = "2")]
-        CreateClip(super::CreateClipResponse),
-    }
-}
-impl ::prost::Name for StreamCreateClipResponse {
-    const NAME: &'static str = "StreamCreateClipResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.StreamCreateClipResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.StreamCreateClipResponse".into()
-    }
-}
-/// Asks for one clip.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct GetClipRequest {
-    /// Resource name `clips/{clip}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-}
-impl ::prost::Name for GetClipRequest {
-    const NAME: &'static str = "GetClipRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.GetClipRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.GetClipRequest".into()
-    }
-}
-/// One clip.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct GetClipResponse {
-    /// With its report.
-    #[prost(message, optional, tag = "1")]
-    pub clip: ::core::option::Option<Clip>,
-}
-impl ::prost::Name for GetClipResponse {
-    const NAME: &'static str = "GetClipResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.GetClipResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.GetClipResponse".into()
-    }
-}
-/// Asks for clips.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct ListClipsRequest {
-    /// Most clips to return. 0: 100; more than 1000 are taken as 1000.
-    #[prost(int32, tag = "1")]
-    pub page_size: i32,
-    /// `next_page_token` of the page before. Empty: from the start.
-    #[prost(string, tag = "2")]
-    pub page_token: ::prost::alloc::string::String,
-}
-impl ::prost::Name for ListClipsRequest {
-    const NAME: &'static str = "ListClipsRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ListClipsRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ListClipsRequest".into()
-    }
-}
-/// A page of clips.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct ListClipsResponse {
-    /// Ordered by name, without their reports.
-    #[prost(message, repeated, tag = "1")]
-    pub clips: ::prost::alloc::vec::Vec<Clip>,
-    /// Token of the next page; empty at the end.
-    #[prost(string, tag = "2")]
-    pub next_page_token: ::prost::alloc::string::String,
-}
-impl ::prost::Name for ListClipsResponse {
-    const NAME: &'static str = "ListClipsResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.ListClipsResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.ListClipsResponse".into()
-    }
-}
-/// Forgets a clip.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct DeleteClipRequest {
-    /// Resource name `clips/{clip}`.
-    #[prost(string, tag = "1")]
-    pub name: ::prost::alloc::string::String,
-    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
-    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
-    #[prost(string, tag = "13")]
-    pub request_id: ::prost::alloc::string::String,
-}
-impl ::prost::Name for DeleteClipRequest {
-    const NAME: &'static str = "DeleteClipRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.DeleteClipRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.DeleteClipRequest".into()
-    }
-}
-/// The clip is gone.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct DeleteClipResponse {}
-impl ::prost::Name for DeleteClipResponse {
-    const NAME: &'static str = "DeleteClipResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.DeleteClipResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.DeleteClipResponse".into()
-    }
-}
-/// Asks to rehearse a clip for a figure.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct RehearseClipRequest {
-    /// Resource name `clips/{clip}`.
-    #[prost(string, tag = "1")]
-    pub clip: ::prost::alloc::string::String,
-    /// The figure, as it is now: body, strength, the loads that it holds, and its world. Resource name
-    /// `worlds/{world}/figures/{figure}`.
-    #[prost(string, tag = "2")]
-    pub figure: ::prost::alloc::string::String,
-    /// How far it may go. Absent: as the clip says.
-    #[prost(enumeration = "Follow", tag = "3")]
-    pub follow: i32,
-    /// Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: as the clip says.
-    #[prost(double, optional, tag = "4")]
-    pub max_help_weights: ::core::option::Option<f64>,
-    /// Longest time for the search, 1 s to 1 h: the best that was found until then is the result. Absent: 10 min.
-    #[prost(message, optional, tag = "5")]
-    pub budget: ::core::option::Option<::prost_types::Duration>,
-    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
-    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
-    #[prost(string, tag = "13")]
-    pub request_id: ::prost::alloc::string::String,
-}
-impl ::prost::Name for RehearseClipRequest {
-    const NAME: &'static str = "RehearseClipRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.RehearseClipRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.RehearseClipRequest".into()
-    }
-}
-/// The clip is rehearsed, if it was found to need that and a way was found.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct RehearseClipResponse {
-    /// What came of it.
-    #[prost(message, optional, tag = "1")]
-    pub rehearsal: ::core::option::Option<Rehearsal>,
-}
-impl ::prost::Name for RehearseClipResponse {
-    const NAME: &'static str = "RehearseClipResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.RehearseClipResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.RehearseClipResponse".into()
-    }
-}
-/// Lets a figure play a clip.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct PlayClipRequest {
-    /// Figure: resource name `worlds/{world}/figures/{figure}`.
-    #[prost(string, tag = "1")]
-    pub figure: ::prost::alloc::string::String,
-    /// Clip: resource name `clips/{clip}`.
-    #[prost(string, tag = "2")]
-    pub clip: ::prost::alloc::string::String,
-    /// Playback speed, 0.1…4. 0 or absent: 1. A recording (BVH) is prepared for it, from 0.5 to 2 in steps of 1/50: steps
-    /// and balance are those of that pace. The first time for a body and a speed takes as long as an upload does.
-    #[prost(double, tag = "3")]
-    pub speed: f64,
-    /// Repeats, carrying the displacement of the root over. A walk repeats its best cycle; a motion whose end is not like
-    /// its beginning is led back to it by steps. Default: false.
-    #[prost(bool, tag = "4")]
-    pub r#loop: bool,
-    /// World time at which the clip starts, s, or later if the figure does not stand by then. Absent: at the next tick.
-    #[prost(double, optional, tag = "5")]
-    pub start_time_s: ::core::option::Option<f64>,
-    /// Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
-    /// by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
-    #[prost(bool, tag = "6")]
-    pub reset: bool,
-    /// Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it
-    /// stands.
-    #[prost(message, optional, tag = "7")]
-    pub placement: ::core::option::Option<Placement>,
-    /// How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
-    /// else the clip is tracked as it is, with FOLLOW_ASSISTED with help while it is being lost (at most as the clip
-    /// says). FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help. Absent: as the clip says, and any
-    /// rehearsal.
-    #[prost(enumeration = "Follow", tag = "8")]
-    pub follow: i32,
-    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
-    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
-    #[prost(string, tag = "13")]
-    pub request_id: ::prost::alloc::string::String,
-    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
-    /// the valid one.
-    #[prost(string, tag = "15")]
-    pub control_token: ::prost::alloc::string::String,
-}
-impl ::prost::Name for PlayClipRequest {
-    const NAME: &'static str = "PlayClipRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.PlayClipRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.PlayClipRequest".into()
-    }
-}
-/// The clip plays, or waits until the figure stands.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
-pub struct PlayClipResponse {
-    /// World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
-    /// Gone over to from step to step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then
-    /// this may be before the request. If the figure has to stand first, or is led into it, it is what is expected; the
-    /// clip begins when the figure has settled, up to 2 s sooner or 3 s later.
-    #[prost(double, tag = "1")]
-    pub start_time_s: f64,
-}
-impl ::prost::Name for PlayClipResponse {
-    const NAME: &'static str = "PlayClipResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.PlayClipResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.PlayClipResponse".into()
-    }
-}
-/// Ends a clip.
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct StopClipRequest {
-    /// Figure: resource name `worlds/{world}/figures/{figure}`.
-    #[prost(string, tag = "1")]
-    pub figure: ::prost::alloc::string::String,
-    /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
-    /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
-    #[prost(string, tag = "13")]
-    pub request_id: ::prost::alloc::string::String,
-    /// Token of the lease of the figure (`AcquireControl`). Needed while the figure has one. CONTROL_FENCED if it is not
-    /// the valid one.
-    #[prost(string, tag = "15")]
-    pub control_token: ::prost::alloc::string::String,
-}
-impl ::prost::Name for StopClipRequest {
-    const NAME: &'static str = "StopClipRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.StopClipRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.StopClipRequest".into()
-    }
-}
-/// The figure stands, or comes to a stand.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct StopClipResponse {}
-impl ::prost::Name for StopClipResponse {
-    const NAME: &'static str = "StopClipResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.StopClipResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.StopClipResponse".into()
-    }
-}
-/// Rotation of one bone.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct BoneRotation {
-    /// Canonical bone name (VRM), for example `leftUpperArm`, as `GetBody` lists it.
-    #[prost(string, tag = "1")]
-    pub bone: ::prost::alloc::string::String,
-    /// The rotation. Required.
-    #[prost(message, optional, tag = "2")]
-    pub rotation: ::core::option::Option<Quaternion>,
-}
-impl ::prost::Name for BoneRotation {
-    const NAME: &'static str = "BoneRotation";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.BoneRotation".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.BoneRotation".into()
-    }
-}
-/// Desired motion of one figure at one instant: joint angles or bone rotations, not both.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct FigureMotion {
-    /// Figure: last part of its name. May be empty if the header names exactly one.
-    #[prost(string, tag = "1")]
-    pub figure_id: ::prost::alloc::string::String,
-    /// Pelvis in the world. Absent: the pelvis stays where it is asked to be now.
-    #[prost(message, optional, tag = "2")]
-    pub root: ::core::option::Option<Pose>,
-    /// The 39 anatomical angles, rad, in DOF order, each within ±2π.
-    #[prost(double, repeated, packed = "false", tag = "3")]
-    pub joint_angles_rad: ::prost::alloc::vec::Vec<f64>,
-    /// Rotations by bone; bones that are left out are in the zero pose. What a hinge cannot do is dropped.
-    #[prost(message, repeated, tag = "4")]
-    pub bone_rotations: ::prost::alloc::vec::Vec<BoneRotation>,
-    /// What `bone_rotations` are relative to.
-    #[prost(enumeration = "RotationSpace", tag = "5")]
-    pub rotation_space: i32,
-    /// Velocity, 45 numbers laid out as `FigureFrame.velocity`, each within ±1000. Empty: formed from neighbouring frames.
-    #[prost(double, repeated, packed = "false", tag = "6")]
-    pub velocity: ::prost::alloc::vec::Vec<f64>,
-    /// Whether left and right foot are planted: empty (the server decides from height and speed) or two values.
-    #[prost(bool, repeated, packed = "false", tag = "7")]
-    pub planted: ::prost::alloc::vec::Vec<bool>,
-}
-impl ::prost::Name for FigureMotion {
-    const NAME: &'static str = "FigureMotion";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.FigureMotion".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.FigureMotion".into()
-    }
-}
-/// Desired motion at one instant.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct MotionFrame {
-    /// Counts up by one from frame to frame; must grow. Frames that do not are dropped and counted; if they go on for
-    /// 0.25 s in an order of their own, the stream begins anew with them.
-    #[prost(int64, tag = "1")]
-    pub sequence: i64,
-    /// When the motion was captured, ns on the driver's clock; must grow with the sequence.
-    #[prost(sfixed64, tag = "2")]
-    pub source_time_ns: i64,
-    /// One entry per driven figure.
-    #[prost(message, repeated, tag = "3")]
-    pub figures: ::prost::alloc::vec::Vec<FigureMotion>,
-}
-impl ::prost::Name for MotionFrame {
-    const NAME: &'static str = "MotionFrame";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.MotionFrame".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.MotionFrame".into()
-    }
-}
-/// How figures are driven.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct DriveHeader {
-    /// World: resource name `worlds/{world}`.
-    #[prost(string, tag = "1")]
-    pub world: ::prost::alloc::string::String,
-    /// Figures that are driven: last parts of their names. At least one.
-    #[prost(string, repeated, tag = "2")]
-    pub figure_ids: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-    /// Name of the driver, at most 64 bytes of printable ASCII. The same driver may come back after a lost connection.
-    /// Empty: the server chooses, and `PushMotion` takes it as `push`.
-    #[prost(string, tag = "3")]
-    pub driver_id: ::prost::alloc::string::String,
-    /// Frames per second that will come, 1…1000. 0 or absent: 60. Used for the first estimates only.
-    #[prost(double, tag = "4")]
-    pub nominal_rate_hz: f64,
-    /// Fixed delay between arrival and use, ms, 0…2000. Absent: adaptive (p99 of the arrival jitter and one tick, at most
-    /// `max_playout_delay_ms`).
-    #[prost(double, optional, tag = "5")]
-    pub playout_delay_ms: ::core::option::Option<f64>,
-    /// Largest adaptive delay, ms, 1…2000. 0 or absent: 100.
-    #[prost(double, tag = "6")]
-    pub max_playout_delay_ms: f64,
-    /// What happens when frames are late.
-    #[prost(enumeration = "Underrun", tag = "7")]
-    pub underrun: i32,
-    /// How long the last velocity is continued, ms, 0…1000. Absent: 100.
-    #[prost(double, optional, tag = "8")]
-    pub extrapolation_limit_ms: ::core::option::Option<f64>,
-    /// How long the last posture is held before the figure relaxes into quiet standing, ms, 0…600000. Absent: 5000.
-    #[prost(double, optional, tag = "9")]
-    pub hold_limit_ms: ::core::option::Option<f64>,
-    /// How long the figures are kept for this driver after its connection is lost or after its last push, ms, 0…60000.
-    /// Absent: 5000.
-    #[prost(double, optional, tag = "10")]
-    pub grace_ms: ::core::option::Option<f64>,
-    /// Puts each figure into its first desired posture when the drive begins. Default: false, it moves there by itself.
-    #[prost(bool, tag = "11")]
-    pub reset: bool,
-    /// How far behind the newest frame motion is prepared for the body, ms: 0, or 300…1000. Within this window planted
-    /// feet are locked, swings clear the floor and the zero-moment point is brought over the feet, so that a stream may
-    /// walk; steps then follow events. It is added to the playout delay. 0 uses frames as they come, without that delay,
-    /// for streams that stand. Absent: the server's `live_window_ms`.
-    #[prost(double, optional, tag = "12")]
-    pub preparation_window_ms: ::core::option::Option<f64>,
-    /// Tokens of the leases of those figures that have one (`AcquireControl`), in any order. CONTROL_FENCED if one of them
-    /// is no longer valid.
-    #[prost(string, repeated, tag = "15")]
-    pub control_tokens: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
-}
-impl ::prost::Name for DriveHeader {
-    const NAME: &'static str = "DriveHeader";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.DriveHeader".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.DriveHeader".into()
-    }
-}
-/// Batch of desired motion.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct MotionBatch {
-    /// In order of sequence, at most 64.
-    #[prost(message, repeated, tag = "1")]
-    pub frames: ::prost::alloc::vec::Vec<MotionFrame>,
-}
-impl ::prost::Name for MotionBatch {
-    const NAME: &'static str = "MotionBatch";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.MotionBatch".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.MotionBatch".into()
-    }
-}
-/// What a driver sends.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct DriveFiguresRequest {
-    /// The header first, then batches.
-    #[prost(oneof = "drive_figures_request::Message", tags = "1, 2")]
-    pub message: ::core::option::Option<drive_figures_request::Message>,
-}
-/// Nested message and enum types in `DriveFiguresRequest`.
-pub mod drive_figures_request {
-    /// The header first, then batches.
-    #[derive(Clone, PartialEq, ::prost::Oneof)]
-    pub enum Message {
-        /// How figures are driven.
-        #[prost(message, tag = "1")]
-        Header(super::DriveHeader),
-        /// Desired motion.
-        #[prost(message, tag = "2")]
-        Batch(super::MotionBatch),
-    }
-}
-impl ::prost::Name for DriveFiguresRequest {
-    const NAME: &'static str = "DriveFiguresRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.DriveFiguresRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.DriveFiguresRequest".into()
-    }
-}
-/// What a driver is told.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct DriveFiguresResponse {
-    /// State of the drive.
-    #[prost(message, optional, tag = "1")]
-    pub feedback: ::core::option::Option<DriveFeedback>,
-}
-impl ::prost::Name for DriveFiguresResponse {
-    const NAME: &'static str = "DriveFiguresResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.DriveFiguresResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.DriveFiguresResponse".into()
-    }
-}
-/// A batch of live desired motion.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct PushMotionRequest {
-    /// How figures are driven; the settings of the first push of a driver hold until its grace time is over.
-    #[prost(message, optional, tag = "1")]
-    pub header: ::core::option::Option<DriveHeader>,
-    /// The batch.
-    #[prost(message, optional, tag = "2")]
-    pub batch: ::core::option::Option<MotionBatch>,
-}
-impl ::prost::Name for PushMotionRequest {
-    const NAME: &'static str = "PushMotionRequest";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.PushMotionRequest".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.PushMotionRequest".into()
-    }
-}
-/// The batch was taken. It acts from the next tick on; the call does not wait for it.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct PushMotionResponse {
-    /// State of the drive after the last tick; `received_sequence` and `refused_batch_count` are of now.
-    #[prost(message, optional, tag = "1")]
-    pub feedback: ::core::option::Option<DriveFeedback>,
-}
-impl ::prost::Name for PushMotionResponse {
-    const NAME: &'static str = "PushMotionResponse";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.PushMotionResponse".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.PushMotionResponse".into()
-    }
-}
-/// State of a drive.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct DriveFeedback {
-    /// The driver, as given or as chosen by the server.
-    #[prost(string, tag = "1")]
-    pub driver_id: ::prost::alloc::string::String,
-    /// Tick of the world at which this was true.
-    #[prost(int64, tag = "2")]
-    pub tick: i64,
-    /// Largest sequence that was taken; -1 if none.
-    #[prost(int64, tag = "3")]
-    pub received_sequence: i64,
-    /// Batches that came too fast and were dropped: a driver may send 1000 frames per second for each of its figures, and
-    /// 512 at once.
-    #[prost(int64, tag = "4")]
-    pub refused_batch_count: i64,
-    /// One entry per driven figure.
-    #[prost(message, repeated, tag = "5")]
-    pub figures: ::prost::alloc::vec::Vec<FigureFeedback>,
-}
-impl ::prost::Name for DriveFeedback {
-    const NAME: &'static str = "DriveFeedback";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.DriveFeedback".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.DriveFeedback".into()
-    }
-}
-/// State of the jitter buffer of one figure.
-#[derive(Clone, PartialEq, ::prost::Message)]
-pub struct FigureFeedback {
-    /// Last part of the figure's name.
-    #[prost(string, tag = "1")]
-    pub figure_id: ::prost::alloc::string::String,
-    /// Sequence of the newest frame that acts now; -1 if none yet.
-    #[prost(int64, tag = "2")]
-    pub applied_sequence: i64,
-    /// Source time that acts now, ns.
-    #[prost(sfixed64, tag = "3")]
-    pub applied_source_time_ns: i64,
-    /// Desired motion that is held but not used yet, ms.
-    #[prost(double, tag = "4")]
-    pub buffered_ms: f64,
-    /// Delay between arrival and use at present, with the preparation window, ms.
-    #[prost(double, tag = "5")]
-    pub playout_delay_ms: f64,
-    /// Measured arrival jitter, p99 of the last frames, ms.
-    #[prost(double, tag = "6")]
-    pub jitter_ms: f64,
-    /// How the last tick was answered.
-    #[prost(enumeration = "Supply", tag = "7")]
-    pub supply: i32,
-    /// Ticks answered by a frame exactly at the wanted time.
-    #[prost(int64, tag = "8")]
-    pub present_count: i64,
-    /// Ticks answered between two frames.
-    #[prost(int64, tag = "9")]
-    pub interpolated_count: i64,
-    /// Ticks answered beyond the newest frame.
-    #[prost(int64, tag = "10")]
-    pub extrapolated_count: i64,
-    /// Ticks in which the last posture was held.
-    #[prost(int64, tag = "11")]
-    pub held_count: i64,
-    /// Ticks in which the figure relaxed.
-    #[prost(int64, tag = "12")]
-    pub relaxed_count: i64,
-    /// Frames that came too late to act.
-    #[prost(int64, tag = "13")]
-    pub late_count: i64,
-    /// Frames dropped because they were not newer than what was there.
-    #[prost(int64, tag = "14")]
-    pub stale_count: i64,
-    /// Frames dropped because the buffer was full.
-    #[prost(int64, tag = "15")]
-    pub overflow_count: i64,
-    /// Length of the window in which motion is prepared, ms; contained in `playout_delay_ms`. 0: frames are used as they
-    /// come.
-    #[prost(double, tag = "16")]
-    pub preparation_window_ms: f64,
-    /// Times that the stream began anew: its sequence or source time started again or was set ahead, or it fell too far
-    /// behind. The figure stands until there is motion again. An event says why.
-    #[prost(int64, tag = "17")]
-    pub resync_count: i64,
-    /// How far the stream is behind because its world leaves ticks out, because it took another one over in the middle of
-    /// a walk, or because the figure had to be led into it by steps, ms; contained in `playout_delay_ms`. It is played in
-    /// world time, never faster than the body moves, and begins anew when its world has left 2 s of it out.
-    #[prost(double, tag = "18")]
-    pub behind_ms: f64,
-}
-impl ::prost::Name for FigureFeedback {
-    const NAME: &'static str = "FigureFeedback";
-    const PACKAGE: &'static str = "sinew.v1";
-    fn full_name() -> ::prost::alloc::string::String {
-        "sinew.v1.FigureFeedback".into()
-    }
-    fn type_url() -> ::prost::alloc::string::String {
-        "/sinew.v1.FigureFeedback".into()
-    }
-}
-/// How far it may go so that a figure keeps to a clip that it loses as it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum Follow {
-    /// The default, as the comment of the field says.
-    Unspecified = 0,
-    /// Not at all: physics alone, the figure falls honestly.
-    Strict = 1,
-    /// The clip is rehearsed: what has to be added to it is found out beforehand. Strength alone does it.
-    Rehearsed = 2,
-    /// The same, and as little help as will do, in newtons, which every frame tells (`assist`).
-    Assisted = 3,
-}
-impl Follow {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "FOLLOW_UNSPECIFIED",
-            Self::Strict => "FOLLOW_STRICT",
-            Self::Rehearsed => "FOLLOW_REHEARSED",
-            Self::Assisted => "FOLLOW_ASSISTED",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "FOLLOW_UNSPECIFIED" => Some(Self::Unspecified),
-            "FOLLOW_STRICT" => Some(Self::Strict),
-            "FOLLOW_REHEARSED" => Some(Self::Rehearsed),
-            "FOLLOW_ASSISTED" => Some(Self::Assisted),
-            _ => None,
-        }
-    }
-}
-/// In which way a figure keeps to a clip.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum FollowWay {
-    /// Not told.
-    Unspecified = 0,
-    /// As it is: there is nothing to rehearse.
-    Tracked = 1,
-    /// Rehearsed, by strength alone.
-    Rehearsed = 2,
-    /// Rehearsed, with help.
-    Helped = 3,
-    /// Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may.
-    Lost = 4,
-}
-impl FollowWay {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "FOLLOW_WAY_UNSPECIFIED",
-            Self::Tracked => "FOLLOW_WAY_TRACKED",
-            Self::Rehearsed => "FOLLOW_WAY_REHEARSED",
-            Self::Helped => "FOLLOW_WAY_HELPED",
-            Self::Lost => "FOLLOW_WAY_LOST",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "FOLLOW_WAY_UNSPECIFIED" => Some(Self::Unspecified),
-            "FOLLOW_WAY_TRACKED" => Some(Self::Tracked),
-            "FOLLOW_WAY_REHEARSED" => Some(Self::Rehearsed),
-            "FOLLOW_WAY_HELPED" => Some(Self::Helped),
-            "FOLLOW_WAY_LOST" => Some(Self::Lost),
-            _ => None,
-        }
-    }
-}
-/// Forecast of how a figure follows a clip.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum ForecastVerdict {
-    /// Not told.
-    Unspecified = 0,
-    /// The figure follows it by its own strength.
-    Follows = 1,
-    /// It deviates or falls, unless it is helped.
-    NeedsHelp = 2,
-    /// No help short of carrying it will do.
-    Cannot = 3,
-}
-impl ForecastVerdict {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "FORECAST_VERDICT_UNSPECIFIED",
-            Self::Follows => "FORECAST_VERDICT_FOLLOWS",
-            Self::NeedsHelp => "FORECAST_VERDICT_NEEDS_HELP",
-            Self::Cannot => "FORECAST_VERDICT_CANNOT",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "FORECAST_VERDICT_UNSPECIFIED" => Some(Self::Unspecified),
-            "FORECAST_VERDICT_FOLLOWS" => Some(Self::Follows),
-            "FORECAST_VERDICT_NEEDS_HELP" => Some(Self::NeedsHelp),
-            "FORECAST_VERDICT_CANNOT" => Some(Self::Cannot),
-            _ => None,
-        }
-    }
-}
-/// What a bone rotation is relative to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum RotationSpace {
-    /// The default: ROTATION_SPACE_PARENT.
-    Unspecified = 0,
-    /// `parent_from_segment`: identity in the zero pose (upright, arms hanging, palms to the thighs).
-    Parent = 1,
-    /// `world_from_segment`.
-    World = 2,
-}
-impl RotationSpace {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "ROTATION_SPACE_UNSPECIFIED",
-            Self::Parent => "ROTATION_SPACE_PARENT",
-            Self::World => "ROTATION_SPACE_WORLD",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "ROTATION_SPACE_UNSPECIFIED" => Some(Self::Unspecified),
-            "ROTATION_SPACE_PARENT" => Some(Self::Parent),
-            "ROTATION_SPACE_WORLD" => Some(Self::World),
-            _ => None,
-        }
-    }
-}
-/// What a figure does when desired motion is late.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum Underrun {
-    /// The default: UNDERRUN_EXTRAPOLATE.
-    Unspecified = 0,
-    /// Continues the last velocity, fading out over `extrapolation_limit_ms`, then holds, then relaxes.
-    Extrapolate = 1,
-    /// Stays in the last posture, balanced, then relaxes.
-    Hold = 2,
-}
-impl Underrun {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "UNDERRUN_UNSPECIFIED",
-            Self::Extrapolate => "UNDERRUN_EXTRAPOLATE",
-            Self::Hold => "UNDERRUN_HOLD",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "UNDERRUN_UNSPECIFIED" => Some(Self::Unspecified),
-            "UNDERRUN_EXTRAPOLATE" => Some(Self::Extrapolate),
-            "UNDERRUN_HOLD" => Some(Self::Hold),
-            _ => None,
-        }
-    }
-}
-/// How desired motion answers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
-#[repr(i32)]
-pub enum Supply {
-    /// Nothing was asked of it yet.
-    Unspecified = 0,
-    /// A frame exactly at the wanted time.
-    Present = 1,
-    /// Between two frames.
-    Interpolated = 2,
-    /// Beyond the newest frame, within the limit.
-    Extrapolated = 3,
-    /// The last posture is held.
-    Held = 4,
-    /// The figure relaxes into quiet standing.
-    Relaxed = 5,
-    /// Before the first frame.
-    Waiting = 6,
-}
-impl Supply {
-    /// String value of the enum field names used in the ProtoBuf definition.
-    ///
-    /// The values are not transformed in any way and thus are considered stable
-    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
-    pub fn as_str_name(&self) -> &'static str {
-        match self {
-            Self::Unspecified => "SUPPLY_UNSPECIFIED",
-            Self::Present => "SUPPLY_PRESENT",
-            Self::Interpolated => "SUPPLY_INTERPOLATED",
-            Self::Extrapolated => "SUPPLY_EXTRAPOLATED",
-            Self::Held => "SUPPLY_HELD",
-            Self::Relaxed => "SUPPLY_RELAXED",
-            Self::Waiting => "SUPPLY_WAITING",
-        }
-    }
-    /// Creates an enum from field names used in the ProtoBuf definition.
-    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
-        match value {
-            "SUPPLY_UNSPECIFIED" => Some(Self::Unspecified),
-            "SUPPLY_PRESENT" => Some(Self::Present),
-            "SUPPLY_INTERPOLATED" => Some(Self::Interpolated),
-            "SUPPLY_EXTRAPOLATED" => Some(Self::Extrapolated),
-            "SUPPLY_HELD" => Some(Self::Held),
-            "SUPPLY_RELAXED" => Some(Self::Relaxed),
-            "SUPPLY_WAITING" => Some(Self::Waiting),
-            _ => None,
-        }
-    }
-}
-/// Generated client implementations.
-pub mod motion_service_client {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    use tonic::codegen::http::Uri;
-    /// Desired motions: stored clips and live streams.
-    #[derive(Debug, Clone)]
-    pub struct MotionServiceClient<T> {
-        inner: tonic::client::Grpc<T>,
-    }
-    impl MotionServiceClient<tonic::transport::Channel> {
-        /// Attempt to create a new client by connecting to a given endpoint.
-        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
-        where
-            D: TryInto<tonic::transport::Endpoint>,
-            D::Error: Into<StdError>,
-        {
-            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
-            Ok(Self::new(conn))
-        }
-    }
-    impl<T> MotionServiceClient<T>
-    where
-        T: tonic::client::GrpcService<tonic::body::Body>,
-        T::Error: Into<StdError>,
-        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
-        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
-    {
-        pub fn new(inner: T) -> Self {
-            let inner = tonic::client::Grpc::new(inner);
-            Self { inner }
-        }
-        pub fn with_origin(inner: T, origin: Uri) -> Self {
-            let inner = tonic::client::Grpc::with_origin(inner, origin);
-            Self { inner }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> MotionServiceClient<InterceptedService<T, F>>
-        where
-            F: tonic::service::Interceptor,
-            T::ResponseBody: Default,
-            T: tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-                Response = http::Response<
-                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
-                >,
-            >,
-            <T as tonic::codegen::Service<
-                http::Request<tonic::body::Body>,
-            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
-        {
-            MotionServiceClient::new(InterceptedService::new(inner, interceptor))
-        }
-        /// Compress requests with the given encoding.
-        ///
-        /// This requires the server to support it otherwise it might respond with an
-        /// error.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.send_compressed(encoding);
-            self
-        }
-        /// Enable decompressing responses.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.inner = self.inner.accept_compressed(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_decoding_message_size(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.inner = self.inner.max_encoding_message_size(limit);
-            self
-        }
-        /// Stores a clip from BVH bytes or from frames, retargeted to a body; the response says how the file was understood.
-        pub async fn create_clip(
-            &mut self,
-            request: impl tonic::IntoRequest<super::CreateClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::CreateClipResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/CreateClip",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "CreateClip"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up.
-        pub async fn stream_create_clip(
-            &mut self,
-            request: impl tonic::IntoRequest<super::StreamCreateClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<tonic::codec::Streaming<super::StreamCreateClipResponse>>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/StreamCreateClip",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "StreamCreateClip"));
-            self.inner.server_streaming(req, path, codec).await
-        }
-        /// One clip.
-        pub async fn get_clip(
-            &mut self,
-            request: impl tonic::IntoRequest<super::GetClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::GetClipResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/GetClip",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "GetClip"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// All clips, built-in ones included, by name.
-        pub async fn list_clips(
-            &mut self,
-            request: impl tonic::IntoRequest<super::ListClipsRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ListClipsResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/ListClips",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "ListClips"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted.
-        pub async fn delete_clip(
-            &mut self,
-            request: impl tonic::IntoRequest<super::DeleteClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::DeleteClipResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/DeleteClip",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "DeleteClip"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
-        /// to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
-        /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
-        /// further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
-        /// gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
-        /// figure that holds one load in both hands, or may.
-        pub async fn rehearse_clip(
-            &mut self,
-            request: impl tonic::IntoRequest<super::RehearseClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::RehearseClipResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/RehearseClip",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "RehearseClip"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
-        /// it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
-        /// `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
-        /// (`FIGURE_CONTROLLED`) while someone drives it live.
-        pub async fn play_clip(
-            &mut self,
-            request: impl tonic::IntoRequest<super::PlayClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::PlayClipResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/PlayClip",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "PlayClip"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
-        /// other holds the posture that is asked of it now.
-        pub async fn stop_clip(
-            &mut self,
-            request: impl tonic::IntoRequest<super::StopClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::StopClipResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/StopClip",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "StopClip"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// A batch of live desired motion: the unary twin of `DriveFigures`.
-        pub async fn push_motion(
-            &mut self,
-            request: impl tonic::IntoRequest<super::PushMotionRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::PushMotionResponse>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/PushMotion",
-            );
-            let mut req = request.into_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "PushMotion"));
-            self.inner.unary(req, path, codec).await
-        }
-        /// Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
-        /// ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
-        /// for the grace time.
-        pub async fn drive_figures(
-            &mut self,
-            request: impl tonic::IntoStreamingRequest<
-                Message = super::DriveFiguresRequest,
-            >,
-        ) -> std::result::Result<
-            tonic::Response<tonic::codec::Streaming<super::DriveFiguresResponse>>,
-            tonic::Status,
-        > {
-            self.inner
-                .ready()
-                .await
-                .map_err(|e| {
-                    tonic::Status::unknown(
-                        format!("Service was not ready: {}", e.into()),
-                    )
-                })?;
-            let codec = crate::wire::codec::Codec::default();
-            let path = http::uri::PathAndQuery::from_static(
-                "/sinew.v1.MotionService/DriveFigures",
-            );
-            let mut req = request.into_streaming_request();
-            req.extensions_mut()
-                .insert(GrpcMethod::new("sinew.v1.MotionService", "DriveFigures"));
-            self.inner.streaming(req, path, codec).await
-        }
-    }
-}
-/// Generated server implementations.
-pub mod motion_service_server {
-    #![allow(
-        unused_variables,
-        dead_code,
-        missing_docs,
-        clippy::wildcard_imports,
-        clippy::let_unit_value,
-    )]
-    use tonic::codegen::*;
-    /// Generated trait containing gRPC methods that should be implemented for use with MotionServiceServer.
-    #[async_trait]
-    pub trait MotionService: std::marker::Send + std::marker::Sync + 'static {
-        /// Stores a clip from BVH bytes or from frames, retargeted to a body; the response says how the file was understood.
-        async fn create_clip(
-            &self,
-            request: tonic::Request<super::CreateClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::CreateClipResponse>,
-            tonic::Status,
-        >;
-        /// Server streaming response type for the StreamCreateClip method.
-        type StreamCreateClipStream: tonic::codegen::tokio_stream::Stream<
-                Item = std::result::Result<
-                    super::StreamCreateClipResponse,
-                    tonic::Status,
-                >,
-            >
-            + std::marker::Send
-            + 'static;
-        /// As `CreateClip`, and tells meanwhile how far it is: the streaming twin. Ending the stream gives the work up.
-        async fn stream_create_clip(
-            &self,
-            request: tonic::Request<super::StreamCreateClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<Self::StreamCreateClipStream>,
-            tonic::Status,
-        >;
-        /// One clip.
-        async fn get_clip(
-            &self,
-            request: tonic::Request<super::GetClipRequest>,
-        ) -> std::result::Result<tonic::Response<super::GetClipResponse>, tonic::Status>;
-        /// All clips, built-in ones included, by name.
-        async fn list_clips(
-            &self,
-            request: tonic::Request<super::ListClipsRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::ListClipsResponse>,
-            tonic::Status,
-        >;
-        /// Forgets a clip. Figures that play it go on. Built-in clips cannot be deleted.
-        async fn delete_clip(
-            &self,
-            request: tonic::Request<super::DeleteClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::DeleteClipResponse>,
-            tonic::Status,
-        >;
-        /// Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
-        /// to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
-        /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
-        /// further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
-        /// gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
-        /// figure that holds one load in both hands, or may.
-        async fn rehearse_clip(
-            &self,
-            request: tonic::Request<super::RehearseClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::RehearseClipResponse>,
-            tonic::Status,
-        >;
-        /// Lets a figure play a clip. One that walks goes over to it from step to step where the two motions are alike; else
-        /// it finishes its step and stands first, as does one in the middle of another clip. Until then the clip is
-        /// `FigureStatus.next_clip`, and a further call puts another one in its place. FAILED_PRECONDITION
-        /// (`FIGURE_CONTROLLED`) while someone drives it live.
-        async fn play_clip(
-            &self,
-            request: tonic::Request<super::PlayClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::PlayClipResponse>,
-            tonic::Status,
-        >;
-        /// Ends a clip, and takes back the one that waits: a figure that walks finishes its step and comes to a stand, any
-        /// other holds the posture that is asked of it now.
-        async fn stop_clip(
-            &self,
-            request: tonic::Request<super::StopClipRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::StopClipResponse>,
-            tonic::Status,
-        >;
-        /// A batch of live desired motion: the unary twin of `DriveFigures`.
-        async fn push_motion(
-            &self,
-            request: tonic::Request<super::PushMotionRequest>,
-        ) -> std::result::Result<
-            tonic::Response<super::PushMotionResponse>,
-            tonic::Status,
-        >;
-        /// Server streaming response type for the DriveFigures method.
-        type DriveFiguresStream: tonic::codegen::tokio_stream::Stream<
-                Item = std::result::Result<super::DriveFiguresResponse, tonic::Status>,
-            >
-            + std::marker::Send
-            + 'static;
-        /// Drives figures live. The first message is the header, all others are batches. Feedback comes at once, then about
-        /// ten times a second, and when something goes wrong. Ending the stream gives the figures back; losing it keeps them
-        /// for the grace time.
-        async fn drive_figures(
-            &self,
-            request: tonic::Request<tonic::Streaming<super::DriveFiguresRequest>>,
-        ) -> std::result::Result<
-            tonic::Response<Self::DriveFiguresStream>,
-            tonic::Status,
-        >;
-    }
-    /// Desired motions: stored clips and live streams.
-    #[derive(Debug)]
-    pub struct MotionServiceServer<T> {
-        inner: Arc<T>,
-        accept_compression_encodings: EnabledCompressionEncodings,
-        send_compression_encodings: EnabledCompressionEncodings,
-        max_decoding_message_size: Option<usize>,
-        max_encoding_message_size: Option<usize>,
-    }
-    impl<T> MotionServiceServer<T> {
-        pub fn new(inner: T) -> Self {
-            Self::from_arc(Arc::new(inner))
-        }
-        pub fn from_arc(inner: Arc<T>) -> Self {
-            Self {
-                inner,
-                accept_compression_encodings: Default::default(),
-                send_compression_encodings: Default::default(),
-                max_decoding_message_size: None,
-                max_encoding_message_size: None,
-            }
-        }
-        pub fn with_interceptor<F>(
-            inner: T,
-            interceptor: F,
-        ) -> InterceptedService<Self, F>
-        where
-            F: tonic::service::Interceptor,
-        {
-            InterceptedService::new(Self::new(inner), interceptor)
-        }
-        /// Enable decompressing requests with the given encoding.
-        #[must_use]
-        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.accept_compression_encodings.enable(encoding);
-            self
-        }
-        /// Compress responses with the given encoding, if the client supports it.
-        #[must_use]
-        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
-            self.send_compression_encodings.enable(encoding);
-            self
-        }
-        /// Limits the maximum size of a decoded message.
-        ///
-        /// Default: `4MB`
-        #[must_use]
-        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
-            self.max_decoding_message_size = Some(limit);
-            self
-        }
-        /// Limits the maximum size of an encoded message.
-        ///
-        /// Default: `usize::MAX`
-        #[must_use]
-        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
-            self.max_encoding_message_size = Some(limit);
-            self
-        }
-    }
-    impl<T, B> tonic::codegen::Service<http::Request<B>> for MotionServiceServer<T>
-    where
-        T: MotionService,
-        B: Body + std::marker::Send + 'static,
-        B::Error: Into<StdError> + std::marker::Send + 'static,
-    {
-        type Response = http::Response<tonic::body::Body>;
-        type Error = std::convert::Infallible;
-        type Future = BoxFuture<Self::Response, Self::Error>;
-        fn poll_ready(
-            &mut self,
-            _cx: &mut Context<'_>,
-        ) -> Poll<std::result::Result<(), Self::Error>> {
-            Poll::Ready(Ok(()))
-        }
-        fn call(&mut self, req: http::Request<B>) -> Self::Future {
-            match req.uri().path() {
-                "/sinew.v1.MotionService/CreateClip" => {
-                    #[allow(non_camel_case_types)]
-                    struct CreateClipSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::UnaryService<super::CreateClipRequest>
-                    for CreateClipSvc<T> {
-                        type Response = super::CreateClipResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::CreateClipRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::create_clip(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = CreateClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.MotionService/StreamCreateClip" => {
-                    #[allow(non_camel_case_types)]
-                    struct StreamCreateClipSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::ServerStreamingService<
-                        super::StreamCreateClipRequest,
-                    > for StreamCreateClipSvc<T> {
-                        type Response = super::StreamCreateClipResponse;
-                        type ResponseStream = T::StreamCreateClipStream;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::ResponseStream>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::StreamCreateClipRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::stream_create_clip(&inner, request)
-                                    .await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = StreamCreateClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.server_streaming(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.MotionService/GetClip" => {
-                    #[allow(non_camel_case_types)]
-                    struct GetClipSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::UnaryService<super::GetClipRequest>
-                    for GetClipSvc<T> {
-                        type Response = super::GetClipResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::GetClipRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::get_clip(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = GetClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.MotionService/ListClips" => {
-                    #[allow(non_camel_case_types)]
-                    struct ListClipsSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::UnaryService<super::ListClipsRequest>
-                    for ListClipsSvc<T> {
-                        type Response = super::ListClipsResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::ListClipsRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::list_clips(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = ListClipsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.MotionService/DeleteClip" => {
-                    #[allow(non_camel_case_types)]
-                    struct DeleteClipSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::UnaryService<super::DeleteClipRequest>
-                    for DeleteClipSvc<T> {
-                        type Response = super::DeleteClipResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::DeleteClipRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::delete_clip(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = DeleteClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.MotionService/RehearseClip" => {
-                    #[allow(non_camel_case_types)]
-                    struct RehearseClipSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::UnaryService<super::RehearseClipRequest>
-                    for RehearseClipSvc<T> {
-                        type Response = super::RehearseClipResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::RehearseClipRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::rehearse_clip(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = RehearseClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.MotionService/PlayClip" => {
-                    #[allow(non_camel_case_types)]
-                    struct PlayClipSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::UnaryService<super::PlayClipRequest>
-                    for PlayClipSvc<T> {
-                        type Response = super::PlayClipResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::PlayClipRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::play_clip(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = PlayClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.MotionService/StopClip" => {
-                    #[allow(non_camel_case_types)]
-                    struct StopClipSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::UnaryService<super::StopClipRequest>
-                    for StopClipSvc<T> {
-                        type Response = super::StopClipResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::StopClipRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::stop_clip(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = StopClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.MotionService/PushMotion" => {
-                    #[allow(non_camel_case_types)]
-                    struct PushMotionSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::UnaryService<super::PushMotionRequest>
-                    for PushMotionSvc<T> {
-                        type Response = super::PushMotionResponse;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::Response>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<super::PushMotionRequest>,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::push_motion(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = PushMotionSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.unary(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                "/sinew.v1.MotionService/DriveFigures" => {
-                    #[allow(non_camel_case_types)]
-                    struct DriveFiguresSvc<T: MotionService>(pub Arc<T>);
-                    impl<
-                        T: MotionService,
-                    > tonic::server::StreamingService<super::DriveFiguresRequest>
-                    for DriveFiguresSvc<T> {
-                        type Response = super::DriveFiguresResponse;
-                        type ResponseStream = T::DriveFiguresStream;
-                        type Future = BoxFuture<
-                            tonic::Response<Self::ResponseStream>,
-                            tonic::Status,
-                        >;
-                        fn call(
-                            &mut self,
-                            request: tonic::Request<
-                                tonic::Streaming<super::DriveFiguresRequest>,
-                            >,
-                        ) -> Self::Future {
-                            let inner = Arc::clone(&self.0);
-                            let fut = async move {
-                                <T as MotionService>::drive_figures(&inner, request).await
-                            };
-                            Box::pin(fut)
-                        }
-                    }
-                    let accept_compression_encodings = self.accept_compression_encodings;
-                    let send_compression_encodings = self.send_compression_encodings;
-                    let max_decoding_message_size = self.max_decoding_message_size;
-                    let max_encoding_message_size = self.max_encoding_message_size;
-                    let inner = self.inner.clone();
-                    let fut = async move {
-                        let method = DriveFiguresSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
-                        let mut grpc = tonic::server::Grpc::new(codec)
-                            .apply_compression_config(
-                                accept_compression_encodings,
-                                send_compression_encodings,
-                            )
-                            .apply_max_message_size_config(
-                                max_decoding_message_size,
-                                max_encoding_message_size,
-                            );
-                        let res = grpc.streaming(method, req).await;
-                        Ok(res)
-                    };
-                    Box::pin(fut)
-                }
-                _ => {
-                    Box::pin(async move {
-                        let mut response = http::Response::new(
-                            tonic::body::Body::default(),
-                        );
-                        let headers = response.headers_mut();
-                        headers
-                            .insert(
-                                tonic::Status::GRPC_STATUS,
-                                (tonic::Code::Unimplemented as i32).into(),
-                            );
-                        headers
-                            .insert(
-                                http::header::CONTENT_TYPE,
-                                tonic::metadata::GRPC_CONTENT_TYPE,
-                            );
-                        Ok(response)
-                    })
-                }
-            }
-        }
-    }
-    impl<T> Clone for MotionServiceServer<T> {
-        fn clone(&self) -> Self {
-            let inner = self.inner.clone();
-            Self {
-                inner,
-                accept_compression_encodings: self.accept_compression_encodings,
-                send_compression_encodings: self.send_compression_encodings,
-                max_decoding_message_size: self.max_decoding_message_size,
-                max_encoding_message_size: self.max_encoding_message_size,
-            }
-        }
-    }
-    /// Generated gRPC service name
-    pub const SERVICE_NAME: &str = "sinew.v1.MotionService";
-    impl<T> tonic::server::NamedService for MotionServiceServer<T> {
         const NAME: &'static str = SERVICE_NAME;
     }
 }

@@ -72,6 +72,7 @@ from sinew.values import (
     Controller,
     Disturbance,
     Encoding,
+    Follow,
     Force,
     Load,
     Mobility,
@@ -1301,6 +1302,7 @@ class Figure:
         start_s: float | None = None,
         position: tuple[float, float] | None = None,
         yaw: float | None = None,
+        follow: Follow | None = None,
     ) -> float:
         """Plays a clip from the next tick on, or from world time `start_s` (s); returns the world time at which its
         first frame plays, s.
@@ -1310,6 +1312,9 @@ class Figure:
         clip. `reset` puts the figure into the first posture at once; otherwise it moves there by itself. It begins
         where the figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is prepared for
         its `speed` (0.5 to 2), which takes a moment the first time.
+
+        `follow` says how far it may go so that the figure keeps to the clip: `strict`, `rehearsed` or `assisted`, else
+        as the clip says; `FigureState.following` tells in which way the figure does.
         """
         named = clip.name if isinstance(clip, Clip) else clip
         request = motion_pb2.PlayClipRequest(
@@ -1320,6 +1325,7 @@ class Figure:
             start_time_s=start_s,
             reset=reset,
             placement=requests.placement(position, yaw),
+            follow=requests.follow(follow),
         )
         return (self._client._ask(self._client.motions_stub.PlayClip, request)).start_time_s
 

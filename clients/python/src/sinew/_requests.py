@@ -13,6 +13,7 @@ from google.protobuf.field_mask_pb2 import FieldMask
 from sinew.v1 import (
     figure_pb2,
     frame_pb2,
+    motion_pb2,
     obstacle_pb2,
     perturbation_pb2,
     simulation_pb2,
@@ -25,6 +26,7 @@ from sinew.values import (
     Controller,
     Disturbance,
     Encoding,
+    Follow,
     Mobility,
     Paper,
     Profile,
@@ -81,6 +83,13 @@ def controller(name: Controller) -> figure_pb2.Controller.ValueType:
 def stepper(name: Stepper) -> figure_pb2.Stepper.ValueType:
     """A stepper by name."""
     return figure_pb2.Stepper.Value(choice(figure_pb2.Stepper.keys(), "STEPPER_", name, "stepper"))
+
+
+def follow(name: Follow | None) -> motion_pb2.Follow.ValueType:
+    """How far it may go, by name; as the clip says if there is none."""
+    if name is None:
+        return motion_pb2.FOLLOW_UNSPECIFIED
+    return motion_pb2.Follow.Value(choice(motion_pb2.Follow.keys(), "FOLLOW_", name, "follow"))
 
 
 def encoding(name: Encoding) -> types_pb2.Encoding.ValueType:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from sinew.body import Body
 from sinew.errors import named
-from sinew.v1 import frame_pb2, state_pb2, types_pb2
+from sinew.v1 import frame_pb2, motion_pb2, state_pb2, types_pb2
 
 __all__ = ["Contact", "Event", "FigureState", "Frame", "ObstacleState", "Touch", "numbers"]
 
@@ -180,6 +180,28 @@ class FigureState:
         self._need("status")
         at = bits(self.message.status.saturated, len(self.body.dofs))
         return tuple(n for n, s in zip(self.body.dofs, at) if s)
+
+    @property
+    def following(self) -> str:
+        """In which way it follows its motion: `tracked`, `rehearsed` or `helped`; empty if it has nothing to follow."""
+        self._need("status")
+        try:
+            name = motion_pb2.FollowWay.Name(self.message.status.following)
+        except ValueError:  # of a newer server
+            return f"way_{self.message.status.following}"
+        return name.removeprefix("FOLLOW_WAY_").removesuffix("UNSPECIFIED").lower()
+
+    @property
+    def help_newton_seconds(self) -> float:
+        """Impulse of the help since its motion began, N·s."""
+        self._need("status")
+        return self.message.status.help_newton_seconds
+
+    @property
+    def help_ratio(self) -> float:
+        """The same over weight times time."""
+        self._need("status")
+        return self.message.status.help_ratio
 
     @property
     def margin_m(self) -> float:

@@ -426,3 +426,6 @@ impl Scene {
         self.world.remove_figure(key);
     }
 }
+
+#[cfg(test)]
+mod tests;

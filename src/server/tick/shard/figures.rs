@@ -5,7 +5,9 @@ use crate::server::engine;
 use crate::server::tick::scene::{Input, Member};
 use crate::sim::body::Body;
 use crate::wire::status::Fault;
-use crate::wire::types::{ControlKey, EventKind, FigureInfo, FigureSettings, FigureUpdate, Place};
+use crate::wire::types::{
+    ControlKey, EventKind, FigureInfo, FigureSettings, FigureUpdate, Follows, Place,
+};
 use std::sync::Arc;
 
 impl Shard {
@@ -45,6 +47,7 @@ impl Shard {
                 .map(|d| d.id.name.to_string()),
             index: m.index,
             constraints: engine::constraints(f, self.scene.world().time()),
+            follows: engine::follows(f),
         }
     }
 
@@ -113,6 +116,7 @@ impl Shard {
             next_clip: None,
             driver: None,
             index: self.scene.next_index(),
+            follows: Follows::default(),
         })
     }
 

@@ -10,6 +10,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::figure::constraints::Constraint;
 use crate::sim::figure::drive::{Drive, LivePlayback, QueuedClip};
 use crate::sim::figure::events::FigureEvent;
+use crate::sim::figure::following::Following;
 use crate::sim::figure::plan_task::{LatePlans, PlanRequest};
 use crate::sim::figure::second_hand::{Help, SecondHand};
 use crate::sim::figure::touches::Touches;
@@ -113,6 +114,10 @@ impl Figure {
     pub fn drive(&self) -> &Drive {
         self.motion.source()
     }
+    /// How it follows its motion, as of the last tick.
+    pub fn following(&self) -> &Following {
+        self.motion.following()
+    }
     /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is
     /// forgotten.
     pub fn set_drive(&mut self, drive: Drive) {
@@ -173,6 +178,7 @@ impl Figure {
         self.physical.last_good = state;
         self.motion.lie_down();
         self.motion.rise();
+        self.motion.forget_following();
         self.physical.frozen = false;
         self.forget();
         self.physical.fatigue = rested(&self.setup.options);

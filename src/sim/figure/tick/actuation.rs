@@ -41,10 +41,7 @@ impl Figure {
         };
         let (tracker, terms) = (&mut self.desired.tracker, &self.scratch.terms);
         let pair = |now, next| drive.pair(now, next);
-        if carried {
-            return tracker.carried(time, dt, terms, clip_time, pair);
-        }
-        tracker.targets(time, dt, terms, clip_time, pair)
+        tracker.targets(time, dt, terms, clip_time, pair, carried)
     }
 
     /// True if steps follow events: the modern controller, and a figure that is up. Full assist pins the pelvis to its

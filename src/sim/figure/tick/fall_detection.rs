@@ -4,17 +4,21 @@ use super::state::rested;
 use super::{Figure, TickContext};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{HEAD, L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
-use crate::sim::control::Controller;
+use crate::sim::control::{Controller, PointTarget};
 use crate::sim::figure::balance_loss::{Observation, Reach};
+use crate::sim::figure::constraints::MAX_CONSTRAINTS;
+use crate::sim::figure::drive::Drive;
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::help::Help;
 use crate::sim::figure::kinematic_step::other_part_arrives;
+use crate::sim::figure::loads::MAX_APPLIED;
 use crate::sim::figure::params::balance::PAPER_REACH;
 use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
 use crate::sim::figure::params::get_up::STILL_SPEED;
 use crate::sim::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
 use crate::sim::math::Vec3;
-use crate::sim::report::Flags;
+use crate::sim::motion::{Target, TargetPair};
+use crate::sim::report::{Flags, TickReport};
 use crate::sim::setup::ControllerKind;
 
 /// Parts that a figure stands on.
@@ -136,10 +140,14 @@ impl Figure {
         }
     }
 
-    /// Freezes a figure whose state is not finite, or for which no finite decision was found, at its last good state;
-    /// the world goes on.
+    /// Freezes a figure whose state or desired motion is not finite, or for which no finite decision was found, at its
+    /// last good state; the world goes on.
     pub(super) fn contain(&mut self) -> bool {
-        let good = self.physical.state.is_finite() && !self.scratch.results.undecided;
+        let asked = [&self.desired.target.now, &self.desired.target.next];
+        let good = self.physical.state.is_finite()
+            && !self.scratch.results.undecided
+            && asked.iter().all(|t| t.is_finite())
+            && self.desired.com.is_finite();
         if good {
             self.physical.last_good = self.physical.state;
         } else {
@@ -167,6 +175,35 @@ impl Figure {
             self.physical.fatigue = rested(&self.setup.options);
         }
         self.scratch.results.before = self.physical.state;
+        self.forget_what_was_asked();
+        self.empty_report();
+    }
+
+    /// What a frozen figure is asked to do is to stay as it is. A motion that cannot be is forgotten.
+    fn forget_what_was_asked(&mut self) {
+        let posture = self.physical.state.posture;
+        let still = Target::still(posture);
+        self.desired.target = TargetPair {
+            now: still.clone(),
+            next: still,
+        };
+        self.desired.com = PointTarget::still(self.outcome.report.balance.com);
+        if !self.motion.is_valid() {
+            self.set_drive(Drive::Hold(posture));
+        }
+    }
+
+    /// What the last tick of a frozen figure came to is not to be read as physics: only that it was set aside, and
+    /// where it is.
+    fn empty_report(&mut self) {
+        let com = self.outcome.report.balance.com;
+        let mut empty = TickReport::empty(&self.physical.state, MAX_CONSTRAINTS, MAX_APPLIED);
+        empty.flags = self.outcome.report.flags;
+        (empty.balance.com, empty.balance.com_desired) = (com, com);
+        if let Some(fatigue) = &self.physical.fatigue {
+            empty.joints.remaining = fatigue.remaining();
+        }
+        self.outcome.report = empty;
     }
 
     /// Falls and rises.

@@ -30,6 +30,15 @@ impl Figure {
         }
     }
 
+    /// Largest force over the weight of the help that it gets if its motion is being lost; 0: none.
+    pub fn allowed_help(&self) -> f64 {
+        if self.may_be_helped() {
+            self.most_help()
+        } else {
+            0.0
+        }
+    }
+
     fn may_be_helped(&self) -> bool {
         self.most_help() > 0.0
             && self.setup.options.assist == 0.0

@@ -181,13 +181,29 @@ impl Figure {
         }
     }
 
+    /// True once nothing of a clip is left to be played at world time `time`, s.
+    fn is_over(&self, play: &ClipPlayback, time: f64) -> bool {
+        let end = play.clip.duration() + play.clip.lead_out();
+        !play.looped && play.clip_time(time - self.desired.tracker.lag()) >= end
+    }
+
+    /// True while there is something to follow: a clip that has begun and is not over, or a stream.
+    pub(super) fn has_motion(&self, time: f64) -> bool {
+        let moves = match self.motion.source() {
+            Drive::Clip(play) => {
+                let begins = play.way_in.is_some() || play.clip_time(time) >= -play.clip.lead_in();
+                begins && !self.is_over(play, time)
+            }
+            Drive::External(_) | Drive::Live(_) => true,
+            Drive::Hold(_) | Drive::Rehearsed(_) => false,
+        };
+        moves && !self.motion.has_fallen()
+    }
+
     /// True in the middle of a clip or of a step.
     fn is_busy(&self, time: f64) -> bool {
         let plays = match self.motion.source() {
-            Drive::Clip(play) => {
-                let over = play.clip.duration() + play.clip.lead_out();
-                play.looped || play.clip_time(time - self.desired.tracker.lag()) < over
-            }
+            Drive::Clip(play) => !self.is_over(play, time),
             Drive::Live(_) => self.desired.tracker.is_walking(),
             Drive::Hold(_) | Drive::External(_) | Drive::Rehearsed(_) => false,
         };

@@ -39,11 +39,8 @@ impl Figure {
         let first = tracker.stance_of(&self.setup.body, &motion.start().posture);
         let feet = Anchor::between(first, tracker.stance(&self.scratch.terms)).transform();
         let able = self.setup.controller == ControllerKind::Modern && !self.motion.has_fallen();
-        let way = [play.origin, feet].map(|origin| RehearsedPlayback {
-            motion: Arc::clone(motion),
-            start: time,
-            origin,
-        });
+        let here = RehearsedPlayback::new(Arc::clone(motion), time);
+        let way = [play.origin, feet].map(|origin| here.clone().at(origin));
         let begins = |way: &RehearsedPlayback| {
             able && late < world.dt && way.begins_at(state) && way.goes_on(time, state, world)
         };

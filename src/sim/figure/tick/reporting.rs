@@ -3,8 +3,10 @@
 use super::state::StageResults;
 use super::{Figure, TickContext};
 use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::figure::following::FollowMode;
 use crate::sim::figure::torque_step::TorqueRange;
 use crate::sim::math::Vec3;
+use crate::sim::motion::GRAVITY;
 use crate::sim::report::Flags;
 
 /// DOFs whose torque is at its limit, a bit each. Limits follow angles and rates within the tick.
@@ -107,5 +109,31 @@ impl Figure {
                 z: (0..NV).map(|i| self.scratch.terms.jc[2][i] * a[i]).sum(),
             };
         self.outcome.reported = true;
+        self.note_following(world, frozen);
+    }
+
+    /// How the motion was followed, and what helped.
+    fn note_following(&mut self, world: &TickContext, frozen: bool) {
+        if frozen {
+            self.motion.note(FollowMode::Nothing, 0.0, 0.0, world.dt);
+            return;
+        }
+        let assist = &self.outcome.report.assist;
+        let helped = match self.motion.rehearsed() {
+            Some(play) => play.is_helped(),
+            None => *assist != [0.0; 6],
+        };
+        let mode = if helped {
+            FollowMode::Helped
+        } else if self.motion.rehearsed().is_some() {
+            FollowMode::Rehearsed
+        } else if self.has_motion(world.time()) {
+            FollowMode::Tracked
+        } else {
+            FollowMode::Nothing
+        };
+        let force = Vec3::from_array([assist[3], assist[4], assist[5]]).norm();
+        let weight = self.setup.body.profile.mass * GRAVITY;
+        self.motion.note(mode, force, weight, world.dt);
     }
 }

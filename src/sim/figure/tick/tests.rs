@@ -9,6 +9,13 @@ use crate::sim::motion::{Clip, Target, TargetPair};
 use crate::sim::world::{World, WorldParams};
 use std::sync::Arc;
 
+/// What is shown of a figure has no number that is not finite.
+fn tells_finite_numbers(f: &Figure) {
+    let told = format!("{:?} {:?} {:?}", f.report(), f.target(), f.following());
+    let broken = ["NaN", "inf"].map(|word| told.contains(word));
+    assert_eq!(broken, [false; 2]);
+}
+
 #[test]
 fn a_figure_that_is_not_finite_is_frozen_reported_once_and_changes_no_other() {
     let body = Arc::new(Body::adult_man());
@@ -40,6 +47,7 @@ fn a_figure_that_is_not_finite_is_frozen_reported_once_and_changes_no_other() {
                 assert!(f.state().is_finite());
                 let frozen = f.report().unwrap().flags.has(Flags::QUARANTINED);
                 assert_eq!(frozen, broken && tick >= 20);
+                tells_finite_numbers(f);
                 world.figure(key).unwrap().state_hash()
             })
             .collect();
@@ -119,13 +127,14 @@ fn a_figure_whose_desired_motion_is_out_of_hand_is_set_aside() {
                 world.step();
                 for f in [other, victim].map(|k| world.figure(k).unwrap()) {
                     assert!(f.state().is_finite(), "{kind:?} {case}");
+                    tells_finite_numbers(f);
                 }
             }
             let frozen = |w: &World, k| w.figure(k).unwrap().is_frozen();
             assert!(!frozen(&world, other), "{kind:?} {case}");
             assert!(asked.is_some() || !frozen(&world, victim));
             set_aside += usize::from(frozen(&world, victim));
-            // What it was asked is refused, what it remembers is not.
+            // What it remembers is not refused, and a reset takes it back if it is asked for something else.
             let drive = Drive::Hold(held);
             world.figure_mut(victim).unwrap().set_drive(drive);
             let capture = world.capture();

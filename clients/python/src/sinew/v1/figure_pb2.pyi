@@ -10,6 +10,7 @@ from google.protobuf import message as _message
 from google.protobuf.internal import containers as _containers
 from google.protobuf.internal import enum_type_wrapper as _enum_type_wrapper
 from sinew.v1 import body_pb2 as _body_pb2
+from sinew.v1 import motion_pb2 as _motion_pb2
 from sinew.v1 import types_pb2 as _types_pb2
 import builtins as _builtins
 import sys
@@ -493,6 +494,10 @@ class FigureStatus(_message.Message):
     NEXT_CLIP_FIELD_NUMBER: _builtins.int
     DRIVER_ID_FIELD_NUMBER: _builtins.int
     FIGURE_INDEX_FIELD_NUMBER: _builtins.int
+    FOLLOWING_FIELD_NUMBER: _builtins.int
+    HELP_NEWTON_SECONDS_FIELD_NUMBER: _builtins.int
+    HELP_RATIO_FIELD_NUMBER: _builtins.int
+    MAX_HELP_WEIGHTS_FIELD_NUMBER: _builtins.int
     clip: _builtins.str
     """Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand."""
     next_clip: _builtins.str
@@ -501,6 +506,18 @@ class FigureStatus(_message.Message):
     """Driver that moves it live; empty if none."""
     figure_index: _builtins.int
     """Index by which frames refer to it: position in the roster."""
+    following: _motion_pb2.FollowWay.ValueType
+    """In which way it followed its motion (a clip, a stream, or the steps out of one) in the last tick."""
+    help_newton_seconds: _builtins.float
+    """Impulse of the help since its motion began, N·s: the norm of the force in `assist` over time. It stays until the
+    next motion begins or the figure is reset.
+    """
+    help_ratio: _builtins.float
+    """The same over weight times time."""
+    max_help_weights: _builtins.float
+    """Largest force of the help that its motion gets if it is being lost, body weights: by the figure and by how its clip
+    is played, whichever allows more. 0: none, as in a rehearsal, where help is what was rehearsed.
+    """
     def __init__(
         self,
         *,
@@ -508,10 +525,14 @@ class FigureStatus(_message.Message):
         next_clip: _builtins.str = ...,
         driver_id: _builtins.str = ...,
         figure_index: _builtins.int = ...,
+        following: _motion_pb2.FollowWay.ValueType = ...,
+        help_newton_seconds: _builtins.float = ...,
+        help_ratio: _builtins.float = ...,
+        max_help_weights: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["clip", b"clip", "driver_id", b"driver_id", "figure_index", b"figure_index", "next_clip", b"next_clip"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["clip", b"clip", "driver_id", b"driver_id", "figure_index", b"figure_index", "following", b"following", "help_newton_seconds", b"help_newton_seconds", "help_ratio", b"help_ratio", "max_help_weights", b"max_help_weights", "next_clip", b"next_clip"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -8,6 +8,7 @@ from google.protobuf import descriptor as _descriptor
 from google.protobuf import message as _message
 from google.protobuf.internal import containers as _containers
 from sinew.v1 import figure_pb2 as _figure_pb2
+from sinew.v1 import motion_pb2 as _motion_pb2
 from sinew.v1 import types_pb2 as _types_pb2
 import builtins as _builtins
 import sys
@@ -484,6 +485,9 @@ class Status(_message.Message):
     CONTROL_ITERATIONS_FIELD_NUMBER: _builtins.int
     STEP_ITERATIONS_FIELD_NUMBER: _builtins.int
     LOADS_FIELD_NUMBER: _builtins.int
+    FOLLOWING_FIELD_NUMBER: _builtins.int
+    HELP_NEWTON_SECONDS_FIELD_NUMBER: _builtins.int
+    HELP_RATIO_FIELD_NUMBER: _builtins.int
     flags: _builtins.int
     """Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND,
     STEP_BOUND, FALLEN, QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
@@ -504,6 +508,12 @@ class Status(_message.Message):
     """Iterations of the controller."""
     step_iterations: _builtins.int
     """Iterations of all substeps."""
+    following: _motion_pb2.FollowWay.ValueType
+    """In which way it followed its motion."""
+    help_newton_seconds: _builtins.float
+    """Impulse of the help since its motion began, N·s, as in `FigureStatus`."""
+    help_ratio: _builtins.float
+    """The same over weight times time."""
     @_builtins.property
     def loads(self) -> _containers.RepeatedCompositeFieldContainer[_figure_pb2.CarriedLoad]:
         """Loads carried at the end of the tick."""
@@ -520,10 +530,13 @@ class Status(_message.Message):
         control_iterations: _builtins.int = ...,
         step_iterations: _builtins.int = ...,
         loads: _abc.Iterable[_figure_pb2.CarriedLoad] | None = ...,
+        following: _motion_pb2.FollowWay.ValueType = ...,
+        help_newton_seconds: _builtins.float = ...,
+        help_ratio: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_iterations", b"control_iterations", "flags", b"flags", "loads", b"loads", "over_limit", b"over_limit", "penetration_m", b"penetration_m", "saturated", b"saturated", "saturated_secondary", b"saturated_secondary", "step_iterations", b"step_iterations", "tracking_joint_rms_rad", b"tracking_joint_rms_rad"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_iterations", b"control_iterations", "flags", b"flags", "following", b"following", "help_newton_seconds", b"help_newton_seconds", "help_ratio", b"help_ratio", "loads", b"loads", "over_limit", b"over_limit", "penetration_m", b"penetration_m", "saturated", b"saturated", "saturated_secondary", b"saturated_secondary", "step_iterations", b"step_iterations", "tracking_joint_rms_rad", b"tracking_joint_rms_rad"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

@@ -57,29 +57,33 @@ class _FollowWay:
 class _FollowWayEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_FollowWay.ValueType], _builtins.type):
     DESCRIPTOR: _descriptor.EnumDescriptor
     FOLLOW_WAY_UNSPECIFIED: _FollowWay.ValueType  # 0
-    """Not told."""
+    """Not told. In the status of a figure: it has nothing to follow, as it holds a posture, lies or gets up."""
     FOLLOW_WAY_TRACKED: _FollowWay.ValueType  # 1
-    """As it is: there is nothing to rehearse."""
+    """As it is, by the strength of the figure, with balance and steps. Of a rehearsal: there is nothing to rehearse."""
     FOLLOW_WAY_REHEARSED: _FollowWay.ValueType  # 2
-    """Rehearsed, by strength alone."""
+    """Rehearsed, by strength alone. A weak spring may lead the pelvis back to the path of the rehearsal."""
     FOLLOW_WAY_HELPED: _FollowWay.ValueType  # 3
-    """Rehearsed, with help."""
+    """With help: it is part of the rehearsal, or acts now because the motion is being lost or `Figure.assist` is on."""
     FOLLOW_WAY_LOST: _FollowWay.ValueType  # 4
-    """Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may."""
+    """Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may. Never
+    in the status of a figure.
+    """
 
 class FollowWay(_FollowWay, metaclass=_FollowWayEnumTypeWrapper):
-    """In which way a figure keeps to a clip."""
+    """In which way a figure keeps to a motion: what a rehearsal found, or what the figure does now."""
 
 FOLLOW_WAY_UNSPECIFIED: FollowWay.ValueType  # 0
-"""Not told."""
+"""Not told. In the status of a figure: it has nothing to follow, as it holds a posture, lies or gets up."""
 FOLLOW_WAY_TRACKED: FollowWay.ValueType  # 1
-"""As it is: there is nothing to rehearse."""
+"""As it is, by the strength of the figure, with balance and steps. Of a rehearsal: there is nothing to rehearse."""
 FOLLOW_WAY_REHEARSED: FollowWay.ValueType  # 2
-"""Rehearsed, by strength alone."""
+"""Rehearsed, by strength alone. A weak spring may lead the pelvis back to the path of the rehearsal."""
 FOLLOW_WAY_HELPED: FollowWay.ValueType  # 3
-"""Rehearsed, with help."""
+"""With help: it is part of the rehearsal, or acts now because the motion is being lost or `Figure.assist` is on."""
 FOLLOW_WAY_LOST: FollowWay.ValueType  # 4
-"""Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may."""
+"""Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may. Never
+in the status of a figure.
+"""
 Global___FollowWay: _TypeAlias = FollowWay  # noqa: Y015
 
 class _ForecastVerdict:

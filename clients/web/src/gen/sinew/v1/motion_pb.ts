@@ -1626,41 +1626,42 @@ export const FollowSchema: GenEnum<Follow> = /*@__PURE__*/
   enumDesc(file_sinew_v1_motion, 0);
 
 /**
- * In which way a figure keeps to a clip.
+ * In which way a figure keeps to a motion: what a rehearsal found, or what the figure does now.
  *
  * @generated from enum sinew.v1.FollowWay
  */
 export enum FollowWay {
   /**
-   * Not told.
+   * Not told. In the status of a figure: it has nothing to follow, as it holds a posture, lies or gets up.
    *
    * @generated from enum value: FOLLOW_WAY_UNSPECIFIED = 0;
    */
   UNSPECIFIED = 0,
 
   /**
-   * As it is: there is nothing to rehearse.
+   * As it is, by the strength of the figure, with balance and steps. Of a rehearsal: there is nothing to rehearse.
    *
    * @generated from enum value: FOLLOW_WAY_TRACKED = 1;
    */
   TRACKED = 1,
 
   /**
-   * Rehearsed, by strength alone.
+   * Rehearsed, by strength alone. A weak spring may lead the pelvis back to the path of the rehearsal.
    *
    * @generated from enum value: FOLLOW_WAY_REHEARSED = 2;
    */
   REHEARSED = 2,
 
   /**
-   * Rehearsed, with help.
+   * With help: it is part of the rehearsal, or acts now because the motion is being lost or `Figure.assist` is on.
    *
    * @generated from enum value: FOLLOW_WAY_HELPED = 3;
    */
   HELPED = 3,
 
   /**
-   * Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may.
+   * Not at all: it falls as it is, and no rehearsal was found. Another try with more time or more strength may. Never
+   * in the status of a figure.
    *
    * @generated from enum value: FOLLOW_WAY_LOST = 4;
    */

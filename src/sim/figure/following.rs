@@ -1,0 +1,78 @@
+//! In which way a figure follows its motion, and what help that has taken: told in its status and its frames.
+
+use serde::{Deserialize, Serialize};
+
+/// In which way a figure follows its motion in a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum FollowMode {
+    /// There is no motion to follow: it holds a posture by itself, lies, or gets up.
+    #[default]
+    Nothing,
+    /// By its own strength, with balance and steps.
+    Tracked,
+    /// As it was rehearsed, by strength alone. The hold that leads back to the path of the rehearsal may act.
+    Rehearsed,
+    /// With help: it acts in this tick, or is part of the rehearsal.
+    Helped,
+}
+
+/// How a figure follows its motion. Sums are those since the motion began; they stay until the next one begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Following {
+    /// In which way, in the last tick.
+    pub mode: FollowMode,
+    /// Impulse of the help, N·s: the norm of its force over time.
+    pub impulse: f64,
+    /// Weight of the body over the time in which there was something to follow, N·s.
+    pub weight_time: f64,
+}
+
+impl Following {
+    /// Share of the help in weight × time; 0 before the first tick.
+    pub fn help_share(&self) -> f64 {
+        if self.weight_time > 0.0 {
+            self.impulse / self.weight_time
+        } else {
+            0.0
+        }
+    }
+
+    /// Adds a tick of `dt` s in which a force of norm `force` (N) helped a body of this weight (N).
+    pub fn add(&mut self, mode: FollowMode, force: f64, weight: f64, dt: f64) {
+        self.mode = mode;
+        if mode != FollowMode::Nothing {
+            self.impulse += force * dt;
+            self.weight_time += weight * dt;
+        }
+    }
+
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let sums = [self.impulse, self.weight_time];
+        sums.iter().all(|x| x.is_finite() && *x >= 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_counts_over_the_time_in_which_there_is_something_to_follow() {
+        let mut f = Following::default();
+        f.add(FollowMode::Nothing, 0.0, 700.0, 1.0);
+        assert_eq!((f, f.help_share()), (Following::default(), 0.0));
+        f.add(FollowMode::Tracked, 0.0, 700.0, 0.5);
+        f.add(FollowMode::Helped, 140.0, 700.0, 0.5);
+        assert_eq!((f.mode, f.impulse), (FollowMode::Helped, 70.0));
+        assert!((f.help_share() - 0.1).abs() < 1e-15);
+        f.add(FollowMode::Nothing, 0.0, 700.0, 9.0);
+        assert_eq!((f.mode, f.impulse), (FollowMode::Nothing, 70.0));
+        assert!(f.is_valid());
+        let broken = Following {
+            impulse: f64::NAN,
+            ..f
+        };
+        assert!(!broken.is_valid());
+    }
+}

@@ -1,0 +1,111 @@
+//! Goal: clients see in which way a figure follows its motion, and what help that takes. Method: a figure that waves is
+//! pushed so that it loses its motion, with and without help that is allowed. What rehearsals show is in `rehearsals`.
+
+use crate::support::TestServer;
+use sinew::wire::pb;
+
+const WORLD: &str = "worlds/w";
+const FIGURE: &str = "worlds/w/figures/a";
+
+async fn push(server: &TestServer) {
+    let request = pb::ApplyPerturbationsRequest {
+        world: WORLD.into(),
+        perturbations: vec![pb::Perturbation {
+            figure_id: "a".into(),
+            kind: Some(pb::perturbation::Kind::Impulse(pb::Impulse {
+                segment: "chest".into(),
+                impulse_newton_seconds: Some(pb::Vector3 {
+                    x: 0.0,
+                    y: 60.0,
+                    z: 0.0,
+                }),
+                duration_s: 0.2,
+                ..Default::default()
+            })),
+            ..Default::default()
+        }],
+        ..Default::default()
+    };
+    let api = &server.client;
+    api.perturbations()
+        .apply_perturbations(request)
+        .await
+        .unwrap();
+}
+
+async fn play(server: &TestServer, follow: pb::Follow) {
+    let request = pb::PlayClipRequest {
+        figure: FIGURE.into(),
+        clip: "clips/wave".into(),
+        r#loop: true,
+        follow: follow.into(),
+        ..Default::default()
+    };
+    server.client.motions().play_clip(request).await.unwrap();
+}
+
+/// The status after some more ticks; the frame says the same, also in a list.
+async fn status(server: &TestServer, ticks: i32) -> pb::FigureStatus {
+    server.step(WORLD, ticks).await;
+    let status = server.look(FIGURE).await.status.unwrap();
+    let request = pb::ListFiguresRequest {
+        parent: WORLD.into(),
+        ..Default::default()
+    };
+    let listed = server.client.figures().list_figures(request).await.unwrap();
+    let listed = listed.into_inner().figures[0].status.clone();
+    assert_eq!(listed.as_ref(), Some(&status));
+    let frame = server.frame(WORLD, &["status"]).await;
+    let shown = frame.figures[0].status.as_ref().unwrap();
+    assert_eq!(shown.following, status.following);
+    let help = |a, b| (a, b);
+    assert_eq!(
+        help(shown.help_newton_seconds, shown.help_ratio),
+        help(status.help_newton_seconds, status.help_ratio)
+    );
+    status
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn clients_see_in_which_way_a_figure_follows_its_clip() {
+    let server = TestServer::start().await;
+    server.paused_world("w").await;
+    server.figure(WORLD, "a").await;
+    let still = status(&server, 2).await;
+    assert_eq!(still.following(), pb::FollowWay::Unspecified);
+
+    play(&server, pb::Follow::Strict).await;
+    let strict = status(&server, 60).await;
+    assert_eq!(strict.following(), pb::FollowWay::Tracked);
+    assert_eq!(strict.max_help_weights, 0.0);
+    push(&server).await;
+    let alone = status(&server, 240).await;
+    assert_eq!(alone.following(), pb::FollowWay::Unspecified, "it lies");
+    assert_eq!(alone.help_newton_seconds, 0.0);
+
+    let reset = pb::ResetFigureRequest {
+        name: FIGURE.into(),
+        ..Default::default()
+    };
+    server.client.figures().reset_figure(reset).await.unwrap();
+    play(&server, pb::Follow::Assisted).await;
+    let before = status(&server, 60).await;
+    assert_eq!(before.following(), pb::FollowWay::Tracked);
+    assert!(before.max_help_weights > 0.2 && before.help_newton_seconds == 0.0);
+    push(&server).await;
+    let mut helped = 0;
+    let mut last = before;
+    for _ in 0..60 {
+        let now = status(&server, 10).await;
+        let acts = now.following() == pb::FollowWay::Helped;
+        helped += i32::from(acts);
+        assert!(acts || now.following() == pb::FollowWay::Tracked);
+        assert!(now.help_newton_seconds >= last.help_newton_seconds);
+        last = now;
+    }
+    assert!(helped > 0, "nothing helped");
+    assert_eq!(last.following(), pb::FollowWay::Tracked, "it is let go");
+    assert!(last.help_newton_seconds > 1.0 && last.help_ratio > 0.0);
+    assert!(last.help_ratio < 0.3, "{last:?}");
+    server.stop().await;
+}
