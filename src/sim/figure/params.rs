@@ -338,6 +338,16 @@ pub mod contact {
     }
 }
 
+/// A body that meets itself.
+pub mod self_contact {
+    crate::sim::params::params! {
+        /// Most solves of one substep after its first, each with corrected impulses.
+        ROUNDS: u32 = 3, "rounds", 1..=10, "docs/tick.md#self-contact";
+        /// Rate at which a pair may still come nearer than it may: 0.1 mm in a substep.
+        TOLERANCE: f64 = 0.01, "m/s", 1e-6..=0.1, "numerical";
+    }
+}
+
 /// A load in two hands: a bar of fixed length between them.
 pub mod bar {
     crate::sim::params::params! {
@@ -382,7 +392,7 @@ pub mod kinematic {
 }
 
 /// All groups with their names.
-pub fn groups() -> [(&'static str, &'static [Param]); 14] {
+pub fn groups() -> [(&'static str, &'static [Param]); 15] {
     [
         ("support", support::ALL),
         ("staged", staged::ALL),
@@ -396,6 +406,7 @@ pub fn groups() -> [(&'static str, &'static [Param]); 14] {
         ("assist", assist::ALL),
         ("motors", motors::ALL),
         ("contact", contact::ALL),
+        ("self_contact", self_contact::ALL),
         ("bar", bar::ALL),
         ("kinematic", kinematic::ALL),
     ]

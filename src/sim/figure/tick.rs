@@ -42,6 +42,7 @@ use super::events::Watcher;
 use super::kinematic_step::{Decision, KinematicStepper};
 use super::loads::MAX_APPLIED;
 use super::plan_task::{LatePlans, Planning};
+use super::self_contact::OwnBody;
 use super::tasks::TaskPoints;
 use super::torque_step::{Accuracy, ExternalForces, StepInput, Stepper, TorqueStepper};
 use super::touches::Chosen;
@@ -465,6 +466,10 @@ impl Figure {
                 bar: disturbances.bar(),
                 assist,
             },
+            own: Some(OwnBody {
+                shape: &self.constants.shape,
+                desired: target,
+            }),
         };
         Integration {
             input,

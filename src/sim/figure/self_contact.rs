@@ -1,0 +1,388 @@
+//! A body does not pass through itself: arms against trunk, head and legs, arms against each other, legs against each
+//! other.
+//!
+//! Segments are the capsules that they collide with elsewhere ([`BodyShape`]). Where two of them would come nearer in a
+//! substep than they may, equal and opposite impulses act at their nearest points, without friction. They only push,
+//! and as they act at one point, they change neither momentum nor angular momentum.
+//!
+//! How near a pair may come is what the desired motion itself does: no nearer than touching, or than in the desired
+//! posture at the beginning or end of the tick, whichever is nearest. What a recording asks for is not fought.
+//!
+//! The impulses are part of the momentum with which a substep is solved, so that motors, limits and contacts answer to
+//! them. Each is found from the velocity at the end, and the substep is solved again, as long as a pair comes too near
+//! and at most [`ROUNDS`] times. A correction counts on the mass that the pair feels with every joint free, for all
+//! pairs at once: motors and floor only add to it, so no correction overshoots. What is left shows as depth, and a part
+//! of the depth is taken back per substep, as on the ground. Nothing passes from one substep to the next.
+
+use super::params::contact::{
+    COMPLIANCE, PENETRATION_RETURN, PENETRATION_SLOP, PENETRATION_SPEED, SPECULATIVE_HEIGHT,
+};
+use super::params::second_hand::TOUCH_SLACK;
+use super::params::self_contact::{ROUNDS, TOLERANCE};
+use crate::sim::body::topology::{
+    ABDOMEN, CHEST, HEAD, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_THIGH, L_TOES, L_UPPER_ARM, NV,
+    PELVIS, R_FOOT, R_FOREARM, R_HAND, R_SHANK, R_THIGH, R_TOES, R_UPPER_ARM, SEGMENT_COUNT,
+    SegmentId,
+};
+use crate::sim::body::{Body, Posture};
+use crate::sim::collide::narrow::{Near, capsules};
+use crate::sim::collide::shape::BodyShape;
+use crate::sim::dynamics::jacobian::for_each_column;
+use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
+use crate::sim::math::{Mat3, Quat, Vec3};
+use crate::sim::motion::TargetPair;
+use crate::sim::motion::leg_ik::forward;
+
+/// Most pairs that are near each other in one substep; more do not meet.
+pub const MAX_PAIRS: usize = 32;
+
+/// Segments that can meet, first those with the least to do with each other's joints. A shoulder or hip joins its two
+/// segments, so these overlap.
+const PAIRS: &[(&[SegmentId], &[SegmentId])] = &[
+    (
+        &[L_FOREARM, L_HAND, R_FOREARM, R_HAND],
+        &[
+            PELVIS, ABDOMEN, CHEST, HEAD, L_THIGH, R_THIGH, L_SHANK, R_SHANK,
+        ],
+    ),
+    (
+        &[L_UPPER_ARM, R_UPPER_ARM],
+        &[PELVIS, ABDOMEN, HEAD, L_THIGH, R_THIGH],
+    ),
+    (
+        &[L_UPPER_ARM, L_FOREARM, L_HAND],
+        &[R_UPPER_ARM, R_FOREARM, R_HAND],
+    ),
+    (
+        &[L_THIGH, L_SHANK, L_FOOT, L_TOES],
+        &[R_THIGH, R_SHANK, R_FOOT, R_TOES],
+    ),
+];
+
+/// What a body needs to be known of so that it can meet itself.
+#[derive(Clone, Copy, Debug)]
+pub struct OwnBody<'a> {
+    /// Capsules of its segments.
+    pub shape: &'a BodyShape,
+    /// Desired motion of the tick: it may be in itself as far as this is.
+    pub desired: &'a TargetPair,
+}
+
+/// Two segments that are near each other.
+#[derive(Clone, Debug)]
+struct Pair {
+    segments: [SegmentId; 2],
+    /// Nearest point, world, m.
+    point: Vec3,
+    /// From the second segment to the first, world axes.
+    normal: Vec3,
+    /// Distance of the surfaces, m.
+    gap: f64,
+    /// Derivative of the distance by the velocity.
+    row: [f64; NV],
+    /// `M⁻¹` times the row, once the pair has met.
+    answer: Option<[f64; NV]>,
+    /// Rate at which the distance may fall at most, if negative, or has to grow, m/s; once it is asked for.
+    least_rate: Option<f64>,
+    /// Impulse per rate that is missing, kg.
+    mass: f64,
+    /// By how much the rate is too low, m/s.
+    missing: f64,
+    /// Impulse that parts the two, N·s.
+    impulse: f64,
+}
+
+impl Pair {
+    fn rate(&self, v: &[f64; NV]) -> f64 {
+        product(&self.row, v)
+    }
+}
+
+fn product(a: &[f64; NV], b: &[f64; NV]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Where the segments of a posture are.
+#[derive(Clone, Debug)]
+struct Placed {
+    position: [Vec3; SEGMENT_COUNT],
+    rotation: [Mat3; SEGMENT_COUNT],
+}
+
+impl Placed {
+    /// Seen from the pelvis, so that nothing depends on where in the world the figure is.
+    fn of(body: &Body, posture: &Posture) -> Self {
+        let poses = forward(
+            body,
+            &Posture {
+                root_position: Vec3::zero(),
+                root_rotation: Quat::identity(),
+                ..*posture
+            },
+        );
+        Self {
+            position: poses.map(|(at, _)| at),
+            rotation: poses.map(|(_, turned)| turned.to_mat3()),
+        }
+    }
+}
+
+/// Nearest points of two segments.
+fn nearest(
+    shape: &BodyShape,
+    position: &[Vec3; SEGMENT_COUNT],
+    rotation: &[Mat3; SEGMENT_COUNT],
+    [a, b]: [SegmentId; 2],
+) -> Option<Near> {
+    let placed = |s: SegmentId| {
+        let i = s.index();
+        let all = shape.capsules[i].iter();
+        all.map(move |c| c.placed(position[i], &rotation[i]))
+    };
+    let mut least: Option<Near> = None;
+    for first in placed(a) {
+        for second in placed(b) {
+            let near = capsules(&first, &second);
+            if least.is_none_or(|l| near.gap < l.gap) {
+                least = Some(near);
+            }
+        }
+    }
+    least
+}
+
+/// Calls `each` with the nearest points of every pair of segments that can meet, seen from the pelvis. No allocation.
+pub fn distances(
+    body: &Body,
+    shape: &BodyShape,
+    posture: &Posture,
+    mut each: impl FnMut([SegmentId; 2], Near),
+) {
+    let at = Placed::of(body, posture);
+    for (first, second) in PAIRS {
+        for a in *first {
+            for b in *second {
+                if let Some(near) = nearest(shape, &at.position, &at.rotation, [*a, *b]) {
+                    each([*a, *b], near);
+                }
+            }
+        }
+    }
+}
+
+/// Contacts of a body with itself in the current substep.
+#[derive(Clone, Debug)]
+pub(super) struct SelfContact {
+    pairs: Vec<Pair>,
+    /// The desired postures at both ends of the tick, once they are asked for.
+    desired: Option<[Placed; 2]>,
+    /// Factor of the inertia matrix, if it is that of this substep.
+    factor: MassMatrix<f64>,
+    factored: bool,
+    /// Length of the substep, s.
+    h: f64,
+}
+
+impl Default for SelfContact {
+    fn default() -> Self {
+        Self {
+            pairs: Vec::with_capacity(MAX_PAIRS),
+            desired: None,
+            factor: MassMatrix::default(),
+            factored: false,
+            h: 0.0,
+        }
+    }
+}
+
+impl SelfContact {
+    /// Starts a tick.
+    pub fn begin(&mut self) {
+        self.desired = None;
+    }
+
+    /// Starts a substep of `h` s: finds the pairs that are near each other or could meet. No allocation.
+    pub fn open(&mut self, own: Option<&OwnBody<'_>>, terms: &Terms, h: f64) {
+        self.pairs.clear();
+        self.factored = false;
+        self.h = h;
+        let Some(OwnBody { shape, .. }) = own else {
+            return;
+        };
+        let kin = &terms.kin;
+        let balls: [(Vec3, f64); SEGMENT_COUNT] = std::array::from_fn(|s| {
+            let (centre, radius) = shape.bound[s];
+            let r = kin.rotation[s] * centre;
+            let speed =
+                (kin.velocity[s] + kin.omega[s].cross(r)).norm() + kin.omega[s].norm() * radius;
+            (
+                kin.position[s] + r,
+                radius + h * speed + 0.5 * SPECULATIVE_HEIGHT,
+            )
+        });
+        for (first, second) in PAIRS {
+            for a in *first {
+                for b in *second {
+                    let ((p, r), (q, s)) = (balls[a.index()], balls[b.index()]);
+                    let (d, reach) = (p - q, r + s);
+                    if d.dot(d) < reach * reach && self.pairs.len() < MAX_PAIRS {
+                        self.look_at(shape, terms, [*a, *b]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds a pair if it is near or comes near.
+    fn look_at(&mut self, shape: &BodyShape, terms: &Terms, segments: [SegmentId; 2]) {
+        let kin = &terms.kin;
+        let Some(near) = nearest(shape, &kin.position, &kin.rotation, segments) else {
+            return;
+        };
+        let velocity = |s: SegmentId| {
+            let i = s.index();
+            kin.velocity[i] + kin.omega[i].cross(near.position - kin.position[i])
+        };
+        let [a, b] = segments;
+        let rate = near.normal.dot(velocity(a) - velocity(b));
+        if near.gap > SPECULATIVE_HEIGHT && near.gap + self.h * rate > 0.0 {
+            return;
+        }
+        let mut row = [0.0; NV];
+        for (sign, s) in [(1.0, a), (-1.0, b)] {
+            for_each_column(kin, s.index(), near.position, |i, _, v| {
+                row[i] += sign * v.dot(near.normal)
+            });
+        }
+        self.pairs.push(Pair {
+            segments,
+            point: terms.state.posture.root_position + near.position,
+            normal: near.normal,
+            gap: near.gap,
+            row,
+            answer: None,
+            least_rate: None,
+            mass: 0.0,
+            missing: 0.0,
+            impulse: 0.0,
+        });
+    }
+
+    /// Corrects the impulses for a substep at whose end the velocity would be `v`. False if that changes nothing: no
+    /// pair comes nearer than it may, and none is pushed more than it takes. No allocation.
+    pub fn correct(
+        &mut self,
+        own: Option<&OwnBody<'_>>,
+        body: &Body,
+        terms: &Terms,
+        v: &[f64; NV],
+    ) -> bool {
+        let Some(own) = own else {
+            return false;
+        };
+        let (mut off, mut more) = (false, false);
+        for k in 0..self.pairs.len() {
+            let pair = &self.pairs[k];
+            let rate = pair.rate(v);
+            let parted = pair.impulse == 0.0;
+            if parted && pair.gap + self.h * rate >= 0.0 {
+                self.pairs[k].missing = 0.0;
+                continue;
+            }
+            let missing = self.least_rate(own, body, k) - rate;
+            off |= missing > TOLERANCE || (!parted && missing < -TOLERANCE);
+            more |= missing > 0.0 && self.pairs[k].answer.is_none();
+            self.pairs[k].missing = missing;
+        }
+        if !off {
+            return false;
+        }
+        if more {
+            self.weigh(terms);
+        }
+        for pair in self.pairs.iter_mut().filter(|p| p.answer.is_some()) {
+            pair.impulse = (pair.impulse + pair.mass * pair.missing).max(0.0);
+        }
+        true
+    }
+
+    /// Least rate of the distance of pair `k`, m/s: what is left may close within the substep; of what is too deep a
+    /// part is taken back.
+    fn least_rate(&mut self, own: &OwnBody<'_>, body: &Body, k: usize) -> f64 {
+        let Pair {
+            segments,
+            gap,
+            least_rate,
+            ..
+        } = self.pairs[k];
+        if let Some(known) = least_rate {
+            return known;
+        }
+        let TargetPair { now, next } = own.desired;
+        let desired = self
+            .desired
+            .get_or_insert_with(|| [now, next].map(|t| Placed::of(body, &t.posture)));
+        let deepest = desired.iter().fold(0.0f64, |least, at| {
+            let near = nearest(own.shape, &at.position, &at.rotation, segments);
+            near.map_or(least, |near| least.min(near.gap - TOUCH_SLACK))
+        });
+        let left = gap - deepest;
+        let rate = if left > 0.0 {
+            -left / self.h
+        } else {
+            (PENETRATION_RETURN * (-left - PENETRATION_SLOP).max(0.0) / self.h)
+                .min(PENETRATION_SPEED)
+        };
+        self.pairs[k].least_rate = Some(rate);
+        rate
+    }
+
+    /// Masses of all pairs that have met. With their diagonal in place of the matrix `J M⁻¹ Jᵀ`, whose rows they sum
+    /// up, the corrections of all pairs together are no more than each takes.
+    fn weigh(&mut self, terms: &Terms) {
+        if !self.factored {
+            self.factor.rows = terms.mass_matrix.rows;
+            factor(&mut self.factor);
+            self.factored = true;
+        }
+        for pair in &mut self.pairs {
+            if pair.answer.is_none() && pair.missing > 0.0 {
+                let mut answer = pair.row;
+                solve(&self.factor, &mut answer);
+                pair.answer = Some(answer);
+            }
+        }
+        for k in 0..self.pairs.len() {
+            let Some(answer) = &self.pairs[k].answer else {
+                continue;
+            };
+            let met = self.pairs.iter().filter(|p| p.answer.is_some());
+            let sum: f64 = met.map(|p| product(&p.row, answer).abs()).sum();
+            self.pairs[k].mass = 1.0 / (sum + COMPLIANCE);
+        }
+    }
+
+    /// Adds the impulses to a momentum.
+    pub fn add_to(&self, momentum: &mut [f64; NV]) {
+        for pair in self.pairs.iter().filter(|p| p.impulse > 0.0) {
+            for (x, r) in momentum.iter_mut().zip(&pair.row) {
+                *x += pair.impulse * r;
+            }
+        }
+    }
+
+    /// The forces of the substep: segment, world point, world force, N.
+    pub fn forces(&self) -> impl Iterator<Item = (SegmentId, Vec3, Vec3)> {
+        let pushed = self.pairs.iter().filter(|p| p.impulse > 0.0);
+        pushed.flat_map(|p| {
+            let force = p.normal * (p.impulse / self.h);
+            [
+                (p.segments[0], p.point, force),
+                (p.segments[1], p.point, -force),
+            ]
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;
