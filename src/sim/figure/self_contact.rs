@@ -10,15 +10,16 @@
 //!
 //! The impulses are part of the momentum with which a substep is solved, so that motors, limits and contacts answer to
 //! them. Each is found from the velocity at the end, and the substep is solved again, as long as a pair comes too near
-//! and at most [`ROUNDS`] times. A correction counts on the mass that the pair feels with every joint free, for all
-//! pairs at once: motors and floor only add to it, so no correction overshoots. What is left shows as depth, and a part
-//! of the depth is taken back per substep, as on the ground. Nothing passes from one substep to the next.
+//! and at most three times. A correction counts on the mass that the pair feels, for all pairs at once: first with
+//! motors, limits and floor as they were in the solve before, at last with every joint free. Motors and floor only add
+//! to that mass, so the last correction does not overshoot. What is left shows as depth, and a part of the depth is
+//! taken back per substep, as on the ground. Nothing passes from one substep to the next.
 
 use super::params::contact::{
     COMPLIANCE, PENETRATION_RETURN, PENETRATION_SLOP, PENETRATION_SPEED, SPECULATIVE_HEIGHT,
 };
 use super::params::second_hand::TOUCH_SLACK;
-use super::params::self_contact::{ROUNDS, TOLERANCE};
+use super::params::self_contact::TOLERANCE;
 use crate::sim::body::topology::{
     ABDOMEN, CHEST, HEAD, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_THIGH, L_TOES, L_UPPER_ARM, NV,
     PELVIS, R_FOOT, R_FOREARM, R_HAND, R_SHANK, R_THIGH, R_TOES, R_UPPER_ARM, SEGMENT_COUNT,
@@ -80,12 +81,12 @@ struct Pair {
     gap: f64,
     /// Derivative of the distance by the velocity.
     row: [f64; NV],
-    /// `M⁻¹` times the row, once the pair has met.
-    answer: Option<[f64; NV]>,
+    /// The two have come nearer than they may, in one of the solves of the substep.
+    met: bool,
+    /// What an impulse between them does to the velocity.
+    answer: [f64; NV],
     /// Rate at which the distance may fall at most, if negative, or has to grow, m/s; once it is asked for.
     least_rate: Option<f64>,
-    /// Impulse per rate that is missing, kg.
-    mass: f64,
     /// By how much the rate is too low, m/s.
     missing: f64,
     /// Impulse that parts the two, N·s.
@@ -177,7 +178,7 @@ pub(super) struct SelfContact {
     /// The desired postures at both ends of the tick, once they are asked for.
     desired: Option<[Placed; 2]>,
     /// Factor of the inertia matrix, if it is that of this substep.
-    factor: MassMatrix<f64>,
+    free: MassMatrix<f64>,
     factored: bool,
     /// Length of the substep, s.
     h: f64,
@@ -188,7 +189,7 @@ impl Default for SelfContact {
         Self {
             pairs: Vec::with_capacity(MAX_PAIRS),
             desired: None,
-            factor: MassMatrix::default(),
+            free: MassMatrix::default(),
             factored: false,
             h: 0.0,
         }
@@ -260,9 +261,9 @@ impl SelfContact {
             normal: near.normal,
             gap: near.gap,
             row,
-            answer: None,
+            met: false,
+            answer: [0.0; NV],
             least_rate: None,
-            mass: 0.0,
             missing: 0.0,
             impulse: 0.0,
         });
@@ -270,17 +271,22 @@ impl SelfContact {
 
     /// Corrects the impulses for a substep at whose end the velocity would be `v`. False if that changes nothing: no
     /// pair comes nearer than it may, and none is pushed more than it takes. No allocation.
+    ///
+    /// * `body`: with what it needs to meet itself.
+    /// * `mass`: inertia matrix of the substep.
+    /// * `solved`: factor of the matrix that the substep was solved with, stiffness of motors, limits and contacts
+    ///   included; without it every joint counts as free.
     pub fn correct(
         &mut self,
-        own: Option<&OwnBody<'_>>,
-        body: &Body,
-        terms: &Terms,
+        body: (&Body, Option<&OwnBody<'_>>),
+        mass: &MassMatrix<f64>,
+        solved: Option<&MassMatrix<f64>>,
         v: &[f64; NV],
     ) -> bool {
-        let Some(own) = own else {
+        let (body, Some(own)) = body else {
             return false;
         };
-        let (mut off, mut more) = (false, false);
+        let mut off = false;
         for k in 0..self.pairs.len() {
             let pair = &self.pairs[k];
             let rate = pair.rate(v);
@@ -291,19 +297,13 @@ impl SelfContact {
             }
             let missing = self.least_rate(own, body, k) - rate;
             off |= missing > TOLERANCE || (!parted && missing < -TOLERANCE);
-            more |= missing > 0.0 && self.pairs[k].answer.is_none();
+            self.pairs[k].met |= missing > 0.0;
             self.pairs[k].missing = missing;
         }
-        if !off {
-            return false;
+        if off {
+            self.push(mass, solved);
         }
-        if more {
-            self.weigh(terms);
-        }
-        for pair in self.pairs.iter_mut().filter(|p| p.answer.is_some()) {
-            pair.impulse = (pair.impulse + pair.mass * pair.missing).max(0.0);
-        }
-        true
+        off
     }
 
     /// Least rate of the distance of pair `k`, m/s: what is left may close within the substep; of what is too deep a
@@ -337,28 +337,32 @@ impl SelfContact {
         rate
     }
 
-    /// Masses of all pairs that have met. With their diagonal in place of the matrix `J M⁻¹ Jᵀ`, whose rows they sum
-    /// up, the corrections of all pairs together are no more than each takes.
-    fn weigh(&mut self, terms: &Terms) {
-        if !self.factored {
-            self.factor.rows = terms.mass_matrix.rows;
-            factor(&mut self.factor);
+    /// Corrects the impulses of all pairs that have met. Each counts on the mass from the sum of its row of
+    /// `J M⁻¹ Jᵀ`, so that all of them together are no more than each takes.
+    fn push(&mut self, mass: &MassMatrix<f64>, solved: Option<&MassMatrix<f64>>) {
+        if solved.is_none() && !self.factored {
+            self.free.rows = mass.rows;
+            factor(&mut self.free);
             self.factored = true;
         }
-        for pair in &mut self.pairs {
-            if pair.answer.is_none() && pair.missing > 0.0 {
-                let mut answer = pair.row;
-                solve(&self.factor, &mut answer);
-                pair.answer = Some(answer);
-            }
+        let matrix = solved.unwrap_or(&self.free);
+        for pair in self.pairs.iter_mut().filter(|p| p.met) {
+            pair.answer = pair.row;
+            solve(matrix, &mut pair.answer);
         }
         for k in 0..self.pairs.len() {
-            let Some(answer) = &self.pairs[k].answer else {
-                continue;
-            };
-            let met = self.pairs.iter().filter(|p| p.answer.is_some());
-            let sum: f64 = met.map(|p| product(&p.row, answer).abs()).sum();
-            self.pairs[k].mass = 1.0 / (sum + COMPLIANCE);
+            let Pair {
+                met,
+                missing,
+                impulse,
+                ..
+            } = self.pairs[k];
+            if met {
+                let others = self.pairs.iter().filter(|p| p.met);
+                let answers = others.map(|p| product(&p.row, &self.pairs[k].answer).abs());
+                let mobility = answers.sum::<f64>() + COMPLIANCE;
+                self.pairs[k].impulse = (impulse + missing / mobility).max(0.0);
+            }
         }
     }
 

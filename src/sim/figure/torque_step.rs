@@ -592,14 +592,19 @@ impl TorqueStepper {
             &state.velocity,
             &mut self.solver.newton,
         );
-        let (own, body) = (input.own.as_ref(), input.body);
-        self.own.correct(own, body, &self.terms, &state.velocity);
+        let body = (input.body, input.own.as_ref());
+        let mass = &self.terms.mass_matrix;
+        self.own.correct(body, mass, None, &state.velocity);
         let mut x = momentum;
         for round in 0..=self_contact::ROUNDS {
             x = momentum;
             self.own.add_to(&mut x);
             self.solve_sliding(&x, spring, &mut v);
-            if round == self_contact::ROUNDS || !self.own.correct(own, body, &self.terms, &v) {
+            let last = round + 1 >= self_contact::ROUNDS;
+            let known = self.solution.outcome.iterations > 0 && !last;
+            let solved = known.then_some(&self.solver.hessian);
+            let mass = &self.terms.mass_matrix;
+            if round == self_contact::ROUNDS || !self.own.correct(body, mass, solved, &v) {
                 break;
             }
         }

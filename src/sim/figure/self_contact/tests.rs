@@ -8,7 +8,7 @@ use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 use crate::sim::body::{Body, Links};
 use crate::sim::contact::Tissue;
-use crate::sim::dynamics::{Kinematics, kinetic_energy, momentum, rotor_energy};
+use crate::sim::dynamics::{Kinematics, kinetic_energy, rotor_energy};
 use crate::sim::figure::plan_task::Planning;
 use crate::sim::figure::rehearsed::MotorLaw;
 use crate::sim::figure::tick::TickContext;
@@ -210,7 +210,12 @@ fn capsules_of_a_body_at_rest_are_as_near_as_expected() {
         name(&crate::sim::motion::builtin::at_ease(&rig.body))
     );
     println!("folded {:?}", name(&folded()));
-    assert_eq!(name(&apart()), []);
+    // Thighs touch where they come from the pelvis; nothing else does.
+    let near = name(&apart());
+    assert!(
+        near.iter()
+            .all(|(pair, gap)| *pair == ["l_thigh", "r_thigh"] && *gap > -10)
+    );
 }
 
 /// Deepest in 2 s.
@@ -238,7 +243,7 @@ fn driven(meets: bool) -> (f64, [&'static str; 2]) {
 fn arms_and_legs_that_are_driven_inwards_stop_at_the_surface() {
     let (with, without) = (driven(true), driven(false));
     println!("{with:?} instead of {without:?}");
-    assert!(with.0 < 0.02 && without.0 > 0.06, "{with:?} {without:?}");
+    assert!(with.0 < 0.02 && without.0 > 0.1, "{with:?} {without:?}");
 }
 
 /// Thrown down tumbling, limbs flung about.
@@ -283,7 +288,7 @@ fn a_limp_body_thrown_down_stays_out_of_itself() {
     let deepest = |all: &[(f64, [&str; 2])]| all.iter().fold(0.0f64, |m, d| m.max(d.0));
     let (with, without) = (deepest(&fallen(true)), deepest(&fallen(false)));
     println!("{with} instead of {without}");
-    assert!(with < 0.05 && without > 0.1, "{with} {without}");
+    assert!(with < 0.03 && without > 0.1, "{with} {without}");
 }
 
 #[test]
@@ -304,47 +309,58 @@ fn arms_that_press_on_the_trunk_change_no_momentum() {
         }
         pressed = pressed.max(size);
         assert!(force.norm() <= 1e-9 && moment.norm() <= 1e-9 * size.max(1.0));
-        // What the impulses do to the momenta of the step itself.
-        let total = |velocity: &[f64; NV]| {
-            let mut kin = Kinematics::default();
-            let at = State {
-                velocity: *velocity,
-                ..audit.state
-            };
-            kin.set_state(&rig.links, &at);
-            momentum(&rig.links, &kin)
-        };
-        let h = rig.world.dt / f64::from(rig.world.substeps);
-        let before = audit.state.velocity;
-        let after = std::array::from_fn(|i| before[i] + h * audit.acceleration[i]);
-        let (p, q) = (total(&before), total(&after));
-        let change = (q.linear - p.linear).norm();
-        assert!(change < 1e-9, "{change}");
+        // What the motion of the step asks for from outside.
+        let mut terms = Terms::default();
+        terms.compute(&rig.links, &audit.state, &[], 0.0);
+        let (force, moment) = terms.ground_wrench(&audit.acceleration);
+        let asked = force.norm().max(moment.norm());
+        assert!(asked < 1e-9 * size.max(1.0), "{asked} of {size}");
     }
     assert!(pressed > 50.0, "{pressed}");
 }
 
+/// Energy at the end over that at the start of a limp body that flies for 1 s in steps of `dt`, and the largest share
+/// of it that self-contact adds in one step.
+fn flown(rng: &mut Pcg64Mcg, dt: f64, meets: bool) -> [f64; 2] {
+    let mut rig = Rig::new(1e-9, 0.0, meets);
+    (rig.world.dt, rig.world.substeps) = (dt, 1);
+    let mut state = thrown(rng);
+    state.posture.root_position.z = 20.0;
+    let start = rig.energy(&state);
+    let (mut most, mut met) = (0.0f64, 0);
+    for _ in 0..(1.0 / dt) as usize {
+        rig.step(&mut state);
+        let mut kin = Kinematics::default();
+        let audit = &rig.stepper.forces.audit;
+        let after = State {
+            velocity: state.velocity,
+            ..audit.state
+        };
+        kin.set_state(&rig.links, &after);
+        let work = |(s, at, force): &(SegmentId, Vec3, Vec3)| {
+            let r = *at - after.posture.root_position - kin.position[s.index()];
+            dt * force.dot(kin.velocity[s.index()] + kin.omega[s.index()].cross(r))
+        };
+        most = most.max(audit.applied.iter().map(work).sum());
+        met += usize::from(!audit.applied.is_empty());
+    }
+    println!(
+        "{start:.1} J to {:.1} J, {most:.3} J in a step, met in {met}",
+        rig.energy(&state)
+    );
+    assert!(!meets || met > 0);
+    [rig.energy(&state) / start, most / start]
+}
+
 #[test]
 fn a_limp_body_that_meets_itself_gains_no_energy() {
-    let mut rng = Pcg64Mcg::seed_from_u64(5);
-    for _ in 0..6 {
-        let mut rig = Rig::new(1e-9, 0.0, true);
-        let mut state = thrown(&mut rng);
-        state.posture.root_position.z = 20.0;
-        let mut most = 0.0f64;
-        let start = rig.energy(&state);
-        let mut last = start;
-        let mut met = 0;
-        for _ in 0..180 {
-            rig.step(&mut state);
-            let now = rig.energy(&state);
-            most = most.max(now - last);
-            met += usize::from(!rig.stepper.forces.audit.applied.is_empty());
-            last = now;
-        }
-        println!("{start:.2} J to {last:.2} J, most {most:.1e} in a tick, met in {met}");
-        assert!(most < 0.02 * start, "{most} of {start}");
-        assert!(last < start && met > 0);
+    for seed in 0..5 {
+        let rng = || Pcg64Mcg::seed_from_u64(seed);
+        let dt = 1.0 / 960.0;
+        let ([with, most], [without, _]) =
+            (flown(&mut rng(), dt, true), flown(&mut rng(), dt, false));
+        println!("{with} and {without}, {most}");
+        assert!(with < 1.01 && most < 0.01, "{with} {without} {most}");
     }
 }
 
