@@ -26,6 +26,15 @@ impl Capsule {
         0.5 * (self.b - self.a).norm() + self.ra.max(self.rb)
     }
 
+    /// The half of it at its first end: for a limb the one away from the joint that carries it.
+    pub fn first_half(&self) -> Self {
+        Self {
+            b: (self.a + self.b) * 0.5,
+            rb: 0.5 * (self.ra + self.rb),
+            ..*self
+        }
+    }
+
     /// The capsule of a segment whose origin is at `at` and that is turned by `turned`.
     pub fn placed(&self, at: Vec3, turned: &Mat3) -> Self {
         Self {

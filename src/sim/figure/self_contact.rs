@@ -27,7 +27,7 @@ use crate::sim::body::topology::{
 };
 use crate::sim::body::{Body, Posture};
 use crate::sim::collide::narrow::{Near, capsules};
-use crate::sim::collide::shape::BodyShape;
+use crate::sim::collide::shape::{BodyShape, Capsule};
 use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
 use crate::sim::math::{Mat3, Quat, Vec3};
@@ -37,8 +37,7 @@ use crate::sim::motion::leg_ik::forward;
 /// Most pairs that are near each other in one substep; more do not meet.
 pub const MAX_PAIRS: usize = 32;
 
-/// Segments that can meet, first those with the least to do with each other's joints. A shoulder or hip joins its two
-/// segments, so these overlap.
+/// Segments that can meet. A joint's own two segments overlap and are left out.
 const PAIRS: &[(&[SegmentId], &[SegmentId])] = &[
     (
         &[L_FOREARM, L_HAND, R_FOREARM, R_HAND],
@@ -128,6 +127,14 @@ impl Placed {
     }
 }
 
+/// True if only the half of a limb that is away from the trunk meets the other segment: thighs are side by side where
+/// they come from the pelvis, and shoulders are part of the trunk. A force there would turn nothing.
+fn meets_with_half(limb: SegmentId, other: SegmentId) -> bool {
+    let of = |all: [SegmentId; 2]| all.contains(&limb);
+    let thighs = [L_THIGH, R_THIGH];
+    of([L_UPPER_ARM, R_UPPER_ARM]) || of(thighs) && thighs.contains(&other)
+}
+
 /// Nearest points of two segments.
 fn nearest(
     shape: &BodyShape,
@@ -135,14 +142,15 @@ fn nearest(
     rotation: &[Mat3; SEGMENT_COUNT],
     [a, b]: [SegmentId; 2],
 ) -> Option<Near> {
-    let placed = |s: SegmentId| {
-        let i = s.index();
+    let placed = |s: SegmentId, other: SegmentId| {
+        let (i, half) = (s.index(), meets_with_half(s, other));
         let all = shape.capsules[i].iter();
-        all.map(move |c| c.placed(position[i], &rotation[i]))
+        let part = move |c: &Capsule| if half { c.first_half() } else { *c };
+        all.map(move |c| part(c).placed(position[i], &rotation[i]))
     };
     let mut least: Option<Near> = None;
-    for first in placed(a) {
-        for second in placed(b) {
+    for first in placed(a, b) {
+        for second in placed(b, a) {
             let near = capsules(&first, &second);
             if least.is_none_or(|l| near.gap < l.gap) {
                 least = Some(near);
