@@ -343,6 +343,13 @@ pub mod self_contact {
     crate::sim::params::params! {
         /// Most solves of one substep after its first, each with corrected impulses.
         ROUNDS: u32 = 3, "rounds", 1..=10, "docs/tick.md#self-contact";
+        /// How much deeper than in the motion a pair may be without a force: the shapes are capsules, which are off from
+        /// the surface by as much.
+        SLACK: f64 = 0.03, "m", 0..=0.05, "docs/tick.md#self-contact";
+        /// Stiffness of what is between bones where limbs press on each other or on the trunk: 100 N press 1 cm.
+        STIFFNESS: f64 = 1e4, "N/m", 2e3..=1e5, "docs/tick.md#self-contact";
+        /// Damping over stiffness: about critical for an arm.
+        RELAXATION: f64 = 0.02, "s", 0..=0.1, "docs/tick.md#self-contact";
         /// Rate at which a pair may still come nearer than it may: 0.1 mm in a substep.
         TOLERANCE: f64 = 0.01, "m/s", 1e-6..=0.1, "numerical";
     }

@@ -8,18 +8,16 @@
 //! How near a pair may come is what the desired motion itself does: no nearer than touching, or than in the desired
 //! posture at the beginning or end of the tick, whichever is nearest. What a recording asks for is not fought.
 //!
-//! The impulses are part of the momentum with which a substep is solved, so that motors, limits and contacts answer to
-//! them. Each is found from the velocity at the end, and the substep is solved again, as long as a pair comes too near
-//! and at most three times. A correction counts on the mass that the pair feels, for all pairs at once: first with
-//! motors, limits and floor as they were in the solve before, at last with every joint free. Motors and floor only add
-//! to that mass, so the last correction does not overshoot. What is left shows as depth, and a part of the depth is
-//! taken back per substep, as on the ground. Nothing passes from one substep to the next.
+//! Between them is soft tissue: a spring with a damper, whose force is that at the end of the substep, so that no
+//! stiffness is too much for the length of a step. The impulses are part of the momentum with which a substep is solved,
+//! so that motors, limits and contacts answer to them. Each is found from the velocity at the end, and the substep is
+//! solved again, as long as a pair is pushed too little or too much and at most three times. A correction counts on the
+//! mass that the pair feels, for all pairs at once: first with motors, limits and floor as they were in the solve
+//! before, at last with every joint free. Motors and floor only add to that mass, so the last correction does not
+//! overshoot. Nothing passes from one substep to the next.
 
-use super::params::contact::{
-    COMPLIANCE, PENETRATION_RETURN, PENETRATION_SLOP, PENETRATION_SPEED, SPECULATIVE_HEIGHT,
-};
-use super::params::second_hand::TOUCH_SLACK;
-use super::params::self_contact::TOLERANCE;
+use super::params::contact::SPECULATIVE_HEIGHT;
+use super::params::self_contact::{RELAXATION, SLACK, STIFFNESS, TOLERANCE};
 use crate::sim::body::topology::{
     ABDOMEN, CHEST, HEAD, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_THIGH, L_TOES, L_UPPER_ARM, NV,
     PELVIS, R_FOOT, R_FOREARM, R_HAND, R_SHANK, R_THIGH, R_TOES, R_UPPER_ARM, SEGMENT_COUNT,
@@ -84,7 +82,7 @@ struct Pair {
     met: bool,
     /// What an impulse between them does to the velocity.
     answer: [f64; NV],
-    /// Rate at which the distance may fall at most, if negative, or has to grow, m/s; once it is asked for.
+    /// Rate of the distance below which the two push each other, m/s; once it is asked for.
     least_rate: Option<f64>,
     /// By how much the rate is too low, m/s.
     missing: f64,
@@ -303,7 +301,8 @@ impl SelfContact {
                 self.pairs[k].missing = 0.0;
                 continue;
             }
-            let missing = self.least_rate(own, body, k) - rate;
+            let given = self.compliance() * self.pairs[k].impulse;
+            let missing = self.least_rate(own, body, k) - rate - given;
             off |= missing > TOLERANCE || (!parted && missing < -TOLERANCE);
             self.pairs[k].met |= missing > 0.0;
             self.pairs[k].missing = missing;
@@ -314,8 +313,13 @@ impl SelfContact {
         off
     }
 
-    /// Least rate of the distance of pair `k`, m/s: what is left may close within the substep; of what is too deep a
-    /// part is taken back.
+    /// Rate by which tissue gives way per impulse, 1/kg. Its force is that at the end of the substep: stiffness times
+    /// depth, and damping times rate.
+    fn compliance(&self) -> f64 {
+        1.0 / (STIFFNESS * self.h * (self.h + RELAXATION))
+    }
+
+    /// Rate of the distance of pair `k` below which its tissue pushes, m/s: what is left may close within the substep.
     fn least_rate(&mut self, own: &OwnBody<'_>, body: &Body, k: usize) -> f64 {
         let Pair {
             segments,
@@ -332,15 +336,15 @@ impl SelfContact {
             .get_or_insert_with(|| [now, next].map(|t| Placed::of(body, &t.posture)));
         let deepest = desired.iter().fold(0.0f64, |least, at| {
             let near = nearest(own.shape, &at.position, &at.rotation, segments);
-            near.map_or(least, |near| least.min(near.gap - TOUCH_SLACK))
+            near.map_or(least, |near| least.min(near.gap - SLACK))
         });
         let left = gap - deepest;
-        let rate = if left > 0.0 {
-            -left / self.h
-        } else {
-            (PENETRATION_RETURN * (-left - PENETRATION_SLOP).max(0.0) / self.h)
-                .min(PENETRATION_SPEED)
-        };
+        let rate = -left
+            / if left > 0.0 {
+                self.h
+            } else {
+                self.h + RELAXATION
+            };
         self.pairs[k].least_rate = Some(rate);
         rate
     }
@@ -368,7 +372,7 @@ impl SelfContact {
             if met {
                 let others = self.pairs.iter().filter(|p| p.met);
                 let answers = others.map(|p| product(&p.row, &self.pairs[k].answer).abs());
-                let mobility = answers.sum::<f64>() + COMPLIANCE;
+                let mobility = answers.sum::<f64>() + self.compliance();
                 self.pairs[k].impulse = (impulse + missing / mobility).max(0.0);
             }
         }

@@ -238,7 +238,7 @@ fn driven(meets: bool) -> (f64, [&'static str; 2]) {
 fn arms_and_legs_that_are_driven_inwards_stop_at_the_surface() {
     let (with, without) = (driven(true), driven(false));
     println!("{with:?} instead of {without:?}");
-    assert!(with.0 < 0.02 && without.0 > 0.1, "{with:?} {without:?}");
+    assert!(with.0 < 0.05 && without.0 > 0.1, "{with:?} {without:?}");
 }
 
 /// Thrown down tumbling, limbs flung about.
@@ -283,7 +283,7 @@ fn a_limp_body_thrown_down_stays_out_of_itself() {
     let deepest = |all: &[(f64, [&str; 2])]| all.iter().fold(0.0f64, |m, d| m.max(d.0));
     let (with, without) = (deepest(&fallen(true)), deepest(&fallen(false)));
     println!("{with} instead of {without}");
-    assert!(with < 0.03 && without > 0.1, "{with} {without}");
+    assert!(with < 0.05 && without > 0.1, "{with} {without}");
 }
 
 #[test]
