@@ -343,8 +343,8 @@ pub mod self_contact {
     crate::sim::params::params! {
         /// Most solves of one substep after its first, each with corrected impulses.
         ROUNDS: u32 = 3, "rounds", 1..=10, "docs/tick.md#self-contact";
-        /// How much deeper than in the motion a pair may be without a force: the shapes are capsules, which are off from
-        /// the surface by as much.
+        /// How much deeper than in the motion a pair may be without a force: capsules are off from the surface by as
+        /// much.
         SLACK: f64 = 0.03, "m", 0..=0.05, "docs/tick.md#self-contact";
         /// Stiffness of what is between bones where limbs press on each other or on the trunk: 100 N press 1 cm.
         STIFFNESS: f64 = 1e4, "N/m", 2e3..=1e5, "docs/tick.md#self-contact";

@@ -9,12 +9,12 @@
 //! posture at the beginning or end of the tick, whichever is nearest. What a recording asks for is not fought.
 //!
 //! Between them is soft tissue: a spring with a damper, whose force is that at the end of the substep, so that no
-//! stiffness is too much for the length of a step. The impulses are part of the momentum with which a substep is solved,
-//! so that motors, limits and contacts answer to them. Each is found from the velocity at the end, and the substep is
-//! solved again, as long as a pair is pushed too little or too much and at most three times. A correction counts on the
-//! mass that the pair feels, for all pairs at once: first with motors, limits and floor as they were in the solve
-//! before, at last with every joint free. Motors and floor only add to that mass, so the last correction does not
-//! overshoot. Nothing passes from one substep to the next.
+//! stiffness is too much for the length of a step. The impulses are part of the momentum with which a substep is
+//! solved, so that motors, limits and contacts answer to them. Each is found from the velocity at the end, and the
+//! substep is solved again, as long as a pair is pushed too little or too much and at most three times. A correction
+//! counts on the mass that the pair feels, for all pairs at once: first with motors, limits and floor as they were in
+//! the solve before, at last with every joint free. Motors and floor only add to that mass, so the last correction does
+//! not overshoot. Nothing passes from one substep to the next.
 
 use super::params::contact::SPECULATIVE_HEIGHT;
 use super::params::self_contact::{RELAXATION, SLACK, STIFFNESS, TOLERANCE};
