@@ -466,7 +466,8 @@ impl Figure {
                 bar: disturbances.bar(),
                 assist,
             },
-            own: Some(OwnBody {
+            // The paper's body has no tissue.
+            own: (self.setup.controller != ControllerKind::Paper).then_some(OwnBody {
                 shape: &self.constants.shape,
                 desired: target,
             }),
