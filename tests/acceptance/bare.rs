@@ -77,6 +77,7 @@ impl Bare {
                 bar: None,
                 assist: None,
             },
+            own: None,
             world: &TickContext {
                 tick: 0,
                 dt: self.dt,

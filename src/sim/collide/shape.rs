@@ -4,8 +4,8 @@ use crate::sim::body::topology::{
     ABDOMEN, CHEST, L_FOOT, L_TOES, PELVIS, R_FOOT, R_TOES, SEGMENT_COUNT,
 };
 use crate::sim::body::{Body, model::Mesh};
-use crate::sim::math::Vec3;
 use crate::sim::math::vec3::vec3;
+use crate::sim::math::{Mat3, Vec3};
 
 /// All points within `ra…rb` of a line from `a` to `b`; the radius changes linearly.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +24,24 @@ impl Capsule {
     /// Radius of a ball around the middle of the axis that holds the capsule.
     pub fn reach(&self) -> f64 {
         0.5 * (self.b - self.a).norm() + self.ra.max(self.rb)
+    }
+
+    /// The half of it at its first end: for a limb the one away from the joint that carries it.
+    pub fn first_half(&self) -> Self {
+        Self {
+            b: (self.a + self.b) * 0.5,
+            rb: 0.5 * (self.ra + self.rb),
+            ..*self
+        }
+    }
+
+    /// The capsule of a segment whose origin is at `at` and that is turned by `turned`.
+    pub fn placed(&self, at: Vec3, turned: &Mat3) -> Self {
+        Self {
+            a: at + *turned * self.a,
+            b: at + *turned * self.b,
+            ..*self
+        }
     }
 }
 

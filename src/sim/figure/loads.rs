@@ -9,6 +9,7 @@ use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{Kinematics, MassMatrix, Terms, crba, factor, solve};
 use crate::sim::figure::params::second_hand::AHEAD;
 use crate::sim::figure::second_hand::Help;
+use crate::sim::figure::self_contact::MAX_PAIRS;
 use crate::sim::math::Vec3;
 use crate::sim::setup::{HeldLoad, Perturbation, SecondHand};
 use serde::{Deserialize, Serialize};
@@ -17,8 +18,8 @@ use serde::{Deserialize, Serialize};
 pub const MAX_PERTURBATIONS: usize = 64;
 /// Most forces of other bodies in the audit of one figure.
 pub const MAX_EXTERNAL: usize = crate::sim::touch::MAX_ISLAND_CONTACTS;
-/// Most applied forces in an audit: perturbations, a bar, other bodies.
-pub const MAX_APPLIED: usize = MAX_PERTURBATIONS + 2 + MAX_EXTERNAL;
+/// Most applied forces in an audit: perturbations, a bar, other bodies, the body itself.
+pub const MAX_APPLIED: usize = MAX_PERTURBATIONS + 2 + MAX_EXTERNAL + 2 * MAX_PAIRS;
 
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Scheduled {

@@ -19,6 +19,7 @@ pub mod params;
 pub mod plan_task;
 pub mod rehearsed;
 mod second_hand;
+pub mod self_contact;
 pub mod tasks;
 pub mod tick;
 pub mod torque_step;

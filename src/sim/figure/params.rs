@@ -338,6 +338,23 @@ pub mod contact {
     }
 }
 
+/// A body that meets itself.
+pub mod self_contact {
+    crate::sim::params::params! {
+        /// Most solves of one substep after its first, each with corrected impulses.
+        ROUNDS: u32 = 3, "rounds", 1..=10, "docs/tick.md#self-contact";
+        /// How much deeper than in the motion a pair may be without a force: capsules are off from the surface by as
+        /// much.
+        SLACK: f64 = 0.03, "m", 0..=0.05, "docs/tick.md#self-contact";
+        /// Stiffness of what is between bones where limbs press on each other or on the trunk: 100 N press 1 cm.
+        STIFFNESS: f64 = 1e4, "N/m", 2e3..=1e5, "docs/tick.md#self-contact";
+        /// Damping over stiffness: about critical for an arm.
+        RELAXATION: f64 = 0.02, "s", 0..=0.1, "docs/tick.md#self-contact";
+        /// Rate at which a pair may still come nearer than it may: 0.1 mm in a substep.
+        TOLERANCE: f64 = 0.01, "m/s", 1e-6..=0.1, "numerical";
+    }
+}
+
 /// A load in two hands: a bar of fixed length between them.
 pub mod bar {
     crate::sim::params::params! {
@@ -382,7 +399,7 @@ pub mod kinematic {
 }
 
 /// All groups with their names.
-pub fn groups() -> [(&'static str, &'static [Param]); 14] {
+pub fn groups() -> [(&'static str, &'static [Param]); 15] {
     [
         ("support", support::ALL),
         ("staged", staged::ALL),
@@ -396,6 +413,7 @@ pub fn groups() -> [(&'static str, &'static [Param]); 14] {
         ("assist", assist::ALL),
         ("motors", motors::ALL),
         ("contact", contact::ALL),
+        ("self_contact", self_contact::ALL),
         ("bar", bar::ALL),
         ("kinematic", kinematic::ALL),
     ]

@@ -43,6 +43,7 @@ use super::following::FollowMode;
 use super::kinematic_step::{Decision, KinematicStepper};
 use super::loads::MAX_APPLIED;
 use super::plan_task::{LatePlans, Planning};
+use super::self_contact::OwnBody;
 use super::tasks::TaskPoints;
 use super::torque_step::{Accuracy, ExternalForces, StepInput, Stepper, TorqueStepper};
 use super::touches::Chosen;
@@ -467,6 +468,11 @@ impl Figure {
                 bar: disturbances.bar(),
                 assist,
             },
+            // The paper's body has no tissue.
+            own: (self.setup.controller != ControllerKind::Paper).then_some(OwnBody {
+                shape: &self.constants.shape,
+                desired: target,
+            }),
         };
         Integration {
             input,

@@ -8,7 +8,8 @@
 
 use super::assist::{PelvisHelp, Spring};
 use super::loads::{Bar, MAX_EXTERNAL};
-use super::params::{bar, contact, motors};
+use super::params::{bar, contact, motors, self_contact};
+use super::self_contact::{OwnBody, SelfContact};
 use super::tick::TickContext;
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
@@ -47,6 +48,8 @@ pub struct StepInput<'a> {
     pub tissue: Option<&'a Tissue>,
     /// Forces that neither muscles nor contact give.
     pub forces: ExternalForces<'a>,
+    /// What the body needs to meet itself; without it it passes through itself.
+    pub own: Option<OwnBody<'a>>,
     /// Tick, substeps and gravity.
     pub world: &'a TickContext,
 }
@@ -232,6 +235,7 @@ pub struct TorqueStepper {
     solver: SubstepSolver,
     solution: SubstepSolution,
     external: ExternalContacts,
+    own: SelfContact,
     bar: BarImpulse,
     means: TickMeans,
     /// Result of the last tick.
@@ -330,6 +334,7 @@ impl TorqueStepper {
                 impulse: None,
                 forces: Vec::with_capacity(super::loads::MAX_APPLIED),
             },
+            own: SelfContact::default(),
             bar: BarImpulse::default(),
             means: TickMeans {
                 start: [0.0; DOF_COUNT],
@@ -379,6 +384,7 @@ impl TorqueStepper {
     /// Starts a tick.
     pub(crate) fn begin(&mut self, state: &State) {
         self.solution.saturated = None;
+        self.own.begin();
         self.means.start = std::array::from_fn(|j| state.velocity[6 + j]);
         let f = &mut self.forces;
         f.torque.fill(0.0);
@@ -447,7 +453,8 @@ impl TorqueStepper {
         self.problem.row = input.forces.bar.map(|bar| BarRow::new(bar, &self.terms, h));
         self.external.impulse = None;
         self.external.forces.clear();
-        self.solve_substep(h, state, spring.as_ref());
+        self.own.open(input.own.as_ref(), &self.terms, h);
+        self.solve_substep(input, h, state, spring.as_ref());
     }
 
     /// What other bodies give in this substep, after an island has been solved for the velocity that it left in
@@ -561,7 +568,13 @@ impl TorqueStepper {
     /// Solves for the velocity at the end of the substep.
     ///
     /// Problem 14.3.
-    fn solve_substep(&mut self, h: f64, state: &State, spring: Option<&Spring>) {
+    fn solve_substep(
+        &mut self,
+        input: &StepInput<'_>,
+        h: f64,
+        state: &State,
+        spring: Option<&Spring>,
+    ) {
         let t = &self.terms;
         let mut momentum = [0.0; NV];
         t.mass_matrix.mul(&state.velocity, &mut momentum);
@@ -579,24 +592,22 @@ impl TorqueStepper {
             &state.velocity,
             &mut self.solver.newton,
         );
-        loop {
-            let outcome = match self.problem.row {
-                None => self.solve_with(&momentum, spring, &mut v),
-                Some(bar) => self.solve_barred(&momentum, spring, &bar, &mut v),
-            };
-            self.solution.outcome = Outcome {
-                iterations: self.solution.outcome.iterations + outcome.iterations,
-                ..outcome
-            };
-            if !self
-                .problem
-                .slides
-                .again(&mut self.problem.contacts, &self.solver.newton)
-            {
+        let body = (input.body, input.own.as_ref());
+        let mass = &self.terms.mass_matrix;
+        self.own.correct(body, mass, None, &state.velocity);
+        let mut x = momentum;
+        for round in 0..=self_contact::ROUNDS {
+            x = momentum;
+            self.own.add_to(&mut x);
+            self.solve_sliding(&x, spring, &mut v);
+            let last = round + 1 >= self_contact::ROUNDS;
+            let known = self.solution.outcome.iterations > 0 && !last;
+            let solved = known.then_some(&self.solver.hessian);
+            let mass = &self.terms.mass_matrix;
+            if round == self_contact::ROUNDS || !self.own.correct(body, mass, solved, &v) {
                 break;
             }
         }
-        let mut x = momentum;
         for i in 0..6 {
             x[i] += self.solution.assist[i];
         }
@@ -610,6 +621,27 @@ impl TorqueStepper {
         let given = self.solver.newton.motor.iter().enumerate();
         let saturated = given.filter(|(j, t)| **t >= motors.upper[*j] || **t <= motors.lower[*j]);
         self.solution.saturated = Some(saturated.fold(0, |all, (j, _)| all | 1 << j));
+    }
+
+    /// Solves as often as points that slide take.
+    fn solve_sliding(&mut self, momentum: &[f64; NV], spring: Option<&Spring>, v: &mut [f64; NV]) {
+        loop {
+            let outcome = match self.problem.row {
+                None => self.solve_with(momentum, spring, v),
+                Some(bar) => self.solve_barred(momentum, spring, &bar, v),
+            };
+            self.solution.outcome = Outcome {
+                iterations: self.solution.outcome.iterations + outcome.iterations,
+                ..outcome
+            };
+            if !self
+                .problem
+                .slides
+                .again(&mut self.problem.contacts, &self.solver.newton)
+            {
+                break;
+            }
+        }
     }
 
     /// Where Newton's method begins if the motors come first: `v` is the velocity at the start of the substep of `h` s.
@@ -867,6 +899,7 @@ impl TorqueStepper {
                 .applied
                 .extend(self.bar.forces.take().into_iter().flatten());
             f.audit.applied.extend(&self.external.forces);
+            f.audit.applied.extend(self.own.forces());
         }
         for (k, p) in self.problem.contacts.points.iter().enumerate() {
             let impulse = self.solver.newton.force[k];

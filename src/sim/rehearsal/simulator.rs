@@ -7,13 +7,14 @@ use super::settings::Settings;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, State};
+use crate::sim::collide::shape::BodyShape;
 use crate::sim::contact::Tissue;
-use crate::sim::control::Law;
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::assist::PelvisHelp;
 use crate::sim::figure::help;
 use crate::sim::figure::plan_task::Planning;
 use crate::sim::figure::rehearsed::{JointOffset, MotorLaw, RootStep};
+use crate::sim::figure::self_contact::OwnBody;
 use crate::sim::figure::tick::TickContext;
 use crate::sim::figure::torque_step::{
     Accuracy, ExternalForces, StepInput, TorqueRange, TorqueStepper,
@@ -44,12 +45,12 @@ impl Action {
 #[derive(Debug)]
 pub struct Simulator {
     body: Arc<Body>,
+    shape: BodyShape,
     links: Links,
     strength: Arc<Strength>,
     muscles: MuscleScale,
     world: TickContext,
     motors: MotorLaw,
-    law: Law,
     terms: Terms,
     stepper: TorqueStepper,
     available: TorqueRange,
@@ -67,6 +68,7 @@ impl Simulator {
         stepper.set_accuracy(Accuracy::REHEARSED);
         Self {
             body: Arc::clone(&problem.body),
+            shape: BodyShape::new(&problem.body),
             links: problem.links.clone(),
             strength: Arc::clone(&problem.strength),
             muscles: problem.muscles.clone(),
@@ -77,7 +79,6 @@ impl Simulator {
                 gravity: problem.stage.gravity,
                 planning: Planning::InTick,
             },
-            law: motors.law(problem.stage.dt),
             motors,
             terms: Terms::default(),
             stepper,
@@ -131,6 +132,7 @@ impl Simulator {
         self.ticks += 1;
         let Self {
             body,
+            shape,
             links,
             strength,
             muscles,
@@ -146,7 +148,8 @@ impl Simulator {
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
         let TorqueRange { lower, upper } = &mut self.available;
         strength.range(&angles, &rates, muscles, lower, upper);
-        let command = self.motors.command(&self.law, body, state, &moved);
+        let law = self.motors.law(world.dt);
+        let command = self.motors.command(&law, body, state, &moved);
         let pull = (action.help > 0.0).then(|| help::pull(body, action.help));
         let input = StepInput {
             body,
@@ -162,6 +165,10 @@ impl Simulator {
                 bar: None,
                 assist: pull.map(|p| PelvisHelp::Pull(p, target)),
             },
+            own: Some(OwnBody {
+                shape,
+                desired: target,
+            }),
             world,
         };
         self.stepper.begin(state);
