@@ -433,6 +433,12 @@ impl Figure {
         kinematic.step(&input, &decision, state)
     }
 
+    /// False for the paper's body, which has no tissue, and while a figure gets up: the ways of its limbs between the
+    /// stages are straight in their joints, and do not go around the body.
+    fn meets_itself(&self) -> bool {
+        self.setup.controller != ControllerKind::Paper && !self.motion.gets_up()
+    }
+
     /// What the steppers read, the steppers, and the state they move.
     fn integration<'a>(&'a mut self, world: &'a TickContext) -> Integration<'a> {
         let (carried, pull) = (self.is_carried(), self.pull());
@@ -468,8 +474,7 @@ impl Figure {
                 bar: disturbances.bar(),
                 assist,
             },
-            // The paper's body has no tissue.
-            own: (self.setup.controller != ControllerKind::Paper).then_some(OwnBody {
+            own: self.meets_itself().then_some(OwnBody {
                 shape: &self.constants.shape,
                 desired: target,
             }),
