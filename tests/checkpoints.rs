@@ -440,6 +440,7 @@ fn things() -> Scenario {
         fatigue_time_scale: 30.0,
         assist: 0.3,
         max_help: 0.0,
+        self_contact: true,
     };
     let key = world.add_figure(setup).unwrap();
     let point = vec3(0.0, 0.0, -0.08);

@@ -124,6 +124,9 @@ pub struct RunArgs {
         default_missing_value = "true", action = clap::ArgAction::Set
     )]
     pub protective_steps: bool,
+    /// Keep limbs out of the body and of each other (torque stepper).
+    #[arg(long)]
+    pub self_contact: bool,
     /// Ticks per second; 60 unless the preset sets another rate.
     #[arg(long, value_name = "HZ")]
     pub rate: Option<f64>,
@@ -525,6 +528,7 @@ fn scene(
                 fatigue_time_scale: args.fatigue,
                 assist: args.assist,
                 max_help: args.max_help,
+                self_contact: args.self_contact,
             },
             name: clip.name().to_owned(),
             ..FigureSetup::new(

@@ -185,6 +185,9 @@ pub struct FigureOptions {
     /// Largest force over the weight of the help while a motion is being lost, 0…2:
     /// [`Help`](crate::sim::figure::help::Help). 0: none. It needs the modern controller, and no `assist`.
     pub max_help: f64,
+    /// The body does not pass through itself: [`self_contact`](crate::sim::figure::self_contact). Not within a
+    /// rehearsed motion. Off by default: controllers do not know of it, and catch themselves a little worse with it.
+    pub self_contact: bool,
 }
 
 /// A disturbance of one figure. Times are world seconds.

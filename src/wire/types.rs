@@ -252,6 +252,8 @@ pub struct FigureUpdate {
     pub assist: Option<f64>,
     /// Most help while its motion is being lost, body weights.
     pub max_help: Option<f64>,
+    /// Whether the body meets itself.
+    pub self_contact: Option<bool>,
     /// All constraints.
     pub constraints: Option<Vec<ConstraintSettings>>,
     /// Protective steps.
@@ -273,6 +275,7 @@ impl FigureUpdate {
                 .unwrap_or(now.options.fatigue_time_scale),
             assist: self.assist.unwrap_or(now.options.assist),
             max_help: self.max_help.unwrap_or(now.options.max_help),
+            self_contact: self.self_contact.unwrap_or(now.options.self_contact),
         };
         FigureSettings {
             display_name: self.display_name.unwrap_or(now.display_name),

@@ -142,13 +142,12 @@ fn hands_reach_the_floor_before_the_head() {
     for (name, body) in [("man", Body::adult_man()), ("woman", Body::adult_woman())] {
         let (falls, slow, head_first) = from_all_sides(name, body, &[60.0, 80.0, 100.0]);
         assert!(falls >= 20, "{name}: these pushes fell");
-        // Hands that are in front of thighs which come up do not get behind the body.
-        assert!(head_first.len() <= 1, "{name}: {head_first:?}");
+        assert!(head_first.is_empty(), "{name}: {head_first:?}");
         assert!(8 * slow >= 7 * falls, "{name}: slow in {slow} of {falls}");
     }
 }
 
-/// Weaker arms come too late in some falls to the front, and to the side on which the trunk has come down on the arm.
+/// Weaker arms come too late in some falls to the front.
 #[test]
 fn children_and_old_people_brace_themselves_too() {
     for (name, sex, age) in [
@@ -161,6 +160,6 @@ fn children_and_old_people_brace_themselves_too() {
         let impulse = 0.8 * Links::new(&body).total_mass();
         let (falls, _, head_first) = from_all_sides(name, body, &[impulse, 1.3 * impulse]);
         assert!(falls >= 8, "{name}: these pushes fell");
-        assert!(2 * head_first.len() <= falls, "{name}: {head_first:?}");
+        assert!(4 * head_first.len() <= falls, "{name}: {head_first:?}");
     }
 }

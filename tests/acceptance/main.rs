@@ -42,6 +42,7 @@ mod people;
 mod push;
 mod report;
 mod second_hand;
+mod self_contact;
 mod slide;
 mod stand;
 mod symmetry;

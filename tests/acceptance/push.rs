@@ -148,8 +148,8 @@ fn steps_catch_what_feet_in_place_cannot() {
     for (name, direction, share) in [
         ("forward", Vec3::X, 1.1),
         ("backward", -Vec3::X, 1.25),
-        ("left", Vec3::Y, 1.05),
-        ("right", -Vec3::Y, 1.05),
+        ("left", Vec3::Y, 1.15),
+        ("right", -Vec3::Y, 1.15),
     ] {
         let kind = ControllerKind::Modern;
         let impulse = share * bound(&standing(kind, false), direction);

@@ -25,6 +25,7 @@ pub(super) struct Document<'a> {
     fatigue_time_scale: f64,
     assist: f64,
     max_help: f64,
+    self_contact: bool,
     substeps: u32,
     gravity_mps2: f64,
     loads: Vec<LoadEntry>,
@@ -106,6 +107,7 @@ pub(super) fn document<'a>(
         fatigue_time_scale: args.fatigue,
         assist: args.assist,
         max_help: args.max_help,
+        self_contact: args.self_contact,
         substeps: args.substeps,
         gravity_mps2: scenario.params.gravity,
         loads: args

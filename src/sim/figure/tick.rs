@@ -433,10 +433,9 @@ impl Figure {
         kinematic.step(&input, &decision, state)
     }
 
-    /// False for the paper's body, which has no tissue, and while a figure gets up: the ways of its limbs between the
-    /// stages are straight in their joints, and do not go around the body.
+    /// True if the body does not pass through itself in this tick. A rehearsed motion was found without.
     fn meets_itself(&self) -> bool {
-        self.setup.controller != ControllerKind::Paper && !self.motion.gets_up()
+        self.setup.options.self_contact && self.motion.rehearsed().is_none()
     }
 
     /// What the steppers read, the steppers, and the state they move.

@@ -250,6 +250,11 @@ impl<'a> Search<'a> {
         self.layers.truncate(first + 1);
         let mut lost = 0;
         for w in first..count {
+            debug_assert_eq!(
+                self.layers.len(),
+                w + 1,
+                "states at the start of window {w}"
+            );
             let chosen = self.window(w);
             if chosen.is_empty() {
                 break;

@@ -7,14 +7,13 @@ use super::settings::Settings;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, State};
-use crate::sim::collide::shape::BodyShape;
 use crate::sim::contact::Tissue;
+use crate::sim::control::Law;
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::assist::PelvisHelp;
 use crate::sim::figure::help;
 use crate::sim::figure::plan_task::Planning;
 use crate::sim::figure::rehearsed::{JointOffset, MotorLaw, RootStep};
-use crate::sim::figure::self_contact::OwnBody;
 use crate::sim::figure::tick::TickContext;
 use crate::sim::figure::torque_step::{
     Accuracy, ExternalForces, StepInput, TorqueRange, TorqueStepper,
@@ -45,12 +44,12 @@ impl Action {
 #[derive(Debug)]
 pub struct Simulator {
     body: Arc<Body>,
-    shape: BodyShape,
     links: Links,
     strength: Arc<Strength>,
     muscles: MuscleScale,
     world: TickContext,
     motors: MotorLaw,
+    law: Law,
     terms: Terms,
     stepper: TorqueStepper,
     available: TorqueRange,
@@ -68,7 +67,6 @@ impl Simulator {
         stepper.set_accuracy(Accuracy::REHEARSED);
         Self {
             body: Arc::clone(&problem.body),
-            shape: BodyShape::new(&problem.body),
             links: problem.links.clone(),
             strength: Arc::clone(&problem.strength),
             muscles: problem.muscles.clone(),
@@ -79,6 +77,7 @@ impl Simulator {
                 gravity: problem.stage.gravity,
                 planning: Planning::InTick,
             },
+            law: motors.law(problem.stage.dt),
             motors,
             terms: Terms::default(),
             stepper,
@@ -132,7 +131,6 @@ impl Simulator {
         self.ticks += 1;
         let Self {
             body,
-            shape,
             links,
             strength,
             muscles,
@@ -148,8 +146,7 @@ impl Simulator {
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
         let TorqueRange { lower, upper } = &mut self.available;
         strength.range(&angles, &rates, muscles, lower, upper);
-        let law = self.motors.law(world.dt);
-        let command = self.motors.command(&law, body, state, &moved);
+        let command = self.motors.command(&self.law, body, state, &moved);
         let pull = (action.help > 0.0).then(|| help::pull(body, action.help));
         let input = StepInput {
             body,
@@ -165,10 +162,7 @@ impl Simulator {
                 bar: None,
                 assist: pull.map(|p| PelvisHelp::Pull(p, target)),
             },
-            own: Some(OwnBody {
-                shape,
-                desired: target,
-            }),
+            own: None,
             world,
         };
         self.stepper.begin(state);

@@ -181,6 +181,7 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
             fatigue_time_scale: time_scale(&at("fatigue_time_scale"), f.fatigue_time_scale)?,
             assist: within(&at("assist"), f.assist, 0.0, 1.0)?,
             max_help: max_help(&at("max_help_weights"), f.max_help_weights)?,
+            self_contact: f.self_contact.unwrap_or(false),
         },
         place: f
             .placement
@@ -212,6 +213,7 @@ pub fn update(
             ("constraints", !f.constraints.is_empty()),
             ("protective_steps", f.protective_steps.is_some()),
             ("max_help_weights", f.max_help_weights != 0.0),
+            ("self_contact", f.self_contact.is_some()),
         ],
         fixed: &["body", "profile", "stepper", "placement"],
         output: &["name", "status", "etag"],
@@ -237,6 +239,7 @@ pub fn update(
                 let value = max_help("figure.max_help_weights", f.max_help_weights)?;
                 out.max_help = Some(value);
             }
+            "self_contact" => out.self_contact = Some(f.self_contact.unwrap_or(false)),
             _ => out.assist = Some(within("figure.assist", f.assist, 0.0, 1.0)?),
         }
     }
@@ -307,6 +310,7 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
         fatigue_time_scale: s.options.fatigue_time_scale,
         assist: s.options.assist,
         max_help_weights: s.options.max_help,
+        self_contact: Some(s.options.self_contact),
         paper: Some(paper_out(&s.params)),
         constraints: f.constraints.iter().map(constraint::out).collect(),
         protective_steps: Some(s.params.protective_steps),

@@ -8009,6 +8009,11 @@ pub struct Figure {
     /// itself; reported in every frame (`assist`). Needs CONTROLLER_MODERN and no `assist`. 0: none, it falls honestly.
     #[prost(double, tag = "16")]
     pub max_help_weights: f64,
+    /// Keep limbs out of the body and of each other, by forces of soft tissue (STEPPER_TORQUE). What the desired motion
+    /// itself does is left alone, and there is none within a rehearsed motion. Controllers do not know of it: with it
+    /// they catch sideways pushes and falls a little worse. Absent: false.
+    #[prost(bool, optional, tag = "17")]
+    pub self_contact: ::core::option::Option<bool>,
     /// What it does now. Output only.
     #[prost(message, optional, tag = "9")]
     pub status: ::core::option::Option<FigureStatus>,
@@ -8254,8 +8259,8 @@ pub struct UpdateFigureRequest {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
     /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-    /// `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all.
-    /// Fields that it does not name are ignored, whatever they hold.
+    /// `protective_steps`, `max_help_weights`, `self_contact` to take. Absent or empty: those that are not empty. `*`:
+    /// all. Fields that it does not name are ignored, whatever they hold.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
     /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.

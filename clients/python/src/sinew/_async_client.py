@@ -418,6 +418,7 @@ class Client:
         max_help_weights: float = 0.0,
         constraints: Iterable[Constraint] = (),
         protective_steps: bool = True,
+        self_contact: bool = False,
         duration_s: float = 0.0,
         loop: bool = False,
         rate_hz: float = 60.0,
@@ -446,6 +447,7 @@ class Client:
             max_help_weights=max_help_weights,
             constraints=constraints,
             protective_steps=protective_steps,
+            self_contact=self_contact,
         )
         request = simulation_pb2.SimulateClipRequest(
             figure=figure,
@@ -836,6 +838,7 @@ class World:
         max_help_weights: float = 0.0,
         constraints: Iterable[Constraint] = (),
         protective_steps: bool = True,
+        self_contact: bool = False,
         display_name: str = "",
     ) -> Figure:
         """Adds a figure, standing still at `position` (world x, y, m) and heading `yaw` (rad, 0 looks along x,
@@ -845,6 +848,7 @@ class World:
         larger is faster. `assist`: help from outside at the pelvis, 0 to 1. `max_help_weights`: most help while its
         motion is being lost, 0 to 2 times the weight. `constraints`: where parts of it are wanted (m, world).
         `protective_steps`: it may step to keep its balance, and puts its arms out if it falls all the same.
+        `self_contact`: limbs do not pass through the body and each other.
         """
         settings = requests.figure(
             body=body,
@@ -859,6 +863,7 @@ class World:
             max_help_weights=max_help_weights,
             constraints=constraints,
             protective_steps=protective_steps,
+            self_contact=self_contact,
             display_name=display_name,
         )
         request = figure_pb2.CreateFigureRequest(parent=self.resource, figure_id=name, figure=settings)
@@ -1253,6 +1258,7 @@ class Figure:
         max_help_weights: float | None = None,
         constraints: Sequence[Constraint] | None = None,
         protective_steps: bool | None = None,
+        self_contact: bool | None = None,
         display_name: str | None = None,
     ) -> None:
         """Changes what is given, as in `World.add_figure`. `constraints` replaces all of them."""
@@ -1265,6 +1271,7 @@ class Figure:
             "max_help_weights": max_help_weights,
             "constraints": constraints,
             "protective_steps": protective_steps,
+            "self_contact": self_contact,
             "display_name": display_name,
         }
         settings = requests.figure(
@@ -1276,6 +1283,7 @@ class Figure:
             max_help_weights=max_help_weights,
             constraints=constraints,
             protective_steps=protective_steps,
+            self_contact=self_contact,
             display_name=display_name,
         )
         settings.name = self.message.name

@@ -162,6 +162,7 @@ def figure(
     max_help_weights: float | None = None,
     constraints: Iterable[Constraint] | None = None,
     protective_steps: bool | None = None,
+    self_contact: bool | None = None,
     display_name: str | None = None,
 ) -> figure_pb2.Figure:
     """Settings of a figure; what is `None` is left out."""
@@ -192,6 +193,8 @@ def figure(
         out.constraints.extend(c.message() for c in constraints)
     if protective_steps is not None:
         out.protective_steps = protective_steps
+    if self_contact is not None:
+        out.self_contact = self_contact
     if display_name is not None:
         out.display_name = display_name
     return out

@@ -280,6 +280,7 @@ impl Scene {
             options.fatigue_time_scale = u.fatigue_time_scale.unwrap_or(options.fatigue_time_scale);
             options.assist = u.assist.unwrap_or(options.assist);
             options.max_help = u.max_help.unwrap_or(options.max_help);
+            options.self_contact = u.self_contact.unwrap_or(options.self_contact);
             engine::set_options(&mut self.world, key, options)?;
             m.settings.options = options;
         }

@@ -391,7 +391,8 @@ fn hands_in_the_hips_are_left_alone_where_the_motion_has_them_there() {
     assert!(depth > 0.03, "the hands are in the body: {depth}");
     let mut world = World::new(WorldParams::default()).unwrap();
     let state = State::at_rest(posture);
-    let setup = FigureSetup::new(Arc::clone(&body), ControllerKind::Modern, state);
+    let mut setup = FigureSetup::new(Arc::clone(&body), ControllerKind::Modern, state);
+    setup.options.self_contact = true;
     let key = world.add_figure(setup).unwrap();
     world
         .figure_mut(key)

@@ -398,6 +398,7 @@ class Figure(_message.Message):
     CONSTRAINTS_FIELD_NUMBER: _builtins.int
     PROTECTIVE_STEPS_FIELD_NUMBER: _builtins.int
     MAX_HELP_WEIGHTS_FIELD_NUMBER: _builtins.int
+    SELF_CONTACT_FIELD_NUMBER: _builtins.int
     STATUS_FIELD_NUMBER: _builtins.int
     ETAG_FIELD_NUMBER: _builtins.int
     name: _builtins.str
@@ -422,6 +423,11 @@ class Figure(_message.Message):
     """Largest force over the weight of the help while its motion is being lost, whatever that is: a clip, a stream, or a
     posture that is held; 0…2. Then a pull on the pelvis and stiff motors keep it with its motion, until it goes on by
     itself; reported in every frame (`assist`). Needs CONTROLLER_MODERN and no `assist`. 0: none, it falls honestly.
+    """
+    self_contact: _builtins.bool
+    """Keep limbs out of the body and of each other, by forces of soft tissue (STEPPER_TORQUE). What the desired motion
+    itself does is left alone, and there is none within a rehearsed motion. Controllers do not know of it: with it
+    they catch sideways pushes and falls a little worse. Absent: false.
     """
     etag: _builtins.str
     """Changes whenever the configuration does. In requests: the change is refused (ABORTED, `ETAG_MISMATCH`) unless it is
@@ -471,16 +477,22 @@ class Figure(_message.Message):
         constraints: _abc.Iterable[Global___Constraint] | None = ...,
         protective_steps: _builtins.bool | None = ...,
         max_help_weights: _builtins.float = ...,
+        self_contact: _builtins.bool | None = ...,
         status: Global___FigureStatus | None = ...,
         etag: _builtins.str = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "status", b"status", "strength", b"strength"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "_self_contact", b"_self_contact", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "self_contact", b"self_contact", "status", b"status", "strength", b"strength"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "assist", b"assist", "body", b"body", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "etag", b"etag", "fatigue_time_scale", b"fatigue_time_scale", "max_help_weights", b"max_help_weights", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "status", b"status", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "_self_contact", b"_self_contact", "assist", b"assist", "body", b"body", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "etag", b"etag", "fatigue_time_scale", b"fatigue_time_scale", "max_help_weights", b"max_help_weights", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "self_contact", b"self_contact", "status", b"status", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__protective_steps: _TypeAlias = _typing.Literal["protective_steps"]  # noqa: Y015
     _WhichOneofArgType__protective_steps: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps"]  # noqa: Y015
+    _WhichOneofReturnType__self_contact: _TypeAlias = _typing.Literal["self_contact"]  # noqa: Y015
+    _WhichOneofArgType__self_contact: _TypeAlias = _typing.Literal["_self_contact", b"_self_contact"]  # noqa: Y015
+    @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType__protective_steps) -> _WhichOneofReturnType__protective_steps | None: ...
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__self_contact) -> _WhichOneofReturnType__self_contact | None: ...
 
 Global___Figure: _TypeAlias = Figure  # noqa: Y015
 
@@ -811,8 +823,8 @@ class UpdateFigureRequest(_message.Message):
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
         """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-        `protective_steps`, `max_help_weights` to take. Absent or empty: those that are not empty. `*`: all.
-        Fields that it does not name are ignored, whatever they hold.
+        `protective_steps`, `max_help_weights`, `self_contact` to take. Absent or empty: those that are not empty. `*`:
+        all. Fields that it does not name are ignored, whatever they hold.
         """
 
     def __init__(
