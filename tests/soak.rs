@@ -116,6 +116,7 @@ impl Chaos {
             },
             assist: if self.often(0.2) { self.size(1.0) } else { 0.0 },
             max_help: if self.often(0.3) { self.size(1.0) } else { 0.0 },
+            self_contact: self.often(0.3),
         };
         world.add_figure(setup).unwrap()
     }
