@@ -6,7 +6,8 @@
 //! and as they act at one point, they change neither momentum nor angular momentum.
 //!
 //! How near a pair may come is what the desired motion itself does: no nearer than touching, or than in the desired
-//! posture at the beginning or end of the tick, whichever is nearest. What a recording asks for is not fought.
+//! posture at the beginning or end of the tick and `SLACK` deeper, whichever is nearest. What a recording asks for is
+//! not fought.
 //!
 //! Between them is soft tissue: a spring with a damper, whose force is that at the end of the substep, so that no
 //! stiffness is too much for the length of a step. The impulses are part of the momentum with which a substep is

@@ -405,29 +405,34 @@ fn hands_in_the_hips_are_left_alone_where_the_motion_has_them_there() {
     }
 }
 
+/// A posture with these angles, or with those of the other side.
+fn sided(left: bool, angles: &[(&'static str, f64)]) -> Posture {
+    let name = |n: &str| match n.split_at(2) {
+        ("l_", rest) if !left => format!("r_{rest}"),
+        ("r_", rest) if !left => format!("l_{rest}"),
+        _ => n.to_owned(),
+    };
+    let all: Vec<(String, f64)> = angles.iter().map(|(n, a)| (name(n), *a)).collect();
+    let all: Vec<(&str, f64)> = all.iter().map(|(n, a)| (n.as_str(), *a)).collect();
+    posture(&all)
+}
+
 #[test]
 fn what_is_mirrored_meets_itself_alike() {
     let run = |left: bool| {
         let mut rig = Rig::new(1.0, 0.0, true);
-        let swapped = |p: Vec<(&'static str, f64)>| {
-            let name = |n: &str| match n.split_at(2) {
-                ("l_", rest) if !left => format!("r_{rest}"),
-                ("r_", rest) if !left => format!("l_{rest}"),
-                _ => n.to_owned(),
-            };
-            let all: Vec<(String, f64)> = p.iter().map(|(n, a)| (name(n), *a)).collect();
-            let all: Vec<(&str, f64)> = all.iter().map(|(n, a)| (n.as_str(), *a)).collect();
-            posture(&all)
-        };
-        rig.aim = swapped(vec![
-            ("l_shoulder_flexion", 0.5),
-            ("r_shoulder_flexion", 0.2),
-            ("l_shoulder_rotation", 1.2),
-            ("r_shoulder_rotation", 1.1),
-            ("l_elbow_flexion", 1.7),
-            ("r_elbow_flexion", 1.5),
-            ("l_hip_abduction", -0.4),
-        ]);
+        rig.aim = sided(
+            left,
+            &[
+                ("l_shoulder_flexion", 0.5),
+                ("r_shoulder_flexion", 0.2),
+                ("l_shoulder_rotation", 1.2),
+                ("r_shoulder_rotation", 1.1),
+                ("l_elbow_flexion", 1.7),
+                ("r_elbow_flexion", 1.5),
+                ("l_hip_abduction", -0.4),
+            ],
+        );
         let mut state = State::at_rest(apart());
         state.posture.root_position.z = 5.0;
         let mut pressed = 0;
