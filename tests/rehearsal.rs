@@ -53,15 +53,6 @@ fn squat(body: &Body) -> Clip {
     Clip::from_postures("squat", 60.0, postures, vec![[true; 2]; 31]).unwrap()
 }
 
-/// A squat at twice its pace.
-fn squat_and_rise(body: &Body) -> Clip {
-    let whole = builtin(body, "squat").unwrap();
-    let count = (whole.duration() * 30.0) as usize;
-    let at = |i: usize| whole.sample(i as f64 / 30.0);
-    let postures = (0..count).map(|i| at(i).posture).collect();
-    Clip::from_postures("squat", 60.0, postures, vec![[true; 2]; count]).unwrap()
-}
-
 fn rehearsed() -> &'static Rehearsal {
     static ONE: OnceLock<Rehearsal> = OnceLock::new();
     ONE.get_or_init(|| {
@@ -118,32 +109,6 @@ fn any_number_of_threads_finds_the_same() {
     }
     p.seed = 2;
     assert!(of(&p, 2).states != one.states, "another seed");
-}
-
-/// A round that came to nothing leaves fewer states than the best path had windows. A debug assertion of the search
-/// says so if the next round begins beyond them.
-#[test]
-fn a_search_that_is_lost_time_and_again_ends_where_the_motion_is_lost() {
-    let mut p = problem();
-    p.muscles = StrengthScale {
-        all: 0.25,
-        ..StrengthScale::default()
-    }
-    .muscles(1.0);
-    let clip = squat_and_rise(&p.body);
-    let mut settings = few();
-    settings.trials.patience = 6;
-    settings.trials.budget = 1000;
-    for seed in 1..=4 {
-        p.seed = seed;
-        let r = rehearse(&p, &clip, &settings, 2, &[], &mut |_| true).unwrap();
-        assert!(
-            !r.completed() && r.work.reached[0] < r.work.reached[1],
-            "{:?}",
-            r.work
-        );
-        assert!(r.work.rounds > 12, "{:?}", r.work);
-    }
 }
 
 #[test]

@@ -409,3 +409,50 @@ impl<'a> Search<'a> {
 pub(super) fn window_ticks(problem: &Problem, settings: &Settings) -> usize {
     ((settings.window / problem.stage.dt).round() as usize).max(1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::Body;
+    use crate::sim::figure::rehearsed::Stage as World;
+    use crate::sim::motion::Clip;
+    use crate::sim::motion::builtin::builtin;
+    use crate::sim::setup::StrengthScale;
+    use std::sync::Arc;
+
+    /// A round that was lost at once leaves the states at its start only, while the best path goes on.
+    #[test]
+    fn a_round_begins_where_there_are_states() {
+        let body = Arc::new(Body::adult_man());
+        let world = World {
+            dt: 1.0 / 60.0,
+            substeps: 2,
+            gravity: 9.81,
+        };
+        let whole = builtin(&body, "squat").unwrap();
+        let postures = (0..=60).map(|i| whole.sample(0.8 + f64::from(i) / 60.0).posture);
+        let planted = vec![[true; 2]; 61];
+        let clip = Clip::from_postures("squat", 60.0, postures.collect(), planted).unwrap();
+        let problem = Problem::new(body, &StrengthScale::default(), 0.9, world);
+        let mut settings = Settings::default();
+        (settings.trials.near.samples, settings.trials.batch) = (12, 12);
+        let reference = Reference::new(&problem, &clip, &settings.rest).unwrap();
+        let mut search = Search::new(&problem, &reference, &settings, 1, &[]);
+        search.round(&mut |_| true);
+        let count = search.count();
+        assert_eq!(
+            (search.state.reached, search.layers.len()),
+            (count, count + 1)
+        );
+        search.layers.truncate(1);
+        search.state.reached = count - 1;
+        search.round(&mut |_| true);
+        assert_eq!(
+            (search.state.reached, search.layers.len()),
+            (count, count + 1)
+        );
+        for (layer, next) in search.layers.iter().zip(&search.layers[1..]) {
+            assert!(next.iter().all(|n| n.parent < layer.len()));
+        }
+    }
+}
