@@ -261,21 +261,24 @@ pub struct FigureUpdate {
 }
 
 impl FigureUpdate {
+    /// The options that it makes of those that a figure has.
+    pub fn options(&self, now: FigureOptions) -> FigureOptions {
+        FigureOptions {
+            fatigue_time_scale: self.fatigue_time_scale.unwrap_or(now.fatigue_time_scale),
+            assist: self.assist.unwrap_or(now.assist),
+            max_help: self.max_help.unwrap_or(now.max_help),
+            self_contact: self.self_contact.unwrap_or(now.self_contact),
+        }
+    }
+
     /// The settings that it makes of those that a figure has.
     #[must_use]
     pub fn applied(self, now: FigureSettings) -> FigureSettings {
+        let options = self.options(now.options);
         // Whether a figure steps is no choice of the paper's controller.
         let params = ControlParams {
             protective_steps: self.protective_steps.unwrap_or(now.params.protective_steps),
             ..self.params.unwrap_or(now.params)
-        };
-        let options = FigureOptions {
-            fatigue_time_scale: self
-                .fatigue_time_scale
-                .unwrap_or(now.options.fatigue_time_scale),
-            assist: self.assist.unwrap_or(now.options.assist),
-            max_help: self.max_help.unwrap_or(now.options.max_help),
-            self_contact: self.self_contact.unwrap_or(now.options.self_contact),
         };
         FigureSettings {
             display_name: self.display_name.unwrap_or(now.display_name),

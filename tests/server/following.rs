@@ -109,3 +109,44 @@ async fn clients_see_in_which_way_a_figure_follows_its_clip() {
     assert!(last.help_ratio < 0.3, "{last:?}");
     server.stop().await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn whether_a_figure_meets_itself_is_a_choice() {
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    let update = async |figure: pb::Figure, paths: &[&str]| {
+        let request = pb::UpdateFigureRequest {
+            figure: Some(figure),
+            update_mask: Some(prost_types::FieldMask {
+                paths: paths.iter().map(|p| (*p).to_owned()).collect(),
+            }),
+            ..Default::default()
+        };
+        let out = server.client.figures().update_figure(request).await;
+        out.unwrap().into_inner().figure.unwrap().self_contact
+    };
+    let request = pb::CreateFigureRequest {
+        parent: world.clone(),
+        figure_id: "a".into(),
+        figure: Some(pb::Figure {
+            self_contact: Some(true),
+            ..Default::default()
+        }),
+        ..Default::default()
+    };
+    let made = server.client.figures().create_figure(request).await;
+    let made = made.unwrap().into_inner().figure.unwrap();
+    assert_eq!(made.self_contact, Some(true));
+    let named = pb::Figure {
+        name: made.name,
+        ..Default::default()
+    };
+    assert_eq!(update(named.clone(), &["assist"]).await, Some(true));
+    assert_eq!(update(named.clone(), &["self_contact"]).await, Some(false));
+    let on = pb::Figure {
+        self_contact: Some(true),
+        ..named
+    };
+    assert_eq!(update(on, &[]).await, Some(true));
+    server.stop().await;
+}

@@ -261,6 +261,7 @@ impl Scene {
         let steps = u.protective_steps;
         let found = self.members.iter_mut().find(|m| m.key == key);
         let m = found.ok_or_else(|| Fault::Internal(format!("there is no figure {}", key.0)))?;
+        let options = u.options(m.settings.options);
         if u.controller.is_some() || u.strength.is_some() || u.params.is_some() || steps.is_some() {
             let controller = u.controller.unwrap_or(m.settings.controller);
             let strength = u.strength.unwrap_or_else(|| m.settings.strength.clone());
@@ -275,12 +276,7 @@ impl Scene {
             m.settings.params = params;
             m.settings.strength = strength;
         }
-        if u.fatigue_time_scale.is_some() || u.assist.is_some() || u.max_help.is_some() {
-            let mut options = m.settings.options;
-            options.fatigue_time_scale = u.fatigue_time_scale.unwrap_or(options.fatigue_time_scale);
-            options.assist = u.assist.unwrap_or(options.assist);
-            options.max_help = u.max_help.unwrap_or(options.max_help);
-            options.self_contact = u.self_contact.unwrap_or(options.self_contact);
+        if options != m.settings.options {
             engine::set_options(&mut self.world, key, options)?;
             m.settings.options = options;
         }
