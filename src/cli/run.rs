@@ -612,6 +612,7 @@ fn note(metrics: &mut Metrics, event: &FigureEvent) {
             need: Some(need),
             ..load("load_unshared", segment, mass)
         },
+        E::WayBarred => kind("way_barred"),
         E::Quarantined => kind("quarantined"),
         E::Touched { segment, .. } => on("touched", segment),
         E::Parted { segment, .. } => on("parted", segment),

@@ -701,6 +701,7 @@ pub fn event_kind(e: &FigureEvent, name: impl Fn(Other) -> String) -> EventKind 
         FigureEvent::LoadTaken { segment, mass } => EventKind::LoadTaken(segment, mass),
         FigureEvent::LoadDropped { segment, mass } => EventKind::LoadDropped(segment, mass),
         FigureEvent::LoadSlipped { segment, mass } => EventKind::LoadSlipped(segment, mass),
+        FigureEvent::WayBarred => EventKind::WayBarred,
         FigureEvent::LoadShared {
             segment,
             mass,

@@ -714,6 +714,8 @@ pub enum EventKind {
     Touched(SegmentId, String, Option<SegmentId>),
     /// A segment no longer touches it.
     Parted(SegmentId, String, Option<SegmentId>),
+    /// Something is in the way of its steps: the figure broke off what it did.
+    WayBarred,
     /// The figure is frozen at its last good state.
     Quarantined,
     /// An obstacle was added.

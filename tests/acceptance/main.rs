@@ -27,6 +27,7 @@ mod common;
 mod assist;
 mod bare;
 mod bracing;
+mod bump;
 mod collide;
 mod constrain;
 mod containment;

@@ -206,6 +206,38 @@ async fn a_window_that_is_too_short_or_long_is_refused() {
     server.stop().await;
 }
 
+/// Frame `i` of a stream of 120 frames per second, without velocities.
+fn frame_of(i: i64, posture: &Posture) -> pb::MotionFrame {
+    let mut motion = figure_motion("a", posture, &[0.0; 45], None);
+    motion.velocity.clear();
+    pb::MotionFrame {
+        sequence: i,
+        source_time_ns: i * 1_000_000_000 / 120,
+        figures: vec![motion],
+    }
+}
+
+/// Pushes frames; waits while the allowance of batches is used up: tests run faster than real time.
+async fn push_frames(
+    server: &TestServer,
+    header: &pb::DriveHeader,
+    frames: Vec<pb::MotionFrame>,
+) -> Option<pb::DriveFeedback> {
+    let request = pb::PushMotionRequest {
+        header: Some(header.clone()),
+        batch: Some(pb::MotionBatch { frames }),
+    };
+    loop {
+        match server.client.motions().push_motion(request.clone()).await {
+            Ok(pushed) => return pushed.into_inner().feedback,
+            Err(e) if e.code() == Code::ResourceExhausted => {
+                tokio::time::sleep(Duration::from_millis(20)).await;
+            }
+            Err(e) => panic!("{e:?}"),
+        }
+    }
+}
+
 /// A driver that is started again while its figure walks, and asks it to stand: it finishes its step and stands.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
@@ -222,7 +254,6 @@ async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
         preparation_window_ms: Some(500.0),
         ..header(&world, "a", "me")
     };
-    let mut client = server.client.motions();
     let restart = seconds * 120; // frames after which sequence and time begin at 0 again
     let last = walk.sample_looped(seconds as f64).posture;
     let stand = engine::standing(&body, engine::place_of(&last));
@@ -230,34 +261,12 @@ async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
     for push in 0..200i64 {
         // 50 ms each, in a world that is stepped as far.
         let frames = (push * 6..(push + 1) * 6)
-            .map(|i| {
-                let (i, posture) = match i - restart {
-                    past @ 0.. => (past, stand),
-                    _ => (i, walk.sample_looped(i as f64 / 120.0).posture),
-                };
-                let mut motion = figure_motion("a", &posture, &[0.0; 45], None);
-                motion.velocity.clear();
-                pb::MotionFrame {
-                    sequence: i,
-                    source_time_ns: i * 1_000_000_000 / 120,
-                    figures: vec![motion],
-                }
+            .map(|i| match i - restart {
+                past @ 0.. => frame_of(past, &stand),
+                _ => frame_of(i, &walk.sample_looped(i as f64 / 120.0).posture),
             })
             .collect();
-        let request = pb::PushMotionRequest {
-            header: Some(header.clone()),
-            batch: Some(pb::MotionBatch { frames }),
-        };
-        let pushed = loop {
-            match client.push_motion(request.clone()).await {
-                Ok(pushed) => break pushed.into_inner(),
-                Err(e) if e.code() == Code::ResourceExhausted => {
-                    tokio::time::sleep(Duration::from_millis(20)).await;
-                }
-                Err(e) => panic!("{e:?}"),
-            }
-        };
-        feedback = pushed.feedback;
+        feedback = push_frames(&server, &header, frames).await;
         server.step(&world, 3).await;
         let frame = server.frame(&world, &["status", "velocity"]).await;
         let f = &frame.figures[0];
@@ -277,5 +286,109 @@ async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
         speed[160..].iter().all(|v| *v < 0.1),
         "it stands: {speed:?}"
     );
+    server.stop().await;
+}
+
+/// A stream leads its figure into a wall: it comes to a stand before it, and is led into the stream, which has walked
+/// on all the time, once the wall is gone.
+#[tokio::test(flavor = "multi_thread")]
+async fn who_is_led_into_a_wall_stands_and_walks_on_when_it_is_gone() {
+    let body = Body::adult_man();
+    let walk = walk(&body);
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    let header = pb::DriveHeader {
+        playout_delay_ms: None,
+        nominal_rate_hz: 120.0,
+        reset: true,
+        grace_ms: Some(60_000.0),
+        preparation_window_ms: Some(500.0),
+        ..header(&world, "a", "me")
+    };
+    let point = |t: f64| walk.sample_looped(t).posture.root_position;
+    let (from, way) = (point(0.0), point(60.0) - point(0.0));
+    let turned = 0.5 * way.y.atan2(way.x);
+    let at = from + way * (2.5 / way.norm());
+    let wall = pb::Obstacle {
+        shape: Some(pb::obstacle::Shape::Box(pb::BoxShape {
+            half_m: Some(pb::Vector3 {
+                x: 0.1,
+                y: 4.0,
+                z: 1.5,
+            }),
+        })),
+        pose: Some(pb::Pose {
+            position_m: Some(pb::Vector3 {
+                x: at.x,
+                y: at.y,
+                z: 1.5,
+            }),
+            rotation: Some(pb::Quaternion {
+                w: turned.cos(),
+                z: turned.sin(),
+                ..Default::default()
+            }),
+        }),
+        ..Default::default()
+    };
+    let request = pb::CreateObstacleRequest {
+        parent: world.clone(),
+        obstacle_id: "wall".into(),
+        obstacle: Some(wall),
+        ..Default::default()
+    };
+    server
+        .client
+        .obstacles()
+        .create_obstacle(request)
+        .await
+        .unwrap();
+    let watch = pb::WatchEventsRequest {
+        world: world.clone(),
+        types: vec![pb::EventType::WayBarred.into()],
+        ..Default::default()
+    };
+    let events = server.client.states().watch_events(watch).await;
+    let mut events = events.unwrap().into_inner();
+    let (mut far, mut speed) = (Vec::new(), Vec::new());
+    for push in 0..280i64 {
+        let frames = (push * 6..(push + 1) * 6)
+            .map(|i| frame_of(i, &walk.sample_looped(i as f64 / 120.0).posture))
+            .collect();
+        push_frames(&server, &header, frames).await;
+        if push == 60 {
+            let name = format!("{world}/obstacles/wall");
+            let request = pb::DeleteObstacleRequest {
+                name,
+                ..Default::default()
+            };
+            let mut obstacles = server.client.obstacles();
+            obstacles.delete_obstacle(request).await.unwrap();
+        }
+        server.step(&world, 3).await;
+        let frame = server
+            .frame(&world, &["status", "root_pose", "velocity"])
+            .await;
+        let f = &frame.figures[0];
+        let flags = f.status.as_ref().unwrap().flags;
+        let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
+        let p = sinew::wire::frame::values(f.root_pose.as_ref().unwrap());
+        assert_eq!(flags & (FALLEN | FROZEN), 0, "after {} s", frame.time_s);
+        speed.push(v[3].hypot(v[4]));
+        far.push((p[0] - from.x).hypot(p[1] - from.y));
+    }
+    let kind = loop {
+        let told = events.message().await.unwrap().unwrap();
+        if let Some(event) = told.events.first() {
+            break event.r#type();
+        }
+    };
+    assert_eq!(kind, pb::EventType::WayBarred);
+    assert!(
+        speed[100..140].iter().all(|v| *v < 0.3),
+        "it stands: {speed:.2?}"
+    );
+    assert!(far[260] > far[140] + 0.5, "it walks on: {far:.2?}");
     server.stop().await;
 }

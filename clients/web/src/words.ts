@@ -48,6 +48,8 @@ export function event(e: Event): { text: string; grave: boolean } | undefined {
       };
     case EventType.LOAD_SLIPPED:
       return { text: `${figure} drops ${kilograms(e.massKg)} from the ${joint(e.segment)}`, grave: true };
+    case EventType.WAY_BARRED:
+      return { text: `${figure} stops: something is in the way`, grave: false };
     case EventType.QUARANTINED:
       return { text: `${figure} is frozen: its simulation state became invalid`, grave: true };
     case EventType.DRIVE_BEGAN:
@@ -75,6 +77,8 @@ export function mark(e: Event): { kind: MarkKind; text: string } | undefined {
       return { kind: "fall", text: `${figure} falls` };
     case EventType.QUARANTINED:
       return { kind: "fall", text: `${figure} is frozen` };
+    case EventType.WAY_BARRED:
+      return { kind: "push", text: `${figure} stops: something is in the way` };
     case EventType.PUSHED:
       return { kind: "push", text: `${figure} is pushed: ${e.impulseNewtonSeconds.toFixed(0)} N·s` };
     case EventType.CLIP_BEGAN:

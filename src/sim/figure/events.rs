@@ -96,6 +96,8 @@ pub enum FigureEvent {
         /// What it touched.
         other: Other,
     },
+    /// Somebody or something is in the way of its steps: it broke off what it did and comes to a stand.
+    WayBarred,
     /// The state turned non-finite or ran away; the figure is frozen at its last good state.
     Quarantined,
 }

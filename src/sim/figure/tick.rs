@@ -213,6 +213,7 @@ impl Figure {
 
     /// Stage 2: switches between motions that are due; a fallen figure gets up if its motion does.
     fn update_activity(&mut self, world: &TickContext) {
+        self.break_off_if_barred(world);
         self.leave_rehearsal_if_over(world);
         self.leave_broken_stream(world.time());
         self.follow_exit_if_due(world);

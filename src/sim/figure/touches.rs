@@ -172,6 +172,8 @@ impl Entry {
 pub struct Touches {
     now: Vec<Entry>,
     before: Vec<Entry>,
+    /// Something has pressed on the figure from aside since it was last where its motion has it.
+    pressed: bool,
 }
 
 impl Default for Touches {
@@ -179,6 +181,7 @@ impl Default for Touches {
         Self {
             now: Vec::with_capacity(MAX_TOUCHES),
             before: Vec::with_capacity(MAX_TOUCHES),
+            pressed: false,
         }
     }
 }
@@ -266,6 +269,15 @@ impl Touches {
             }
         }
         self.before.clear();
+    }
+
+    /// True if something has pressed on the figure from aside, not only from below or above, with more than `least` N,
+    /// in the last tick or since it was last where its motion has it: there it `is_back` now, or not.
+    pub fn press_aside(&mut self, least: f64, is_back: bool) -> bool {
+        let pressure = |t: Touch| Vec3 { z: 0.0, ..t.normal } * t.force.dot(t.normal).max(0.0);
+        let sum = self.list().fold(Vec3::zero(), |sum, t| sum + pressure(t));
+        self.pressed = sum.norm() > least || (self.pressed && !is_back);
+        self.pressed
     }
 
     /// Touches of the last tick.

@@ -33,6 +33,11 @@ impl Rest {
         Self::level(self.normal)
     }
 
+    /// True if it keeps a body from falling this `way` (horizontal): a seat does, and a wall on that side.
+    pub fn holds(&self, way: Vec3) -> bool {
+        self.is_level() || self.normal.dot(way) <= 0.0
+    }
+
     /// The same as a point of a support that the reaction can be shared with.
     pub fn as_point(&self) -> SupportPoint {
         SupportPoint {

@@ -1,4 +1,5 @@
-//! Stop after a clip that ends in motion: its last step is finished, and its last posture turns into standing at ease.
+//! Stop after a motion that ends while the figure moves, or that is broken off: the step under way is finished, and the
+//! last posture turns into standing at ease.
 
 use super::foot_places::{FootPlaces, level, middle};
 use super::params::common::STOP_TIME;
@@ -41,7 +42,7 @@ impl StepTracker {
         &self.legs.at_ease
     }
 
-    /// The posture in which the figure comes to a stand, after a clip that ended in motion.
+    /// The posture in which the figure comes to a stand, after a motion that ended while it moved.
     pub fn stop_posture(&self) -> Option<&Posture> {
         self.is_stopping().then_some(&self.legs.at_ease)
     }
@@ -56,9 +57,26 @@ impl StepTracker {
         self.followed.as_ref().is_some_and(|f| f.stop.is_some())
     }
 
-    /// Turns the motion into standing, because the clip is over while the figure still moves. The last step is finished
-    /// as a recovery step; more are made if the capture point asks for them.
-    pub(super) fn begin_stop(&mut self, terms: &Terms, last: &Posture) {
+    /// Breaks off a motion that steps, in `last`, the posture that it has now (world): no step of it is to come, and
+    /// the figure comes to a stand where it is. Returns the posture of that stand (world).
+    pub fn break_off(&mut self, terms: &Terms, last: &Posture) -> Posture {
+        let mut planned = *last;
+        self.anchor
+            .transform()
+            .power(-1.0)
+            .apply_posture(&mut planned);
+        self.begin_stop(terms, &planned, Purpose::Recover);
+        if let Some(f) = &mut self.followed {
+            f.plan.break_off();
+        }
+        let mut stand = self.legs.at_ease;
+        self.anchor.transform().apply_posture(&mut stand);
+        stand
+    }
+
+    /// Turns the motion into standing, because it is over while the figure still moves. The step under way is finished
+    /// as a recovery step for this `purpose`; more are made if the capture point asks for them.
+    pub(super) fn begin_stop(&mut self, terms: &Terms, last: &Posture, purpose: Purpose) {
         let now = self.places(terms);
         let poses = self.capture.feet(&self.legs.at_ease);
         let home: FootPlaces = std::array::from_fn(|k| self.place_of(k, poses[k]));
@@ -81,7 +99,6 @@ impl StepTracker {
         }
         for side in 0..2 {
             if !self.feet[side].down {
-                let purpose = Purpose::RecoverOnOwnSide;
                 let step =
                     RecoveryStep::new(side, purpose, Self::ankle(terms, side), now[side].yaw);
                 self.recovery.step.begin(step);

@@ -361,6 +361,17 @@ impl StepTracker {
         (self.is_stepping() || self.leans_to_jump()).then(|| led.fold(self.capture.off(), f64::min))
     }
 
+    /// True while the capture point is where the motion has it.
+    pub fn is_on_its_way(&self) -> bool {
+        self.capture.off() < SETTLED_OFFSET
+    }
+
+    /// True while it makes planned steps on its way over the floor and is so far off it that those have to change.
+    pub fn is_off_its_way(&self) -> bool {
+        let moves = self.clock.last_speed > SETTLED_SPEED && !self.is_airborne();
+        self.is_stepping() && moves && self.capture.off() > params::step_timing::ERROR
+    }
+
     /// True if it stands: no step is under way or to come, its feet are where they should be, and the body is slow
     /// enough and near enough to its place to begin something else.
     pub fn is_settled(&self, terms: &Terms) -> bool {
@@ -422,7 +433,8 @@ impl StepTracker {
         self.clock.phase = clip_time(now);
         let over = self.plan().is_some_and(|p| p.is_over(self.clock.phase));
         if over && !self.is_stopping() && self.clock.last_speed > SETTLED_SPEED {
-            self.begin_stop(terms, &pair(now, now).now.posture);
+            let last = pair(now, now).now.posture;
+            self.begin_stop(terms, &last, Purpose::RecoverOnOwnSide);
         }
         let (mut out, planted) = if let Some(standing) = self.advance_stop(dt) {
             (standing, Some([true; 2]))

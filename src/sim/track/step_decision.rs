@@ -12,6 +12,7 @@ use super::recovery_step::{Aim, Purpose, RecoveryStep};
 use super::step_plan::StepPlan;
 use super::{FOOT, Landing, StepTracker, TOES, TaskTargets};
 use crate::sim::dynamics::Terms;
+use crate::sim::math::polygon::Closest;
 use crate::sim::math::{Vec3, trig};
 use crate::sim::support::Support;
 use serde::{Deserialize, Serialize};
@@ -98,7 +99,7 @@ impl StepTracker {
             return;
         };
         if self.recovery_step().is_none() {
-            self.recovery.step = self.decide_step(terms, support, [now, home], nearest.margin);
+            self.recovery.step = self.decide_step(terms, support, [now, home], &nearest);
         }
         // The centre of mass goes over the foot that is to stand alone, and back.
         let over = self.recovery.step.unloaded().map(|k| &now[1 - k]);
@@ -143,19 +144,21 @@ impl StepTracker {
         }
     }
 
-    /// The step that the body needs, while none is under way; `margin`: of the capture point in the support, m.
+    /// The step that the body needs, while none is under way; `nearest`: the point of the support that is nearest to
+    /// the capture point.
     fn decide_step(
         &self,
         terms: &Terms,
         support: &Support,
         [now, home]: [&FootPlaces; 2],
-        margin: f64,
+        nearest: &Closest,
     ) -> UnplannedStep {
-        let (before, xi) = (self.recovery.step, self.capture.point());
+        let (before, xi, margin) = (self.recovery.step, self.capture.point(), nearest.margin);
         let mut supports = support.points().iter().map(|p| p.support);
-        let on_feet =
-            support.rests().is_empty() && supports.all(|s| FOOT.contains(&s) || TOES.contains(&s));
-        if !on_feet || margin < -HOPELESS_MARGIN {
+        let falls = level(xi) - level(nearest.point);
+        let held = support.rests().iter().any(|rest| rest.holds(falls));
+        let on_feet = supports.all(|s| FOOT.contains(&s) || TOES.contains(&s));
+        if held || !on_feet || margin < -HOPELESS_MARGIN {
             return before;
         }
         let swings = |side: usize, purpose: Purpose, unloaded: Option<usize>| {

@@ -220,6 +220,12 @@ impl StepPlan {
         }
     }
 
+    /// Ends it at once: no step of it is to come.
+    pub(super) fn break_off(&mut self) {
+        (self.duration, self.round, self.lead) = (f64::NEG_INFINITY, None, None);
+        self.stances.iter_mut().for_each(Vec::clear);
+    }
+
     /// True for the plan of a stream.
     pub fn is_live(&self) -> bool {
         self.duration == f64::INFINITY

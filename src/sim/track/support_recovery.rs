@@ -189,7 +189,12 @@ impl StepTracker {
         dt: f64,
     ) {
         let lost = self.foot_to_put_down(terms);
-        let Some(side) = lost.filter(|_| support.rests().is_empty()) else {
+        let xi = self.capture.point();
+        let held = |side: usize| {
+            let falls = level(xi) - horizontal(now[1 - side].at);
+            support.rests().iter().any(|rest| rest.holds(falls))
+        };
+        let Some(side) = lost.filter(|side| !held(*side)) else {
             self.recovery.support.lost = 0.0;
             return;
         };

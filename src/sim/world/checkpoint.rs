@@ -29,7 +29,7 @@ use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
 /// Version of the format. Another one is not read: a checkpoint lives as long as the program that wrote it, and a log
 /// of inputs beside it longer (`docs/checkpoints.md`).
-pub const FORMAT: u16 = 6;
+pub const FORMAT: u16 = 7;
 /// First bytes of a checkpoint.
 const MAGIC: [u8; 8] = *b"SINEWCKP";
 /// Bytes before the content.

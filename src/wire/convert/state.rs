@@ -115,6 +115,7 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::Parted(..) => pb::EventType::Parted,
         EventKind::ObstacleAdded(_) => pb::EventType::ObstacleAdded,
         EventKind::ObstacleRemoved(_) => pb::EventType::ObstacleRemoved,
+        EventKind::WayBarred => pb::EventType::WayBarred,
         EventKind::Quarantined => pb::EventType::Quarantined,
         EventKind::FigureAdded => pb::EventType::FigureAdded,
         EventKind::FigureRemoved => pb::EventType::FigureRemoved,

@@ -9953,6 +9953,9 @@ pub enum EventType {
     LoadUnshared = 48,
     /// The figure was pushed: an impulse was applied to the segment.
     Pushed = 46,
+    /// Somebody or something is in the way of its steps and presses on it: it broke off its clip or its stream and comes
+    /// to a stand. A clip does not go on by itself; a stream does, from that stand.
+    WayBarred = 49,
     /// The figure's state became unusable; it is frozen at its last good one.
     Quarantined = 10,
     /// A figure was added.
@@ -10022,6 +10025,7 @@ impl EventType {
             Self::LoadShared => "EVENT_TYPE_LOAD_SHARED",
             Self::LoadUnshared => "EVENT_TYPE_LOAD_UNSHARED",
             Self::Pushed => "EVENT_TYPE_PUSHED",
+            Self::WayBarred => "EVENT_TYPE_WAY_BARRED",
             Self::Quarantined => "EVENT_TYPE_QUARANTINED",
             Self::FigureAdded => "EVENT_TYPE_FIGURE_ADDED",
             Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
@@ -10064,6 +10068,7 @@ impl EventType {
             "EVENT_TYPE_LOAD_SHARED" => Some(Self::LoadShared),
             "EVENT_TYPE_LOAD_UNSHARED" => Some(Self::LoadUnshared),
             "EVENT_TYPE_PUSHED" => Some(Self::Pushed),
+            "EVENT_TYPE_WAY_BARRED" => Some(Self::WayBarred),
             "EVENT_TYPE_QUARANTINED" => Some(Self::Quarantined),
             "EVENT_TYPE_FIGURE_ADDED" => Some(Self::FigureAdded),
             "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),

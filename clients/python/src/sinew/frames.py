@@ -84,7 +84,7 @@ class ObstacleState:
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happened: `type` in lower case, for example `saturated`, `balance_lost`, `fell`, `load_slipped`.
+    """Something that happened: `type` in lower case, for example `saturated`, `balance_lost`, `fell`, `way_barred`.
 
     `tick` and `time_s` (world time, s) say when; `figure`, `segment` and `dof` are names, empty where they do not
     apply; `mass_kg` is that of a load, kg. Where the other hand helps with one (`load_shared`, `load_unshared`),

@@ -4,6 +4,7 @@
 use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::figure::drive::{ClipPlayback, Drive, LivePlayback, QueuedClip};
+use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP_TIME};
 use crate::sim::figure::plan_task::{PlanRequest, PlanTask, Planning};
 use crate::sim::motion::clip::{Clip, PlanarTransform};
@@ -320,6 +321,27 @@ impl Figure {
         if streams && self.steps() && self.desired.tracker.is_walking() {
             self.leave_for_a_stand(LEAD, time);
         }
+    }
+
+    /// Comes to a stand where its way is barred: what presses on it from aside has taken it so far off its motion that
+    /// its steps have to change, and going on would only press more. A clip ends so; one that waits begins from that
+    /// stand, and so does what comes of a stream. Allocates then.
+    pub(super) fn break_off_if_barred(&mut self, world: &TickContext) {
+        let (least, tracker) = (self.least_rest(world), &self.desired.tracker);
+        let pressed = (self.surroundings.touches).press_aside(least, tracker.is_on_its_way());
+        let walks = self.steps() && !self.is_carried();
+        if !(pressed && walks && tracker.is_off_its_way()) {
+            return;
+        }
+        let last = &self.desired.target.next.posture;
+        let stand = self.desired.tracker.break_off(&self.scratch.terms, last);
+        let next = self.motion.take_next();
+        self.motion.follow(Drive::Hold(stand));
+        if let Some(next) = next {
+            self.motion.queue(next);
+            self.plan_entry(world.time());
+        }
+        self.outcome.watcher.push(FigureEvent::WayBarred);
     }
 
     /// Leaves the motion in the last tick that begins before its exit differs from it. A tick that does not wait for

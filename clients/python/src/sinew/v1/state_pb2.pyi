@@ -56,6 +56,10 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """It let go of it: one arm is enough, or the hand is needed elsewhere."""
     EVENT_TYPE_PUSHED: _EventType.ValueType  # 46
     """The figure was pushed: an impulse was applied to the segment."""
+    EVENT_TYPE_WAY_BARRED: _EventType.ValueType  # 49
+    """Somebody or something is in the way of its steps and presses on it: it broke off its clip or its stream and comes
+    to a stand. A clip does not go on by itself; a stream does, from that stand.
+    """
     EVENT_TYPE_QUARANTINED: _EventType.ValueType  # 10
     """The figure's state became unusable; it is frozen at its last good one."""
     EVENT_TYPE_FIGURE_ADDED: _EventType.ValueType  # 11
@@ -136,6 +140,10 @@ EVENT_TYPE_LOAD_UNSHARED: EventType.ValueType  # 48
 """It let go of it: one arm is enough, or the hand is needed elsewhere."""
 EVENT_TYPE_PUSHED: EventType.ValueType  # 46
 """The figure was pushed: an impulse was applied to the segment."""
+EVENT_TYPE_WAY_BARRED: EventType.ValueType  # 49
+"""Somebody or something is in the way of its steps and presses on it: it broke off its clip or its stream and comes
+to a stand. A clip does not go on by itself; a stream does, from that stand.
+"""
 EVENT_TYPE_QUARANTINED: EventType.ValueType  # 10
 """The figure's state became unusable; it is frozen at its last good one."""
 EVENT_TYPE_FIGURE_ADDED: EventType.ValueType  # 11
