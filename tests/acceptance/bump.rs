@@ -5,9 +5,10 @@
 use crate::common::collisions::obstacle;
 use crate::common::{authored, figure, man, synthesised_cycle};
 use crate::vec3;
+use sinew::sim::body::topology::CHEST;
 use sinew::sim::body::{Body, Profile, Sex};
 use sinew::sim::collide::{Mobility, Shape};
-use sinew::sim::figure::{ControllerKind, FigureEvent};
+use sinew::sim::figure::{ControllerKind, FigureEvent, Perturbation};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::motion::{Clip, PlanarTransform};
 use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
@@ -199,4 +200,32 @@ fn who_meets_nobody_walks_on() {
     ];
     let o = run(&mut world, &keys);
     assert!(!o.met && !o.barred && !o.fell && o.speed > 0.7);
+}
+
+/// Pushes of 0.1 s at the chest from four sides, at ten phases of the stride: of each 40, how many the walker survives.
+#[test]
+fn pushes_fell_the_synthesised_walker_soon() {
+    let man = person(man());
+    let survived = [5.0, 10.0, 20.0].map(|impulse| {
+        let mut up = 0;
+        for to in [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y] {
+            for phase in 0..10 {
+                let mut world = World::new(WorldParams::default()).unwrap();
+                let key = add(&mut world, &man, walks(0.0, 0.0), 2.0);
+                let from = 1.5 + 0.11 * f64::from(phase);
+                let push = Perturbation::Force {
+                    segment: CHEST,
+                    point: vec3(0.0, 0.0, 0.1),
+                    force: to * (impulse / 0.1),
+                    from,
+                    to: from + 0.1,
+                };
+                world.perturb(key, push).unwrap();
+                up += usize::from(!run(&mut world, &[key]).fell);
+            }
+        }
+        println!("{impulse} N·s: {up} of 40 are survived");
+        up
+    });
+    assert!(survived[0] == 40 && survived[1] >= 32, "{survived:?}");
 }

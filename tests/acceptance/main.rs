@@ -4,6 +4,7 @@
 //! * `push`: what a standing figure survives, and where it falls when it does not.
 //! * `report`: what a tick says of the centre of mass.
 //! * `fall`: a stiff figure is a physical pendulum.
+//! * `bump`: who walks into somebody, or into a wall.
 //! * `bracing`: a person who falls lands on hands, not on the head.
 //! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
 //! * `slide`: Coulomb's law for points that slide.

@@ -169,14 +169,7 @@ async fn collisions_in_stages_are_forked_as_well() {
         }),
         ..Default::default()
     };
-    let request = pb::CreateObstacleRequest {
-        parent: world.clone(),
-        obstacle_id: "wall".into(),
-        obstacle: Some(wall),
-        ..Default::default()
-    };
-    let added = server.client.obstacles().create_obstacle(request).await;
-    added.unwrap();
+    server.add_obstacle(&world, "wall", wall).await.unwrap();
     server
         .play(&format!("{world}/figures/a"), "clips/lift", true)
         .await;

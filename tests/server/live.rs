@@ -23,6 +23,18 @@ fn walk(body: &Body) -> Clip {
     cycle(body, &clip).unwrap()
 }
 
+/// Of a driver of figure `a` that sends 120 frames per second, with a window of so many ms.
+fn windowed(world: &str, window_ms: f64) -> pb::DriveHeader {
+    pb::DriveHeader {
+        playout_delay_ms: None,
+        nominal_rate_hz: 120.0,
+        reset: true,
+        grace_ms: Some(60_000.0),
+        preparation_window_ms: Some(window_ms),
+        ..header(world, "a", "me")
+    }
+}
+
 struct Streamed {
     /// World time at which it fell, s.
     fell: Option<f64>,
@@ -47,14 +59,7 @@ async fn stream(
     let server = TestServer::start().await;
     let world = server.paused_world(id).await;
     server.figure(&world, "a").await;
-    let header = pb::DriveHeader {
-        playout_delay_ms: None,
-        nominal_rate_hz: 120.0,
-        reset: true,
-        grace_ms: Some(60_000.0),
-        preparation_window_ms: Some(window_ms),
-        ..header(&world, "a", "me")
-    };
+    let header = windowed(&world, window_ms);
     let mut client = server.client.motions();
     let mut out = Streamed {
         fell: None,
@@ -246,14 +251,7 @@ async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
     let server = TestServer::start().await;
     let world = server.paused_world("w").await;
     server.figure(&world, "a").await;
-    let header = pb::DriveHeader {
-        playout_delay_ms: None,
-        nominal_rate_hz: 120.0,
-        reset: true,
-        grace_ms: Some(60_000.0),
-        preparation_window_ms: Some(500.0),
-        ..header(&world, "a", "me")
-    };
+    let header = windowed(&world, 500.0);
     let restart = seconds * 120; // frames after which sequence and time begin at 0 again
     let last = walk.sample_looped(seconds as f64).posture;
     let stand = engine::standing(&body, engine::place_of(&last));
@@ -298,14 +296,7 @@ async fn who_is_led_into_a_wall_stands_and_walks_on_when_it_is_gone() {
     let server = TestServer::start().await;
     let world = server.paused_world("w").await;
     server.figure(&world, "a").await;
-    let header = pb::DriveHeader {
-        playout_delay_ms: None,
-        nominal_rate_hz: 120.0,
-        reset: true,
-        grace_ms: Some(60_000.0),
-        preparation_window_ms: Some(500.0),
-        ..header(&world, "a", "me")
-    };
+    let header = windowed(&world, 500.0);
     let point = |t: f64| walk.sample_looped(t).posture.root_position;
     let (from, way) = (point(0.0), point(60.0) - point(0.0));
     let turned = 0.5 * way.y.atan2(way.x);
@@ -332,18 +323,7 @@ async fn who_is_led_into_a_wall_stands_and_walks_on_when_it_is_gone() {
         }),
         ..Default::default()
     };
-    let request = pb::CreateObstacleRequest {
-        parent: world.clone(),
-        obstacle_id: "wall".into(),
-        obstacle: Some(wall),
-        ..Default::default()
-    };
-    server
-        .client
-        .obstacles()
-        .create_obstacle(request)
-        .await
-        .unwrap();
+    server.add_obstacle(&world, "wall", wall).await.unwrap();
     let watch = pb::WatchEventsRequest {
         world: world.clone(),
         types: vec![pb::EventType::WayBarred.into()],

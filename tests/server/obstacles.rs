@@ -47,7 +47,8 @@ fn crate_at(x: f64) -> pb::Obstacle {
 }
 
 impl TestServer {
-    async fn add_obstacle(
+    /// Adds an obstacle; its name is made up if `id` is empty.
+    pub async fn add_obstacle(
         &self,
         world: &str,
         id: &str,
