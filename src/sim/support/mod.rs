@@ -124,6 +124,11 @@ impl Support {
         }
     }
 
+    /// True if something that it rests on keeps the body from falling this `way` (horizontal).
+    pub fn holds(&self, way: Vec3) -> bool {
+        self.rests().iter().any(|rest| rest.holds(way))
+    }
+
     /// What carries it besides the floor.
     pub fn rests(&self) -> &[Rest] {
         &self.rests

@@ -362,12 +362,12 @@ impl StepTracker {
     }
 
     /// True while the capture point is where the motion has it.
-    pub fn is_on_its_way(&self) -> bool {
+    pub fn is_on_plan(&self) -> bool {
         self.capture.off() < SETTLED_OFFSET
     }
 
     /// True while it makes planned steps on its way over the floor and is so far off it that those have to change.
-    pub fn is_off_its_way(&self) -> bool {
+    pub fn is_far_off_plan(&self) -> bool {
         let moves = self.clock.last_speed > SETTLED_SPEED && !self.is_airborne();
         self.is_stepping() && moves && self.capture.off() > params::step_timing::ERROR
     }

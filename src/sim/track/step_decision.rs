@@ -156,7 +156,7 @@ impl StepTracker {
         let (before, xi, margin) = (self.recovery.step, self.capture.point(), nearest.margin);
         let mut supports = support.points().iter().map(|p| p.support);
         let falls = level(xi) - level(nearest.point);
-        let held = support.rests().iter().any(|rest| rest.holds(falls));
+        let held = support.holds(falls);
         let on_feet = supports.all(|s| FOOT.contains(&s) || TOES.contains(&s));
         if held || !on_feet || margin < -HOPELESS_MARGIN {
             return before;

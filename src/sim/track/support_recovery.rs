@@ -190,10 +190,7 @@ impl StepTracker {
     ) {
         let lost = self.foot_to_put_down(terms);
         let xi = self.capture.point();
-        let held = |side: usize| {
-            let falls = level(xi) - horizontal(now[1 - side].at);
-            support.rests().iter().any(|rest| rest.holds(falls))
-        };
+        let held = |side: usize| support.holds(level(xi) - horizontal(now[1 - side].at));
         let Some(side) = lost.filter(|side| !held(*side)) else {
             self.recovery.support.lost = 0.0;
             return;

@@ -328,9 +328,9 @@ impl Figure {
     /// stand, and so does what comes of a stream. Allocates then.
     pub(super) fn break_off_if_barred(&mut self, world: &TickContext) {
         let (least, tracker) = (self.least_rest(world), &self.desired.tracker);
-        let pressed = (self.surroundings.touches).press_aside(least, tracker.is_on_its_way());
+        let pressed = (self.surroundings.touches).press_aside(least, tracker.is_on_plan());
         let walks = self.steps() && !self.is_carried();
-        if !(pressed && walks && tracker.is_off_its_way()) {
+        if !(pressed && walks && tracker.is_far_off_plan()) {
             return;
         }
         let last = &self.desired.target.next.posture;
