@@ -16,7 +16,7 @@ async fn push(server: &TestServer) {
                 segment: "chest".into(),
                 impulse_newton_seconds: Some(pb::Vector3 {
                     x: 0.0,
-                    y: 60.0,
+                    y: 90.0,
                     z: 0.0,
                 }),
                 duration_s: 0.2,

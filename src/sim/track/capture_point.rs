@@ -7,8 +7,12 @@
 //! `ξ(t) = p + (ξ − p) e^{ωt}`.
 //!
 //! The error `e = ξ − ξ_ref` against the motion's is driven out by `p = p_ref + (1 + k) e` as far as the support
-//! allows. That takes care of a part `d` of it; `(e − d) e^{ωt} + d` is left at the touch-down in `t` seconds, and the
-//! foothold is displaced by as much.
+//! allows. That takes care of a part `d` of it; `(e − d) e^{ωt} + d` is left at the touch-down in `t` seconds.
+//!
+//! A foothold displaced by `δ` takes the plan along, but not the foot that stands behind. While the weight passes on,
+//! the zero-moment point is off the plan's by `−δ` times the share that the foot behind still carries. If that falls
+//! evenly from all to nothing in the double support `D`, an error `e` at the touch-down is gone at the end of `D` with
+//! `δ = e x/(1 − e^{−x})`, `x = ωD` ([`Capture::displacement_gain`]).
 
 use super::filter_gain;
 use super::foot_places::{FootPlace, horizontal, level, outward, turn};
@@ -270,6 +274,18 @@ impl Capture {
         Some(std::array::from_fn(|k| w2 * (middle[k] - p[k]) + push[k]))
     }
 
+    /// By how much a foothold is to be displaced for each metre of error at its touch-down, so that the error is gone
+    /// after the `double_support` (s) that follows: after the touch-down `ė = ω (e + δ (1 − t/D))` from `e − δ`.
+    pub(super) fn displacement_gain(&self, double_support: f64) -> f64 {
+        let x = self.omega * double_support;
+        // Nearer to 0 the quotient, which tends to 1, loses its digits.
+        if x > f64::EPSILON.sqrt() {
+            x / (1.0 - exp(-x))
+        } else {
+            1.0
+        }
+    }
+
     /// Error that is left after `remaining` seconds of swing, m.
     pub fn left_over(&self, remaining: f64) -> [f64; 2] {
         let grows = exp(self.omega * remaining.min(LONGEST_FORECAST));
@@ -344,6 +360,26 @@ mod tests {
             let zmp = capture.zmp_for(goal, time);
             let off = apart(capture.after(zmp, time), goal);
             assert!(off < 1e-12, "{off:e} m after {time} s");
+        }
+    }
+
+    #[test]
+    fn a_displaced_foothold_takes_the_error_away_by_the_end_of_the_double_support() {
+        let capture = Capture {
+            omega: 3.1,
+            ..Capture::new(&Body::adult_man())
+        };
+        assert_eq!(capture.displacement_gain(0.0), 1.0);
+        for time in [1e-3, 0.1, 0.3] {
+            let (before, steps) = (0.12, 20_000);
+            let dt = time / f64::from(steps);
+            let moved = before * capture.displacement_gain(time);
+            let mut error = before - moved;
+            for k in 0..steps {
+                let carried = 1.0 - (f64::from(k) + 0.5) / f64::from(steps);
+                error += dt * capture.omega * (error + moved * carried);
+            }
+            assert!(error.abs() < 1e-4 * before, "{error} m after {time} s");
         }
     }
 

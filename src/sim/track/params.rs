@@ -93,7 +93,7 @@ pub mod capture {
         INSET: f64 = 0.01, "m", 0.0..=0.03, "docs/locomotion.md#balance";
         /// Largest displacement of a foothold along its heading.
         REACH_ALONG: f64 = 0.30, "m", 0.1..=0.6, "docs/locomotion.md#capture-point";
-        /// Largest displacement of a foothold across its heading.
+        /// Largest displacement of a foothold across its heading, and of one that lands early against its stride.
         REACH_ACROSS: f64 = 0.60, "m", 0.1..=0.8, "docs/locomotion.md#capture-point";
         /// Least distance to the side from the stance foot, unless the plan comes closer or crosses.
         SEPARATION: f64 = 0.03, "m", 0.0..=0.1, "docs/locomotion.md#capture-point";
@@ -181,7 +181,7 @@ pub mod step_timing {
 
     params! {
         /// A capture point nearer to the plan's than this leaves the time of the step as it is: undisturbed clips are.
-        ERROR: f64 = 0.15, "m", 0.05..=0.3, "docs/locomotion.md#step-timing";
+        ERROR: f64 = 0.2, "m", 0.05..=0.3, "docs/locomotion.md#step-timing";
         /// Number of intervals between the planned rate and the fastest one.
         RATES: u32 = 8, "1", 2..=32, "docs/locomotion.md#step-timing";
         /// Nothing is changed any more in less than this before a landing.
@@ -190,10 +190,10 @@ pub mod step_timing {
         EARLIEST_DECISION: f64 = 0.7, "s", 0.3..=1.0, "docs/locomotion.md#step-timing";
         /// Mean speed at which a foot gets to a new foothold.
         FOOT_SPEED: f64 = 5.0, "m/s", 2.0..=8.0, "docs/locomotion.md#step-timing";
-        /// By how much a step may get shorter: a body off its plan by a walking speed cannot keep its stride.
-        SHORTER: f64 = 0.6, "m", 0.3..=0.8, "docs/locomotion.md#step-timing";
-        /// Cost of a doubled rate and of each metre of displacement, in metres of error that is left.
-        EFFORT: f64 = 0.1, "m", 0.0..=1.0, "docs/locomotion.md#step-timing";
+        /// Cost of a doubled rate, in metres of error that is left. Small: to land late lets the error grow.
+        HURRY: f64 = 0.01, "m", 0.0..=0.3, "docs/locomotion.md#step-timing";
+        /// Cost of each metre of displacement, in metres of error that is left.
+        EFFORT: f64 = 0.1, "1", 0.0..=1.0, "docs/locomotion.md#step-timing";
     }
 }
 

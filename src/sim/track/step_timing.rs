@@ -6,17 +6,18 @@
 //!
 //! For each rate `ρ` the landing comes after `t = t₀/ρ`. The zero-moment point `p`, within the sole, is chosen such
 //! that `ξ(t) = p + (ξ − p) e^{ωt}` comes as near as it can to its place relative to the planned foothold; the foothold
-//! `f` that is as far from `ξ(t)` as the motion has it catches the body. What a foot reaches is within the leg's reach
-//! and its speed. The rate with the least `|f − reached| + w (ρ − 1 + |reached − planned|)` is taken (Koolen et al.
-//! 2012). The centre of mass meanwhile follows the pendulum about `p`, because the motion's would run away from the
-//! body.
+//! `f` that is as far from `ξ(t)` as the motion has it catches the body, displaced by a little more for the double
+//! support that follows ([`super::capture_point`]). What a foot reaches is within the leg's reach and its speed. The
+//! rate with the least `|f − reached| + h (ρ − 1) + w |reached − planned|` is taken (Koolen et al. 2012). The centre of
+//! mass meanwhile follows the pendulum about `p`, because the motion's would run away from the body.
 
 use super::StepTracker;
 use super::capture_point::within_reach;
 use super::foot_places::{level, stance_points};
+use super::params::capture::REACH_ACROSS;
 use super::params::contact::FASTEST_RATE;
 use super::params::step_timing::{
-    EARLIEST_DECISION, EFFORT, ERROR, FOOT_SPEED, LATEST_DECISION, RATES, SHORTER,
+    EARLIEST_DECISION, EFFORT, ERROR, FOOT_SPEED, HURRY, LATEST_DECISION, RATES,
 };
 use super::step_plan::Footfall;
 use crate::sim::dynamics::Terms;
@@ -132,21 +133,24 @@ impl StepTracker {
             level([ankle.x, ankle.y])
         });
         let goal = home.at + offset;
+        let gain = self.displacement_gain(side, &f);
         self.capture.set_stance(stance_points(support, side));
         let tried = (0..=RATES).map(|k| {
             let rate = 1.0 + (FASTEST_RATE - 1.0) * f64::from(k) / f64::from(RATES);
             let time = planned / rate;
             let zmp = self.capture.zmp_for([goal.x, goal.y], time);
             let xi = self.capture.after(self.capture.within(zmp), time);
-            let catches = level(xi) - offset;
-            let d = catches - home.at;
-            let mut place = home.at + level(within_reach([d.x, d.y], home, stance, side, SHORTER));
+            let d = level([xi[0] - goal.x, xi[1] - goal.y]) * gain;
+            let catches = home.at + d;
+            // A body off its plan by a walking speed cannot keep its stride: along it, too, the leg's reach counts.
+            let mut place =
+                home.at + level(within_reach([d.x, d.y], home, stance, side, REACH_ACROSS));
             let (way, air) = (place - swing, (time - stands / rate).max(0.0));
             if k > 0 && way.norm() > FOOT_SPEED * air {
                 place = swing + way * (FOOT_SPEED * air / way.norm());
             }
             let left = (catches - place).norm();
-            let cost = left + EFFORT * (rate - 1.0 + (place - home.at).norm());
+            let cost = left + HURRY * (rate - 1.0) + EFFORT * (place - home.at).norm();
             let step = EarlyStep {
                 side,
                 on: f.on,

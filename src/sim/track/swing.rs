@@ -10,6 +10,8 @@ use super::foot_places::{FootPlace, level, turn};
 use super::leg_collision::StanceLeg;
 use super::params::capture::REACH_ALONG;
 use super::params::common::{FREEZE_TIME, LOWERING_SPEED};
+use super::params::step_plan::{PAUSE_AFTER, PAUSE_BEFORE};
+use super::params::step_timing::EARLIEST_DECISION;
 use super::params::swing::{
     CLEARANCE, CLEARANCE_SPEED, RELEASE_TIME, RETURN_MOST, RETURN_SHARE, SHIFT_SHARE, SHORTEST,
 };
@@ -117,6 +119,19 @@ impl StepTracker {
         ankle.next.z -= low.max(0.0);
     }
 
+    /// Displacement of the foothold `f` of foot `side` for each metre of error at its touch-down. 1 where the pendulum
+    /// predicts neither the touch-down nor the end of the double support: feet that stand together for so long leave
+    /// time to bring the body to its place.
+    pub(super) fn displacement_gain(&self, side: usize, f: &Footfall) -> f64 {
+        let stance = self.planned(1 - side).filter(|_| self.feet[1 - side].down);
+        let both = stance.map_or(0.0, |s| (s.off - f.on) / self.speed());
+        if both.max(self.until(f.on)) >= EARLIEST_DECISION {
+            return 1.0;
+        }
+        self.capture
+            .displacement_gain(both.clamp(0.0, PAUSE_BEFORE + PAUSE_AFTER))
+    }
+
     /// Updates the displacement of the foothold `f` of a swinging foot.
     fn update_foothold(&mut self, terms: &Terms, side: usize, f: &Footfall, dt: f64) {
         let remaining = self.until(f.on).max(0.0);
@@ -126,7 +141,8 @@ impl StepTracker {
             None => {
                 let away = home.at - planned;
                 let pull = RETURN_SHARE.min(RETURN_MOST / level([away.x, away.y]).norm().max(1e-9));
-                let mut d = self.capture.left_over(remaining);
+                let gain = self.displacement_gain(side, f);
+                let mut d = self.capture.left_over(remaining).map(|e| gain * e);
                 d[0] -= pull * away.x;
                 d[1] -= pull * away.y;
                 within_reach(d, home, Self::ankle(terms, 1 - side), side, REACH_ALONG)
