@@ -119,9 +119,9 @@ impl StepTracker {
         ankle.next.z -= low.max(0.0);
     }
 
-    /// Displacement of the foothold `f` of foot `side` for each metre of error at its touch-down. 1 where the touch-down
-    /// or the end of the double support is further ahead than the pendulum predicts: feet that stand together for so
-    /// long leave time to bring the body to its place.
+    /// Displacement of the foothold `f` of foot `side` for each metre of error at its touch-down. 1 where that or the
+    /// end of the double support is further ahead than the pendulum predicts: feet that stand together for so long
+    /// leave time to bring the body to its place.
     pub(super) fn displacement_gain(&self, side: usize, f: &Footfall) -> f64 {
         let stance = self.planned(1 - side).filter(|_| self.feet[1 - side].down);
         let both = stance.map_or(0.0, |s| (s.off - f.on) / self.speed());
