@@ -4,7 +4,7 @@ use super::newton::System;
 use super::rows::{CHAIN_WIDTH, SegmentRows};
 use crate::sim::body::topology::NV;
 use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::math::dense::{factor_columns, solve_lower, solve_upper};
+use crate::sim::math::dense::{factor_body_columns, solve_lower, solve_upper};
 
 /// A square matrix with rows padded to vector width.
 pub type Dense = [[f64; WIDTH]; NV];
@@ -50,7 +50,7 @@ impl System for DenseSystem<'_> {
     }
     #[inline(always)]
     fn solve(g: &mut Dense, x: &mut [f64; NV]) -> bool {
-        if !factor_columns(g.as_flattened_mut(), WIDTH, false) {
+        if !factor_body_columns(g) {
             return false;
         }
         let mut y = [0.0; WIDTH];

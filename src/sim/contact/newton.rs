@@ -1,7 +1,7 @@
 //! Semi-smooth Newton method with exact line search, warm start and a bound on its work (`docs/equations.md`, 14.2).
 
 use super::interior::Interior;
-use super::limits::LimitRows;
+use super::limits::{LimitRows, MAX_LIMITS};
 use super::projection::Region;
 use super::rows::{CHAIN_WIDTH, ContactRows, SegmentRows, add_point_stiffness};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
@@ -99,6 +99,8 @@ pub struct NewtonWorkspace {
     pub force: Box<[Vec3; MAX_CONTACTS]>,
     pub(crate) velocity: Box<[Vec3; MAX_CONTACTS]>,
     pub(crate) direction: Box<[Vec3; MAX_CONTACTS]>,
+    /// Rates of the limit rows at the start of a line search, and along it.
+    ways: Box<[[f64; 2]; MAX_LIMITS]>,
     pub(crate) region: Box<[Region; MAX_CONTACTS]>,
     pub(crate) interior: Interior,
 }
@@ -112,9 +114,51 @@ impl Default for NewtonWorkspace {
             force: z(),
             velocity: z(),
             direction: z(),
+            ways: Box::new([[0.0; 2]; MAX_LIMITS]),
             region: Box::new([Region::Open; MAX_CONTACTS]),
             interior: Interior::default(),
         }
+    }
+}
+
+impl NewtonWorkspace {
+    /// Before a line search from `x` along `d`; the velocities of the contacts at `x` are known.
+    #[inline(always)]
+    pub(crate) fn aim(
+        &mut self,
+        limits: &LimitRows,
+        contacts: &ContactRows,
+        [x, d]: [&[f64; NV]; 2],
+    ) {
+        contacts.velocities(d, &mut self.direction);
+        for (row, way) in limits.rows.iter().zip(self.ways.iter_mut()) {
+            *way = [row.rate(x), row.rate(d)];
+        }
+    }
+
+    /// `z` less what motors, limits and contacts give along `d` at `x + a d`, after [`Self::aim`].
+    #[inline(always)]
+    pub(crate) fn less_given(
+        &self,
+        (mut z, a): (f64, f64),
+        motors: &Motors,
+        limits: &LimitRows,
+        contacts: &ContactRows,
+        [x, d]: [&[f64; NV]; 2],
+    ) -> f64 {
+        for j in 0..DOF_COUNT {
+            z -= d[6 + j] * motors.value(j, x[6 + j] + a * d[6 + j]).0;
+        }
+        for (row, [rate, r]) in limits.rows.iter().zip(self.ways.iter()) {
+            if *r != 0.0 {
+                z -= r * row.impulse(rate + a * r);
+            }
+        }
+        for k in 0..contacts.points.len() {
+            let (f, _) = contacts.force(k, self.velocity[k] + self.direction[k] * a);
+            z -= self.direction[k].dot(f);
+        }
+        z
     }
 }
 
@@ -190,30 +234,22 @@ pub fn minimise<S: System>(
         // φ'(a) = dᵀ∇(x + a d) is monotone; its quadratic part is q0 + a q1.
         let mut ad = [0.0; NV];
         system.mul(&d, &mut ad);
-        contacts.velocities(&d, &mut ws.direction);
+        ws.aim(limits, contacts, [x, &d]);
         let (mut q0, mut q1, mut slope0) = (0.0, 0.0, 0.0);
         for i in 0..NV {
             q0 += d[i] * (ax[i] - b[i]);
             q1 += d[i] * ad[i];
             slope0 += d[i] * grad[i];
         }
-        let a = line_search(slope0, LINE_SEARCH, |a| {
-            let mut z = q0 + a * q1;
-            for j in 0..DOF_COUNT {
-                z -= d[6 + j] * motors.value(j, x[6 + j] + a * d[6 + j]).0;
+        let mut search = LineSearch::new(slope0, LINE_SEARCH);
+        loop {
+            let (a, line) = (search.step, [&*x, &d]);
+            let slope = ws.less_given((q0 + a * q1, a), motors, limits, contacts, line);
+            if search.ends_at(slope) {
+                break;
             }
-            for row in &limits.rows {
-                let r = row.rate(&d);
-                if r != 0.0 {
-                    z -= r * row.impulse(row.rate(x) + a * r);
-                }
-            }
-            for k in 0..n {
-                let (f, _) = contacts.force(k, ws.velocity[k] + ws.direction[k] * a);
-                z -= ws.direction[k].dot(f);
-            }
-            z
-        });
+        }
+        let a = search.step;
         for i in 0..NV {
             x[i] += a * d[i];
             ax[i] += a * ad[i];
@@ -311,32 +347,58 @@ fn add_slopes<S: System>(
     }
 }
 
-/// Length of a step that brings the slope `phi` along it near zero: the whole step, unless the slope there is well
-/// above zero; `slope0 < 0` is the slope at its start, `phi` grows; at most `most` evaluations after the first.
-#[inline(always)]
-pub(crate) fn line_search(slope0: f64, most: usize, mut phi: impl FnMut(f64) -> f64) -> f64 {
-    let mut a = 1.0;
-    let full = phi(1.0);
-    if full > 0.1 * slope0.abs() {
-        // Illinois variant of regula falsi between 0 and 1.
-        let (mut lo, mut flo, mut hi, mut fhi) = (0.0, slope0, 1.0, full);
-        for _ in 0..most {
-            a = lo - flo * (hi - lo) / (fhi - flo);
-            if a.is_nan() || a <= lo + 1e-3 * (hi - lo) {
-                a = lo + 1e-2 * (hi - lo);
-            }
-            let p = phi(a);
-            if p.abs() < 0.05 * slope0.abs() {
-                break;
-            }
-            if p < 0.0 {
-                (lo, flo) = (a, p);
-                fhi *= 0.5;
-            } else {
-                (hi, fhi) = (a, p);
-                flo *= 0.5;
-            }
+/// Search for the length of a step that brings the slope along it near zero: the whole step, unless the slope there is
+/// well above zero. The slope grows. Whoever searches evaluates it, in place, with the vector instructions that it is
+/// compiled for.
+#[derive(Debug)]
+pub(crate) struct LineSearch {
+    /// Where the slope is to be evaluated; in the end, the length of the step.
+    pub step: f64,
+    /// Slope at the start, < 0.
+    start: f64,
+    /// Evaluations that are left after the first.
+    left: usize,
+    /// Lengths between which the slope changes its sign, and the slopes that the next length is taken from.
+    bracket: Option<[(f64, f64); 2]>,
+}
+
+impl LineSearch {
+    /// With `most` evaluations after the first.
+    #[inline(always)]
+    pub fn new(start: f64, most: usize) -> Self {
+        Self {
+            step: 1.0,
+            start,
+            left: most,
+            bracket: None,
         }
     }
-    a
+
+    /// True if the search ends at a step with this slope; else there is another step to evaluate.
+    #[inline(always)]
+    pub fn ends_at(&mut self, slope: f64) -> bool {
+        let [lo, hi] = match self.bracket {
+            None if slope > 0.1 * self.start.abs() => [(0.0, self.start), (1.0, slope)],
+            Some([lo, hi]) if slope.abs() >= 0.05 * self.start.abs() || slope.is_nan() => {
+                // Illinois variant of regula falsi.
+                if slope < 0.0 {
+                    [(self.step, slope), (hi.0, 0.5 * hi.1)]
+                } else {
+                    [(lo.0, 0.5 * lo.1), (self.step, slope)]
+                }
+            }
+            _ => return true,
+        };
+        if self.left == 0 {
+            return true;
+        }
+        self.left -= 1;
+        self.bracket = Some([lo, hi]);
+        let way = hi.0 - lo.0;
+        self.step = lo.0 - lo.1 * way / (hi.1 - lo.1);
+        if self.step.is_nan() || self.step <= lo.0 + 1e-3 * way {
+            self.step = lo.0 + 1e-2 * way;
+        }
+        false
+    }
 }

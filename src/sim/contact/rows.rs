@@ -4,12 +4,12 @@ use super::projection::{Region, derivative, project};
 use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, SEGMENT_COUNT};
 use crate::sim::dynamics::Kinematics;
 use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::dynamics::mass_matrix::{CHAIN, DEPTH};
+use crate::sim::dynamics::mass_matrix::{CHAIN, DEPTH, ROW};
 use crate::sim::math::{Mat3, Vec3};
 use crate::sim::report::MAX_CONTACTS;
 
 /// Padded length of a chain of velocity components.
-pub const CHAIN_WIDTH: usize = 24;
+pub const CHAIN_WIDTH: usize = ROW;
 
 /// The deepest velocity component that moves a segment.
 pub const fn last_component(s: usize) -> usize {

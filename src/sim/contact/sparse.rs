@@ -4,7 +4,7 @@ use super::newton::System;
 use super::rows::{CHAIN_WIDTH, SegmentRows};
 use crate::sim::body::topology::NV;
 use crate::sim::dynamics::factor::{factor, solve};
-use crate::sim::dynamics::mass_matrix::{DEPTH, MassMatrix};
+use crate::sim::dynamics::mass_matrix::{BLOCK, DEPTH, MassMatrix};
 
 /// A borrowed inertia matrix.
 ///
@@ -35,7 +35,8 @@ impl System for SparseSystem<'_> {
                 if y == 0.0 {
                     continue;
                 }
-                for k in 0..=i {
+                // In whole blocks, as in [`factor`].
+                for k in 0..(i / BLOCK + 1) * BLOCK {
                     row[k] += y * kj[a][k];
                 }
             }

@@ -19,7 +19,9 @@ use crate::sim::contact::{
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::math::curve::fall;
-use crate::sim::math::dense::{factor_columns, solve_lower, solve_upper};
+use crate::sim::math::dense::{
+    factor_body_columns, gram_of_columns, solve_lower, solve_lower_rows, solve_upper,
+};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
 use crate::sim::report::Flags;
@@ -464,38 +466,12 @@ fn kernel(
     }
     // 2. Y = L⁻¹ M, A = YᵀY = M P⁻¹ M, b = −(Yᵀ L⁻¹ p + h). P is positive definite, since every diagonal entry has its
     //    own weight, unless a number in it is out of hand.
-    if !factor_columns(c.p.as_flattened_mut(), WIDTH, false) {
+    if !factor_body_columns(&mut c.p) {
         return None;
     }
     *c.y = *t.m;
-    for j in 0..NV {
-        let (head, tail) = c.y.split_at_mut(j + 1);
-        let row = &mut head[j];
-        let s = 1.0 / c.p[j][j];
-        for x in row.iter_mut() {
-            *x *= s;
-        }
-        for (k, other) in tail.iter_mut().enumerate() {
-            let a = c.p[j][j + 1 + k];
-            if a != 0.0 {
-                for (x, y) in other.iter_mut().zip(row.iter()) {
-                    *x -= a * y;
-                }
-            }
-        }
-    }
-    for i in (0..NV).step_by(3) {
-        let mut acc = [[0.0; WIDTH]; 3];
-        for row in c.y.iter() {
-            let (a0, a1, a2) = (row[i], row[i + 1], row[i + 2]);
-            for k in 0..WIDTH {
-                acc[0][k] += a0 * row[k];
-                acc[1][k] += a1 * row[k];
-                acc[2][k] += a2 * row[k];
-            }
-        }
-        c.a[i..i + 3].copy_from_slice(&acc);
-    }
+    solve_lower_rows(&c.p, &mut c.y);
+    gram_of_columns(&c.y, &mut c.a);
     // Assist: forces on the pelvis at a price of their own add their compliance to the root's diagonal of the dual.
     for i in 0..6 {
         c.a[i][i] += c.assist[i / 3];

@@ -1,27 +1,32 @@
 //! Tree-sparse Cholesky factor of the inertia matrix: M = LᵀL, leaves first, no fill-in (Featherstone 2008, §6.5).
 
-use super::mass_matrix::{CHAIN, DEPTH, MassMatrix};
+use super::mass_matrix::{BLOCK, CHAIN, DEPTH, MassMatrix};
 use crate::sim::body::topology::NV;
 use crate::sim::math::Lane;
 
 /// Replaces M by its factor L in place. M must be positive definite, as every validated body's is.
+///
+/// Rows are changed in whole blocks: a few products too many cost less than loops of all lengths. What lies beyond a
+/// diagonal is overwritten by them; no entry depends on it.
 #[inline(always)]
 pub fn factor<L: Lane>(m: &mut MassMatrix<L>) {
     for i in (0..NV).rev() {
-        let di = DEPTH[i];
-        let root = m.rows[i][di].sqrt();
+        let depth = DEPTH[i];
+        let root = m.rows[i][depth].sqrt();
         let inv = L::one() / root;
         let mut row = m.rows[i];
-        row[di] = root;
-        for k in 0..di {
-            row[k] *= inv;
+        for x in &mut row {
+            *x *= inv;
         }
+        row[depth] = root;
         m.rows[i] = row;
-        for k in 0..di {
-            let x = row[k];
-            let target = &mut m.rows[CHAIN[i][k]];
-            for c in 0..=k {
-                target[c] -= x * row[c];
+        let ancestors = CHAIN[i][..depth].chunks(BLOCK).zip(row.chunks(BLOCK));
+        for (block, (ancestors, factors)) in ancestors.enumerate() {
+            for (j, x) in ancestors.iter().zip(factors) {
+                let target = &mut m.rows[*j];
+                for c in 0..(block + 1) * BLOCK {
+                    target[c] -= *x * row[c];
+                }
             }
         }
     }

@@ -6,6 +6,12 @@ use crate::sim::math::Lane;
 /// Longest chain of velocity components from the pelvis to a hand.
 pub const MAX_DEPTH: usize = 19;
 
+/// Lanes of a vector register; inner loops of the factorisation run over whole blocks of as many.
+pub const BLOCK: usize = 8;
+
+/// Stored length of a row: [`MAX_DEPTH`] in whole blocks. What lies beyond the diagonal is never read as an entry.
+pub const ROW: usize = MAX_DEPTH.next_multiple_of(BLOCK);
+
 /// Depth of each velocity component: how many others lie between it and the root of the tree.
 pub const DEPTH: [usize; NV] = {
     let mut out = [0; NV];
@@ -43,13 +49,13 @@ pub const CHAIN: [[usize; MAX_DEPTH]; NV] = {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MassMatrix<L = f64> {
     /// `rows[i][k]` is entry `(i, CHAIN[i][k])`.
-    pub rows: [[L; MAX_DEPTH]; NV],
+    pub rows: [[L; ROW]; NV],
 }
 
 impl<L: Lane> Default for MassMatrix<L> {
     fn default() -> Self {
         Self {
-            rows: [[L::zero(); MAX_DEPTH]; NV],
+            rows: [[L::zero(); ROW]; NV],
         }
     }
 }

@@ -10,8 +10,7 @@ use crate::sim::body::topology::{NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Links, State};
 use crate::sim::math::{Mat3, Vec3};
 
-/// Width of a padded row of 45 velocity components.
-pub const WIDTH: usize = 48;
+pub use crate::sim::math::dense::WIDTH;
 
 /// A force on a point of a segment: segment, point (segment frame, m), force (world axes, N).
 pub type AppliedForce = (SegmentId, Vec3, Vec3);

@@ -6,9 +6,12 @@
 //! torques, contact forces and accelerations satisfy the equations of motion to rounding whatever residual the
 //! iteration stopped at.
 
-use super::assist::{PelvisHelp, Spring};
+mod bar;
+mod solve;
+
+use super::assist::PelvisHelp;
 use super::loads::{Bar, MAX_EXTERNAL};
-use super::params::{bar, contact, motors, self_contact};
+use super::params::contact;
 use super::self_contact::{OwnBody, SelfContact};
 use super::tick::TickContext;
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
@@ -16,15 +19,15 @@ use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::island::{Articulated, Parts};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::contact::{
-    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, Problem, Slides, SparseSystem,
-    StopRule, Tissue, collect_limits, minimise, slides,
+    ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, Slides, Tissue, collect_limits,
+    slides,
 };
-use crate::sim::dynamics::jacobian::for_each_column;
 use crate::sim::dynamics::terms::AppliedForce;
 use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
 use crate::sim::math::Vec3;
 use crate::sim::report::{Audit, ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
 use crate::sim::strength::{MuscleScale, Strength};
+use bar::BarRow;
 use multiversion::multiversion;
 
 /// What a stepper reads in one tick.
@@ -98,56 +101,6 @@ impl MotorCommand {
         numbers
             .chain([&self.saturation_speed])
             .all(|x| x.is_finite())
-    }
-}
-
-/// The bar as a row of the solve.
-#[derive(Clone, Copy, Debug)]
-struct BarRow {
-    /// Segments and world points of its ends.
-    ends: [(SegmentId, Vec3); 2],
-    /// Unit vector from the first end to the second, world axes.
-    direction: Vec3,
-    /// Derivative of its length by the velocity.
-    row: [f64; NV],
-    /// Rate of its length that takes an error back, m/s.
-    wanted: f64,
-}
-
-impl BarRow {
-    fn new(bar: &Bar, terms: &Terms, h: f64) -> Self {
-        let ends = bar.ends.map(|(s, p)| (s, terms.point_world(s.index(), p)));
-        let span = ends[1].1 - ends[0].1;
-        let length = span.norm();
-        let direction = if length > 1e-6 {
-            span * (1.0 / length)
-        } else {
-            Vec3::Y
-        };
-        let mut row = [0.0; NV];
-        let root = terms.state.posture.root_position;
-        for (sign, (s, p)) in [-1.0, 1.0].into_iter().zip(ends) {
-            for_each_column(&terms.kin, s.index(), p - root, |i, _, v| {
-                row[i] += sign * v.dot(direction)
-            });
-        }
-        Self {
-            ends,
-            direction,
-            row,
-            wanted: (bar::RETURN * (bar.length - length) / h)
-                .clamp(-bar::RETURN_SPEED, bar::RETURN_SPEED),
-        }
-    }
-
-    fn rate(&self, v: &[f64; NV]) -> f64 {
-        self.row.iter().zip(v).map(|(a, b)| a * b).sum()
-    }
-
-    fn add(&self, impulse: f64, x: &mut [f64; NV]) {
-        for (x, r) in x.iter_mut().zip(&self.row) {
-            *x += impulse * r;
-        }
     }
 }
 
@@ -565,102 +518,6 @@ impl TorqueStepper {
         }
     }
 
-    /// Solves for the velocity at the end of the substep.
-    ///
-    /// Problem 14.3.
-    fn solve_substep(
-        &mut self,
-        input: &StepInput<'_>,
-        h: f64,
-        state: &State,
-        spring: Option<&Spring>,
-    ) {
-        let t = &self.terms;
-        let mut momentum = [0.0; NV];
-        t.mass_matrix.mul(&state.velocity, &mut momentum);
-        for i in 0..NV {
-            momentum[i] -= h * t.h[i]; // M v_free
-        }
-        let mut v = state.velocity;
-        if self.solver.accuracy.motors_first {
-            self.begin_at_motors(h, &mut v);
-        }
-        self.solution.assist = [0.0; 6];
-        self.solution.outcome = Outcome::default();
-        self.problem.slides.begin(
-            &mut self.problem.contacts,
-            &state.velocity,
-            &mut self.solver.newton,
-        );
-        let body = (input.body, input.own.as_ref());
-        let mass = &self.terms.mass_matrix;
-        self.own.correct(body, mass, None, &state.velocity);
-        let mut x = momentum;
-        for round in 0..=self_contact::ROUNDS {
-            x = momentum;
-            self.own.add_to(&mut x);
-            self.solve_sliding(&x, spring, &mut v);
-            let last = round + 1 >= self_contact::ROUNDS;
-            let known = self.solution.outcome.iterations > 0 && !last;
-            let solved = known.then_some(&self.solver.hessian);
-            let mass = &self.terms.mass_matrix;
-            if round == self_contact::ROUNDS || !self.own.correct(body, mass, solved, &v) {
-                break;
-            }
-        }
-        for i in 0..6 {
-            x[i] += self.solution.assist[i];
-        }
-        if let Some(bar) = &self.problem.row {
-            bar.add(self.bar.impulse, &mut x);
-        } else {
-            self.bar.impulse = 0.0;
-        }
-        (self.solution.velocity, self.solution.pushed) = (v, x);
-        let motors = &self.problem.motors;
-        let given = self.solver.newton.motor.iter().enumerate();
-        let saturated = given.filter(|(j, t)| **t >= motors.upper[*j] || **t <= motors.lower[*j]);
-        self.solution.saturated = Some(saturated.fold(0, |all, (j, _)| all | 1 << j));
-    }
-
-    /// Solves as often as points that slide take.
-    fn solve_sliding(&mut self, momentum: &[f64; NV], spring: Option<&Spring>, v: &mut [f64; NV]) {
-        loop {
-            let outcome = match self.problem.row {
-                None => self.solve_with(momentum, spring, v),
-                Some(bar) => self.solve_barred(momentum, spring, &bar, v),
-            };
-            self.solution.outcome = Outcome {
-                iterations: self.solution.outcome.iterations + outcome.iterations,
-                ..outcome
-            };
-            if !self
-                .problem
-                .slides
-                .again(&mut self.problem.contacts, &self.solver.newton)
-            {
-                break;
-            }
-        }
-    }
-
-    /// Where Newton's method begins if the motors come first: `v` is the velocity at the start of the substep of `h` s.
-    fn begin_at_motors(&self, h: f64, v: &mut [f64; NV]) {
-        let saturated = self.solution.saturated.unwrap_or(0);
-        let acceleration = &self.forces.audit.acceleration;
-        for j in 0..DOF_COUNT {
-            v[6 + j] = match saturated >> j & 1 {
-                0 => self.problem.motors.rest[j],
-                _ => v[6 + j] + h * acceleration[6 + j],
-            };
-        }
-        if self.solution.saturated.is_some() {
-            for (v, a) in v[..6].iter_mut().zip(acceleration) {
-                *v += h * a;
-            }
-        }
-    }
-
     /// Recomputes the velocity from the impulses of the last iterate and writes it to `state.velocity`.
     fn close(&mut self, h: f64, state: &mut State) {
         let t = &self.terms;
@@ -684,179 +541,6 @@ impl TorqueStepper {
         state.velocity = x;
         if state.brake(contact::LARGEST_SPEED) {
             self.forces.flags.set(Flags::SPEED_BOUND);
-        }
-    }
-
-    /// Solves with or without assist.
-    fn solve_with(
-        &mut self,
-        momentum: &[f64; NV],
-        spring: Option<&Spring>,
-        v: &mut [f64; NV],
-    ) -> Outcome {
-        match spring {
-            None => self.solve_freely(momentum, v, false),
-            Some(spring) => self.solve_assisted(momentum, spring, v),
-        }
-    }
-
-    /// Solves with a bar: one unknown impulse along it, found by Newton and secant steps on the rate of its length,
-    /// which grows with the impulse. Leaves the impulse in [`Self::bar_impulse`]; it is the next substep's first guess.
-    fn solve_barred(
-        &mut self,
-        momentum: &[f64; NV],
-        spring: Option<&Spring>,
-        bar: &BarRow,
-        v: &mut [f64; NV],
-    ) -> Outcome {
-        let mut total = Outcome::default();
-        let mut before: Option<(f64, f64)> = None;
-        let mut slope = 0.0;
-        for _ in 0..bar::ITERATIONS {
-            let mut b = *momentum;
-            bar.add(self.bar.impulse, &mut b);
-            let outcome = self.solve_with(&b, spring, v);
-            total = Outcome {
-                iterations: total.iterations + outcome.iterations,
-                ..outcome
-            };
-            let off = bar.rate(v) - bar.wanted;
-            if off.abs() < bar::TOLERANCE {
-                break;
-            }
-            let secant = before
-                .map(|(p, o)| (off - o) / (self.bar.impulse - p))
-                .filter(|s| s.is_finite() && *s > 0.1 * slope && *s < 10.0 * slope);
-            slope = secant.unwrap_or_else(|| {
-                // The last matrix that was factored: motors, limits and contacts as they stood then.
-                let mut x = [0.0; NV];
-                bar.add(1.0, &mut x);
-                solve(&self.solver.hessian, &mut x);
-                bar.rate(&x).max(1e-4)
-            });
-            before = Some((self.bar.impulse, off));
-            self.bar.impulse -= off / slope;
-        }
-        total
-    }
-
-    /// Adds the bar's forces to the means, and to the audit of the last substep.
-    fn account_bar(&mut self, row: &BarRow, h: f64, dt: f64, last: bool) {
-        self.forces.bar += row.direction * (self.bar.impulse / dt);
-        if last {
-            let force = row.direction * (self.bar.impulse / h);
-            self.bar.forces = Some([
-                (row.ends[0].0, row.ends[0].1, force * -1.0),
-                (row.ends[1].0, row.ends[1].1, force),
-            ]);
-        }
-    }
-
-    /// Solves for the velocity at the end of the substep; with `assisted`, for the matrix that carries the springs of
-    /// the assist.
-    fn solve_freely(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
-        let outcome = self.solve_once(momentum, v, assisted);
-        if outcome.converged {
-            outcome
-        } else {
-            self.solve_softer(momentum, v, outcome, assisted)
-        }
-    }
-
-    /// One run of Newton's method with the motors as they are.
-    fn solve_once(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
-        let SubstepSolver {
-            newton,
-            hessian,
-            assisted: springs,
-            accuracy,
-        } = &mut self.solver;
-        let stop = StopRule {
-            iterations: contact::ITERATIONS,
-            tolerance: accuracy.tolerance,
-        };
-        let matrix = if assisted {
-            springs
-        } else {
-            &self.terms.mass_matrix
-        };
-        substep_kernel(matrix, &self.problem, momentum, stop, v, hessian, newton)
-    }
-
-    /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the
-    /// bound, and the rest is solved again. Leaves the impulse in [`Self::assist`].
-    fn solve_assisted(
-        &mut self,
-        momentum: &[f64; NV],
-        spring: &Spring,
-        v: &mut [f64; NV],
-    ) -> Outcome {
-        let mut fixed: [Option<Vec3>; 2] = [None; 2];
-        let mut total = Outcome::default();
-        loop {
-            self.solver.assisted.rows = self.terms.mass_matrix.rows;
-            let mut b = *momentum;
-            let given = spring.given.unwrap_or([Vec3::zero(); 2]);
-            if spring.given.is_some() {
-                for (x, g) in b.iter_mut().zip(given.iter().flat_map(|g| g.to_array())) {
-                    *x += g;
-                }
-            }
-            for (k, constant) in fixed.iter().enumerate() {
-                let add = constant.unwrap_or(spring.rest[k] * spring.gain[k]);
-                for (i, x) in add.to_array().into_iter().enumerate() {
-                    b[3 * k + i] += x;
-                    if constant.is_none() {
-                        self.solver.assisted.rows[3 * k + i][3 * k + i] += spring.gain[k];
-                    }
-                }
-            }
-            let outcome = self.solve_freely(&b, v, true);
-            total = Outcome {
-                iterations: total.iterations + outcome.iterations,
-                ..outcome
-            };
-            let root: [f64; 6] = std::array::from_fn(|i| v[i]);
-            let mut again = false;
-            for k in 0..2 {
-                let (impulse, cut) = spring.cut(k, &root);
-                if fixed[k].is_none() && cut {
-                    fixed[k] = Some(impulse);
-                    again = true;
-                }
-                let mut acts = fixed[k].unwrap_or(impulse);
-                if spring.given.is_some() {
-                    acts += given[k];
-                }
-                self.solution.assist[3 * k..3 * k + 3].copy_from_slice(&acts.to_array());
-            }
-            if !again {
-                return total;
-            }
-        }
-    }
-
-    /// Second try of a substep whose stiff motors, limits and contacts kept Newton's method zigzagging: the same
-    /// strength and friction with motors that saturate later. Closing an unconverged step would turn its residual into
-    /// the speed of a light joint.
-    fn solve_softer(
-        &mut self,
-        momentum: &[f64; NV],
-        v: &mut [f64; NV],
-        first: Outcome,
-        assisted: bool,
-    ) -> Outcome {
-        for j in 0..DOF_COUNT {
-            // The same torque at the speed the joint has now, and a hundredth of the gain around it.
-            let (m, now) = (&mut self.problem.motors, self.terms.state.velocity[6 + j]);
-            let torque = (m.gain[j] * (m.rest[j] - now)).clamp(m.lower[j], m.upper[j]);
-            m.gain[j] *= motors::SOFTENING;
-            m.rest[j] = now + torque / m.gain[j];
-        }
-        let second = self.solve_once(momentum, v, assisted);
-        Outcome {
-            iterations: first.iterations + second.iterations,
-            ..second
         }
     }
 
@@ -938,27 +622,6 @@ impl Articulated for TorqueStepper {
             x: &mut self.solution.velocity,
         }
     }
-}
-
-/// The kernel of one substep, compiled for the vector instructions at hand.
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
-fn substep_kernel(
-    m: &MassMatrix<f64>,
-    problem: &SubstepProblem,
-    momentum: &[f64; NV],
-    stop: StopRule,
-    v: &mut [f64; NV],
-    hessian: &mut MassMatrix<f64>,
-    ws: &mut NewtonWorkspace,
-) -> Outcome {
-    let problem = Problem {
-        system: SparseSystem(m),
-        b: momentum,
-        motors: &problem.motors,
-        limits: &problem.limits,
-        contacts: &problem.contacts,
-    };
-    minimise(&problem, stop, hessian, v, ws)
 }
 
 /// `x ← M⁻¹ x`.

@@ -97,13 +97,16 @@ pub fn cholesky_solve_summed<const N: usize>(a: &mut [[f64; N]; N], x: &mut [f64
     }
 }
 
+/// Length of a row of the matrices of a whole body: 45 numbers, padded for vector registers.
+pub const WIDTH: usize = 48;
+
 /// Cholesky factor of a symmetric positive definite matrix by columns, in place: `m[j stride + i]`, i ≥ j, is read and
-/// becomes column j of L; the other elements are overwritten. False if the matrix is not positive definite.
+/// becomes column j of L; the other elements are overwritten. False if the matrix is not positive definite. Whole
+/// stretches may be zero, which then cost nothing.
 ///
 /// * `stride`: length of a row; columns beyond the number of rows are padding, for vector registers.
-/// * `sparse`: whole stretches may be zero, which then cost nothing.
 #[inline(always)]
-pub fn factor_columns(m: &mut [f64], stride: usize, sparse: bool) -> bool {
+pub fn factor_columns(m: &mut [f64], stride: usize) -> bool {
     for j in 0..m.len() / stride {
         let (head, tail) = m.split_at_mut((j + 1) * stride);
         let column = &mut head[j * stride..];
@@ -118,7 +121,7 @@ pub fn factor_columns(m: &mut [f64], stride: usize, sparse: bool) -> bool {
         for (k, other) in tail.chunks_exact_mut(stride).enumerate() {
             let row = j + 1 + k;
             let a = column[row];
-            if sparse && a == 0.0 {
+            if a == 0.0 {
                 continue;
             }
             // From a multiple of eight on, so that loads are aligned; what lies before the diagonal is not read.
@@ -129,6 +132,116 @@ pub fn factor_columns(m: &mut [f64], stride: usize, sparse: bool) -> bool {
         }
     }
     true
+}
+
+/// Calls `$f::<LENGTH>`, LENGTH being what is left of a row from the block of eight on that column `$j` is in: loops
+/// of a known length stay in registers.
+macro_rules! from_block_of {
+    ($j:expr, $f:ident($($x:expr),*)) => {
+        match $j / 8 {
+            0 => $f::<48>($($x),*),
+            1 => $f::<40>($($x),*),
+            2 => $f::<32>($($x),*),
+            3 => $f::<24>($($x),*),
+            4 => $f::<16>($($x),*),
+            _ => $f::<8>($($x),*),
+        }
+    };
+}
+
+/// [`factor_columns`] of a matrix of a whole body, column by column from those before it: the same sums in the same
+/// order, without a way to memory and back for each product.
+#[inline(always)]
+pub fn factor_body_columns<const N: usize>(m: &mut [[f64; WIDTH]; N]) -> bool {
+    // Not `all`, which would be compiled apart, without the caller's vector instructions.
+    for j in 0..N {
+        if !from_block_of!(j, factor_column(m, j)) {
+            return false;
+        }
+    }
+    true
+}
+
+/// Column `j` of [`factor_body_columns`], from the block of its diagonal on.
+#[inline(always)]
+fn factor_column<const LENGTH: usize>(m: &mut [[f64; WIDTH]], j: usize) -> bool {
+    let from = WIDTH - LENGTH;
+    let (before, rest) = m.split_at_mut(j);
+    let mut z = rest_of::<LENGTH>(&rest[0]);
+    for column in before.iter() {
+        let (a, y) = (column[j], rest_of::<LENGTH>(column));
+        for (z, y) in z.iter_mut().zip(y) {
+            *z -= a * y;
+        }
+    }
+    let d = z[j - from];
+    if d.is_nan() || d <= 0.0 {
+        return false;
+    }
+    let s = 1.0 / d.sqrt();
+    for (x, z) in rest[0][from..].iter_mut().zip(z) {
+        *x = z * s;
+    }
+    true
+}
+
+/// The last LENGTH numbers of a row.
+#[inline(always)]
+fn rest_of<const LENGTH: usize>(row: &[f64; WIDTH]) -> [f64; LENGTH] {
+    *row.last_chunk().expect("LENGTH ≤ WIDTH")
+}
+
+/// `Y ← L⁻¹ Y` with the factor of [`factor_body_columns`]: row by row from those before it.
+#[inline(always)]
+pub fn solve_lower_rows<const N: usize>(l: &[[f64; WIDTH]; N], y: &mut [[f64; WIDTH]; N]) {
+    for j in 0..N {
+        let (before, rest) = y.split_at_mut(j);
+        let mut z = rest[0];
+        for (column, row) in l.iter().zip(before.iter()) {
+            let a = column[j];
+            if a != 0.0 {
+                for (z, y) in z.iter_mut().zip(row) {
+                    *z -= a * y;
+                }
+            }
+        }
+        let s = 1.0 / l[j][j];
+        for (x, z) in rest[0].iter_mut().zip(z) {
+            *x = z * s;
+        }
+    }
+}
+
+/// `A = YᵀY`, three rows at a time from the block of their diagonal on; the rest is its mirror image.
+#[inline(always)]
+pub fn gram_of_columns<const N: usize>(y: &[[f64; WIDTH]; N], a: &mut [[f64; WIDTH]; N]) {
+    const { assert!(N.is_multiple_of(3) && N <= WIDTH) };
+    for i in (0..N).step_by(3) {
+        from_block_of!(i, gram_rows(y, a, i));
+    }
+    for i in 0..N {
+        for k in 0..i {
+            a[i][k] = a[k][i];
+        }
+    }
+}
+
+/// Rows `i` to `i + 2` of [`gram_of_columns`].
+#[inline(always)]
+fn gram_rows<const LENGTH: usize>(y: &[[f64; WIDTH]], a: &mut [[f64; WIDTH]], i: usize) {
+    let mut sum = [[0.0; LENGTH]; 3];
+    for row in y {
+        let (a0, a1, a2) = (row[i], row[i + 1], row[i + 2]);
+        let x = rest_of::<LENGTH>(row);
+        for k in 0..LENGTH {
+            sum[0][k] += a0 * x[k];
+            sum[1][k] += a1 * x[k];
+            sum[2][k] += a2 * x[k];
+        }
+    }
+    for (row, sum) in a[i..i + 3].iter_mut().zip(sum) {
+        row[WIDTH - LENGTH..].copy_from_slice(&sum);
+    }
 }
 
 /// `x ← L⁻¹ x` with the factor by columns, whose rows are as long as `x`.
@@ -219,7 +332,6 @@ mod tests {
     use rand_pcg::Pcg64;
 
     const N: usize = 13;
-    const WIDTH: usize = 16;
 
     /// A positive definite matrix, a right-hand side and the solution that nalgebra finds.
     fn problem(random: &mut Pcg64) -> (SMatrix<f64, N, N>, SVector<f64, N>, SVector<f64, N>) {
@@ -250,17 +362,62 @@ mod tests {
             let (mut l, mut found) = (a, b);
             assert!(eliminate(&mut l, N, &mut found));
             close(&found);
-            for sparse in [false, true] {
-                let mut l = [[0.0; WIDTH]; N];
-                let mut found = [0.0; WIDTH];
-                (0..N).for_each(|i| l[i][..N].copy_from_slice(&a[i]));
-                found[..N].copy_from_slice(&b);
-                assert!(factor_columns(l.as_flattened_mut(), WIDTH, sparse));
-                solve_lower(l.as_flattened(), &mut found);
-                solve_upper(l.as_flattened(), &mut found);
-                close(&found[..N]);
+            let mut l = [[0.0; 16]; N];
+            let mut found = [0.0; 16];
+            (0..N).for_each(|i| l[i][..N].copy_from_slice(&a[i]));
+            found[..N].copy_from_slice(&b);
+            assert!(factor_columns(l.as_flattened_mut(), 16));
+            solve_lower(l.as_flattened(), &mut found);
+            solve_upper(l.as_flattened(), &mut found);
+            close(&found[..N]);
+        }
+    }
+
+    #[test]
+    fn matrices_of_a_body_are_factored_bit_for_bit_as_others_are() {
+        const N: usize = 45;
+        let mut random = Pcg64::seed_from_u64(10);
+        let y: [[f64; WIDTH]; N] = std::array::from_fn(|_| {
+            std::array::from_fn(|j| {
+                if j < N {
+                    random.random_range(-1.0..1.0)
+                } else {
+                    0.0
+                }
+            })
+        });
+        let mut a = [[0.0; WIDTH]; N];
+        gram_of_columns(&y, &mut a);
+        let dense = SMatrix::<f64, N, N>::from_fn(|i, j| y[i][j]);
+        let gram = dense.transpose() * dense;
+        for i in 0..N {
+            for j in 0..N {
+                assert!((a[i][j] - gram[(i, j)]).abs() < 1e-12 && a[i][j] == a[j][i]);
+            }
+            a[i][i] += 0.1;
+        }
+        let (mut l, mut other) = (a, a);
+        assert!(factor_body_columns(&mut l));
+        assert!(factor_columns(other.as_flattened_mut(), WIDTH));
+        let lower = |l: &[[f64; WIDTH]; N]| -> Vec<u64> {
+            (0..N)
+                .flat_map(|j| (j..N).map(move |i| (i, j)))
+                .map(|(i, j)| l[j][i].to_bits())
+                .collect()
+        };
+        assert_eq!(lower(&l), lower(&other));
+        let mut solved = y;
+        solve_lower_rows(&l, &mut solved);
+        for j in 0..N {
+            let mut column: [f64; WIDTH] =
+                std::array::from_fn(|i| if i < N { y[i][j] } else { 0.0 });
+            solve_lower(l.as_flattened(), &mut column);
+            for i in 0..N {
+                assert!((solved[i][j] - column[i]).abs() < 1e-9 * column[i].abs().max(1.0));
             }
         }
+        a[30][30] = -1.0;
+        assert!(!factor_body_columns(&mut a));
     }
 
     #[test]
@@ -286,7 +443,7 @@ mod tests {
     fn what_cannot_be_solved_is_reported() {
         let mut a = [[1.0; 3]; 3];
         assert!(!eliminate(&mut a, 3, &mut [1.0; 3]));
-        assert!(!factor_columns(&mut [1.0, 2.0, 2.0, 1.0], 2, false));
+        assert!(!factor_columns(&mut [1.0, 2.0, 2.0, 1.0], 2));
         let mut x = [1.0, 1.0];
         cholesky_solve(&mut [[1.0, 0.0], [1.0, 1.0]], 2, &mut x);
         assert!(

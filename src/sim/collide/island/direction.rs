@@ -357,7 +357,7 @@ fn solve_block<F: Articulated>(b: &Block, figures: &mut [F], x: &mut [f64; NV]) 
 /// holds b. False if it is not positive definite.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn cholesky_solve(m: &mut [f64], x: &mut [f64]) -> bool {
-    let positive = factor_columns(m, x.len(), true);
+    let positive = factor_columns(m, x.len());
     if positive {
         solve_lower(m, x);
         solve_upper(m, x);

@@ -3,7 +3,7 @@
 use super::{Articulated, Block, Island, Kind, dot, relative};
 use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::contact::Outcome;
-use crate::sim::contact::newton::{largest, line_search};
+use crate::sim::contact::newton::{LineSearch, largest};
 use crate::sim::contact::projection::Region;
 
 /// Newton iterations after which it counts as jammed; 5 to 15 are typical.
@@ -180,7 +180,7 @@ impl Island {
                 Kind::Figure(i) => {
                     let p = figures[i].parts();
                     p.m.mul(&b.d, &mut b.ad);
-                    p.contacts.velocities(&b.d, &mut p.newton.direction);
+                    p.newton.aim(p.limits, p.contacts, [&b.x, &b.d]);
                     for k in 0..NV {
                         q0 += b.d[k] * (b.ax[k] - p.b[k]);
                     }
@@ -201,24 +201,15 @@ impl Island {
             c.du = relative(c, |b| &blocks[b].d);
         }
         let contacts = &self.contacts;
-        let phi = |a: f64| {
+        let mut slope = |a: f64| {
             let mut z = q0 + a * q1;
             for b in blocks {
                 if let Kind::Figure(i) = b.kind {
                     let p = figures[i].parts();
-                    for j in 0..DOF_COUNT {
-                        z -= b.d[6 + j] * p.motors.value(j, b.x[6 + j] + a * b.d[6 + j]).0;
-                    }
-                    for row in &p.limits.rows {
-                        let r = row.rate(&b.d);
-                        if r != 0.0 {
-                            z -= r * row.impulse(row.rate(&b.x) + a * r);
-                        }
-                    }
-                    for k in 0..p.contacts.points.len() {
-                        let v = p.newton.velocity[k] + p.newton.direction[k] * a;
-                        z -= p.newton.direction[k].dot(p.contacts.force(k, v).0);
-                    }
+                    let along = [&b.x, &b.d];
+                    z = p
+                        .newton
+                        .less_given((z, a), p.motors, p.limits, p.contacts, along);
                 }
             }
             for c in contacts {
@@ -226,7 +217,9 @@ impl Island {
             }
             z
         };
-        let a = line_search(slope0, LINE_SEARCH, phi);
+        let mut search = LineSearch::new(slope0, LINE_SEARCH);
+        while !search.ends_at(slope(search.step)) {}
+        let a = search.step;
         for b in &mut self.blocks {
             for k in 0..NV {
                 b.x[k] += a * b.d[k];

@@ -1,0 +1,251 @@
+//! How a substep is solved: once, again for points that slide, with the springs of an assist, with softer motors.
+
+use super::{StepInput, SubstepProblem, SubstepSolver, TorqueStepper};
+use crate::sim::body::State;
+use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::contact::{NewtonWorkspace, Outcome, Problem, SparseSystem, StopRule, minimise};
+use crate::sim::dynamics::MassMatrix;
+use crate::sim::figure::assist::Spring;
+use crate::sim::figure::params::{contact, motors, self_contact};
+use crate::sim::math::Vec3;
+use multiversion::multiversion;
+
+impl TorqueStepper {
+    /// Solves for the velocity at the end of the substep.
+    ///
+    /// Problem 14.3.
+    pub(super) fn solve_substep(
+        &mut self,
+        input: &StepInput<'_>,
+        h: f64,
+        state: &State,
+        spring: Option<&Spring>,
+    ) {
+        let t = &self.terms;
+        let mut momentum = [0.0; NV];
+        t.mass_matrix.mul(&state.velocity, &mut momentum);
+        for i in 0..NV {
+            momentum[i] -= h * t.h[i]; // M v_free
+        }
+        let mut v = state.velocity;
+        if self.solver.accuracy.motors_first {
+            self.begin_at_motors(h, &mut v);
+        }
+        self.solution.assist = [0.0; 6];
+        self.solution.outcome = Outcome::default();
+        self.problem.slides.begin(
+            &mut self.problem.contacts,
+            &state.velocity,
+            &mut self.solver.newton,
+        );
+        let body = (input.body, input.own.as_ref());
+        let mass = &self.terms.mass_matrix;
+        self.own.correct(body, mass, None, &state.velocity);
+        let mut x = momentum;
+        for round in 0..=self_contact::ROUNDS {
+            x = momentum;
+            self.own.add_to(&mut x);
+            self.solve_sliding(&x, spring, &mut v);
+            let last = round + 1 >= self_contact::ROUNDS;
+            let known = self.solution.outcome.iterations > 0 && !last;
+            let solved = known.then_some(&self.solver.hessian);
+            let mass = &self.terms.mass_matrix;
+            if round == self_contact::ROUNDS || !self.own.correct(body, mass, solved, &v) {
+                break;
+            }
+        }
+        for i in 0..6 {
+            x[i] += self.solution.assist[i];
+        }
+        if let Some(bar) = &self.problem.row {
+            bar.add(self.bar.impulse, &mut x);
+        } else {
+            self.bar.impulse = 0.0;
+        }
+        (self.solution.velocity, self.solution.pushed) = (v, x);
+        let motors = &self.problem.motors;
+        let given = self.solver.newton.motor.iter().enumerate();
+        let saturated = given.filter(|(j, t)| **t >= motors.upper[*j] || **t <= motors.lower[*j]);
+        self.solution.saturated = Some(saturated.fold(0, |all, (j, _)| all | 1 << j));
+    }
+
+    /// Solves as often as points that slide take.
+    fn solve_sliding(&mut self, momentum: &[f64; NV], spring: Option<&Spring>, v: &mut [f64; NV]) {
+        loop {
+            let outcome = match self.problem.row {
+                None => self.solve_with(momentum, spring, v),
+                Some(bar) => self.solve_barred(momentum, spring, &bar, v),
+            };
+            self.solution.outcome = Outcome {
+                iterations: self.solution.outcome.iterations + outcome.iterations,
+                ..outcome
+            };
+            if !self
+                .problem
+                .slides
+                .again(&mut self.problem.contacts, &self.solver.newton)
+            {
+                break;
+            }
+        }
+    }
+
+    /// Where Newton's method begins if the motors come first: `v` is the velocity at the start of the substep of `h` s.
+    fn begin_at_motors(&self, h: f64, v: &mut [f64; NV]) {
+        let saturated = self.solution.saturated.unwrap_or(0);
+        let acceleration = &self.forces.audit.acceleration;
+        for j in 0..DOF_COUNT {
+            v[6 + j] = match saturated >> j & 1 {
+                0 => self.problem.motors.rest[j],
+                _ => v[6 + j] + h * acceleration[6 + j],
+            };
+        }
+        if self.solution.saturated.is_some() {
+            for (v, a) in v[..6].iter_mut().zip(acceleration) {
+                *v += h * a;
+            }
+        }
+    }
+
+    /// Solves with or without assist.
+    pub(super) fn solve_with(
+        &mut self,
+        momentum: &[f64; NV],
+        spring: Option<&Spring>,
+        v: &mut [f64; NV],
+    ) -> Outcome {
+        match spring {
+            None => self.solve_freely(momentum, v, false),
+            Some(spring) => self.solve_assisted(momentum, spring, v),
+        }
+    }
+
+    /// Solves for the velocity at the end of the substep; with `assisted`, for the matrix that carries the springs of
+    /// the assist.
+    fn solve_freely(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
+        let outcome = self.solve_once(momentum, v, assisted);
+        if outcome.converged {
+            outcome
+        } else {
+            self.solve_softer(momentum, v, outcome, assisted)
+        }
+    }
+
+    /// One run of Newton's method with the motors as they are.
+    fn solve_once(&mut self, momentum: &[f64; NV], v: &mut [f64; NV], assisted: bool) -> Outcome {
+        let SubstepSolver {
+            newton,
+            hessian,
+            assisted: springs,
+            accuracy,
+        } = &mut self.solver;
+        let stop = StopRule {
+            iterations: contact::ITERATIONS,
+            tolerance: accuracy.tolerance,
+        };
+        let matrix = if assisted {
+            springs
+        } else {
+            &self.terms.mass_matrix
+        };
+        substep_kernel(matrix, &self.problem, momentum, stop, v, hessian, newton)
+    }
+
+    /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the
+    /// bound, and the rest is solved again. Leaves the impulse in `solution.assist`.
+    fn solve_assisted(
+        &mut self,
+        momentum: &[f64; NV],
+        spring: &Spring,
+        v: &mut [f64; NV],
+    ) -> Outcome {
+        let mut fixed: [Option<Vec3>; 2] = [None; 2];
+        let mut total = Outcome::default();
+        loop {
+            self.solver.assisted.rows = self.terms.mass_matrix.rows;
+            let mut b = *momentum;
+            let given = spring.given.unwrap_or([Vec3::zero(); 2]);
+            if spring.given.is_some() {
+                for (x, g) in b.iter_mut().zip(given.iter().flat_map(|g| g.to_array())) {
+                    *x += g;
+                }
+            }
+            for (k, constant) in fixed.iter().enumerate() {
+                let add = constant.unwrap_or(spring.rest[k] * spring.gain[k]);
+                for (i, x) in add.to_array().into_iter().enumerate() {
+                    b[3 * k + i] += x;
+                    if constant.is_none() {
+                        self.solver.assisted.rows[3 * k + i][3 * k + i] += spring.gain[k];
+                    }
+                }
+            }
+            let outcome = self.solve_freely(&b, v, true);
+            total = Outcome {
+                iterations: total.iterations + outcome.iterations,
+                ..outcome
+            };
+            let root: [f64; 6] = std::array::from_fn(|i| v[i]);
+            let mut again = false;
+            for k in 0..2 {
+                let (impulse, cut) = spring.cut(k, &root);
+                if fixed[k].is_none() && cut {
+                    fixed[k] = Some(impulse);
+                    again = true;
+                }
+                let mut acts = fixed[k].unwrap_or(impulse);
+                if spring.given.is_some() {
+                    acts += given[k];
+                }
+                self.solution.assist[3 * k..3 * k + 3].copy_from_slice(&acts.to_array());
+            }
+            if !again {
+                return total;
+            }
+        }
+    }
+
+    /// Second try of a substep whose stiff motors, limits and contacts kept Newton's method zigzagging: the same
+    /// strength and friction with motors that saturate later. Closing an unconverged step would turn its residual into
+    /// the speed of a light joint.
+    fn solve_softer(
+        &mut self,
+        momentum: &[f64; NV],
+        v: &mut [f64; NV],
+        first: Outcome,
+        assisted: bool,
+    ) -> Outcome {
+        for j in 0..DOF_COUNT {
+            // The same torque at the speed the joint has now, and a hundredth of the gain around it.
+            let (m, now) = (&mut self.problem.motors, self.terms.state.velocity[6 + j]);
+            let torque = (m.gain[j] * (m.rest[j] - now)).clamp(m.lower[j], m.upper[j]);
+            m.gain[j] *= motors::SOFTENING;
+            m.rest[j] = now + torque / m.gain[j];
+        }
+        let second = self.solve_once(momentum, v, assisted);
+        Outcome {
+            iterations: first.iterations + second.iterations,
+            ..second
+        }
+    }
+}
+
+/// The kernel of one substep, compiled for the vector instructions at hand.
+#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
+fn substep_kernel(
+    m: &MassMatrix<f64>,
+    problem: &SubstepProblem,
+    momentum: &[f64; NV],
+    stop: StopRule,
+    v: &mut [f64; NV],
+    hessian: &mut MassMatrix<f64>,
+    ws: &mut NewtonWorkspace,
+) -> Outcome {
+    let problem = Problem {
+        system: SparseSystem(m),
+        b: momentum,
+        motors: &problem.motors,
+        limits: &problem.limits,
+        contacts: &problem.contacts,
+    };
+    minimise(&problem, stop, hessian, v, ws)
+}
