@@ -1,0 +1,145 @@
+//! Desired motion as it is streamed, and how the jitter buffer answers.
+
+use super::control::ControlKey;
+use crate::sim::body::{NV, Posture};
+use serde::{Deserialize, Serialize};
+
+/// Delay between arrival and use of live motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Delay {
+    /// Always this many seconds.
+    Fixed(f64),
+    /// As the arrival jitter needs, at most this many seconds.
+    Adaptive {
+        /// Largest delay, s.
+        most: f64,
+    },
+}
+
+/// How a drive answers when frames are late, and how long it lasts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DriveSettings {
+    /// Expected frames per second.
+    pub rate_hz: f64,
+    /// Delay between arrival and use.
+    pub delay: Delay,
+    /// How long the last velocity is continued, s; 0 holds at once.
+    pub extrapolation: f64,
+    /// How long the last posture is held before relaxing, s.
+    pub hold: f64,
+    /// How long the figures are kept without a connection or push, s.
+    pub grace: f64,
+    /// Put each figure into its first desired posture.
+    pub reset: bool,
+    /// Window in which motion is prepared, s; 0: frames are used as they come; `None`: as the server is set.
+    pub window: Option<f64>,
+}
+
+/// Header of a drive.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DriveOpen {
+    /// Last part of the world's name.
+    pub world: String,
+    /// Last parts of the figures' names.
+    pub figures: Vec<String>,
+    /// Who drives; empty: the server chooses.
+    pub driver: String,
+    /// Whose drive it is, and by which leases.
+    pub who: ControlKey,
+    /// Settings.
+    pub settings: DriveSettings,
+}
+
+/// Desired motion of one figure at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FigureSample {
+    /// Position in the drive's list of figures.
+    pub slot: usize,
+    /// Desired posture. Without `has_root` its pelvis pose means nothing.
+    pub posture: Posture,
+    /// True if the sender gave the pelvis pose.
+    pub has_root: bool,
+    /// Desired velocity, layout of `State::velocity`.
+    pub velocity: Option<Box<[f64; NV]>>,
+    /// Which feet are planted.
+    pub planted: Option<[bool; 2]>,
+}
+
+/// Desired motion at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionSample {
+    /// Sequence.
+    pub sequence: i64,
+    /// Source time, ns on the driver's clock.
+    pub source_ns: i64,
+    /// Driven figures.
+    pub figures: Vec<FigureSample>,
+}
+
+/// How the jitter buffer answered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Supply {
+    /// Nothing was asked yet.
+    #[default]
+    None,
+    /// A frame exactly at the wanted time.
+    Present,
+    /// Between two frames.
+    Interpolated,
+    /// Beyond the newest frame.
+    Extrapolated,
+    /// The last posture.
+    Held,
+    /// On the way to, or in, quiet standing.
+    Relaxed,
+    /// Before the first frame.
+    Waiting,
+}
+
+/// State of the buffer of one figure.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FigureFeedback {
+    /// Last part of the figure's name.
+    pub figure: String,
+    /// Sequence of the newest frame that acts; −1 if none.
+    pub applied_sequence: i64,
+    /// Source time that acts, ns.
+    pub applied_source_ns: i64,
+    /// Motion held but not used, s.
+    pub buffered: f64,
+    /// Present delay, s.
+    pub delay: f64,
+    /// p99 of the arrival jitter, s.
+    pub jitter: f64,
+    /// Last answer.
+    pub supply: Supply,
+    /// Ticks by answer: present, interpolated, extrapolated, held, relaxed.
+    pub ticks: [u64; 5],
+    /// Frames too late to act.
+    pub late: u64,
+    /// Frames not newer than what was there.
+    pub stale: u64,
+    /// Frames dropped for want of room.
+    pub overflow: u64,
+    /// Times that the stream began anew.
+    pub resyncs: u64,
+    /// How far it is behind because its world leaves ticks out, s; contained in the delay.
+    pub behind: f64,
+    /// Window in which motion is prepared, s; contained in the delay.
+    pub window: f64,
+}
+
+/// State of a drive.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Feedback {
+    /// Who drives.
+    pub driver: String,
+    /// Tick of the world.
+    pub tick: u64,
+    /// Largest sequence taken; −1 if none.
+    pub received_sequence: i64,
+    /// Refused batches.
+    pub refused: u64,
+    /// Figures.
+    pub figures: Vec<FigureFeedback>,
+}

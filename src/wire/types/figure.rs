@@ -1,0 +1,150 @@
+//! Figures: what they are asked for, what they are, and what changes.
+
+use super::world::Place;
+use crate::sim::body::{Profile, SegmentId};
+use crate::sim::figure::{
+    ControlParams, ControllerKind, FigureOptions, Following, StepperKind, StrengthScale,
+};
+use crate::sim::math::{Quat, Vec3};
+use serde::{Deserialize, Serialize};
+
+/// Which body: a name that says its profile, see [`crate::wire::convert::body`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodyRef {
+    /// Last part of the name.
+    pub id: String,
+    /// Who it stands for.
+    pub profile: Profile,
+}
+
+/// Settings of a new figure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FigureSettings {
+    /// Name for people.
+    pub display_name: String,
+    /// Body.
+    pub body: BodyRef,
+    /// Strength.
+    pub strength: StrengthScale,
+    /// Controller.
+    pub controller: ControllerKind,
+    /// Stepper.
+    pub stepper: StepperKind,
+    /// Choices of the paper's controller.
+    pub params: ControlParams,
+    /// Fatigue, assist and help.
+    pub options: FigureOptions,
+    /// Where it stands.
+    pub place: Place,
+    /// Constraints from the start.
+    pub constraints: Vec<ConstraintSettings>,
+}
+
+/// Where a part of a figure is wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ConstraintSettings {
+    /// Segment and point, segment frame; no point: the middle of a hand, else the centre of mass. `None`: the figure's
+    /// centre of mass.
+    pub on: Option<(SegmentId, Option<Vec3>)>,
+    /// Wanted position, world, m.
+    pub position: Option<Vec3>,
+    /// How much each axis counts, 0…1.
+    pub axes: [f64; 3],
+    /// Wanted rotation, `world_from_segment`.
+    pub rotation: Option<Quat>,
+    /// How much it counts, 0…1.
+    pub weight: f64,
+    /// Time to come and to go, s.
+    pub ease: f64,
+    /// How long, s; infinite until it is taken off.
+    pub duration: f64,
+}
+
+/// A figure as it is now.
+#[derive(Clone, Debug)]
+pub struct FigureInfo {
+    /// Last part of its world's name.
+    pub world: String,
+    /// Last part of its name.
+    pub id: String,
+    /// Settings.
+    pub settings: FigureSettings,
+    /// Last part of the name of the clip it plays.
+    pub clip: Option<String>,
+    /// Last part of the name of the clip that begins once it stands.
+    pub next_clip: Option<String>,
+    /// Who drives it.
+    pub driver: Option<String>,
+    /// Index in frames.
+    pub index: i32,
+    /// Constraints that hold, with the time that they have left.
+    pub constraints: Vec<ConstraintSettings>,
+    /// How it follows its motion, as of the last tick.
+    pub follows: Follows,
+}
+
+/// How a figure follows its motion, with the help that it may get.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Follows {
+    /// In which way, and what help that took.
+    pub so_far: Following,
+    /// Largest force of the help over the weight if the motion is being lost; 0: none.
+    pub most_help: f64,
+}
+
+/// Changes of a figure; `None` leaves a setting as it is.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FigureUpdate {
+    /// Name for people.
+    pub display_name: Option<String>,
+    /// Strength.
+    pub strength: Option<StrengthScale>,
+    /// Controller.
+    pub controller: Option<ControllerKind>,
+    /// Choices of the paper's controller.
+    pub params: Option<ControlParams>,
+    /// Time scale of fatigue.
+    pub fatigue_time_scale: Option<f64>,
+    /// Assist.
+    pub assist: Option<f64>,
+    /// Most help while its motion is being lost, body weights.
+    pub max_help: Option<f64>,
+    /// Whether the body meets itself.
+    pub self_contact: Option<bool>,
+    /// All constraints.
+    pub constraints: Option<Vec<ConstraintSettings>>,
+    /// Protective steps.
+    pub protective_steps: Option<bool>,
+}
+
+impl FigureUpdate {
+    /// The options that it makes of those that a figure has.
+    pub fn options(&self, now: FigureOptions) -> FigureOptions {
+        FigureOptions {
+            fatigue_time_scale: self.fatigue_time_scale.unwrap_or(now.fatigue_time_scale),
+            assist: self.assist.unwrap_or(now.assist),
+            max_help: self.max_help.unwrap_or(now.max_help),
+            self_contact: self.self_contact.unwrap_or(now.self_contact),
+        }
+    }
+
+    /// The settings that it makes of those that a figure has.
+    #[must_use]
+    pub fn applied(self, now: FigureSettings) -> FigureSettings {
+        let options = self.options(now.options);
+        // Whether a figure steps is no choice of the paper's controller.
+        let params = ControlParams {
+            protective_steps: self.protective_steps.unwrap_or(now.params.protective_steps),
+            ..self.params.unwrap_or(now.params)
+        };
+        FigureSettings {
+            display_name: self.display_name.unwrap_or(now.display_name),
+            strength: self.strength.unwrap_or(now.strength),
+            controller: self.controller.unwrap_or(now.controller),
+            params,
+            options,
+            constraints: self.constraints.unwrap_or(now.constraints),
+            ..now
+        }
+    }
+}

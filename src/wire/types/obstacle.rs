@@ -1,0 +1,88 @@
+//! Obstacles and what changes of them.
+
+use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
+use crate::sim::math::{Quat, Vec3};
+use crate::wire::status::Fault;
+
+/// How an obstacle moves, without its mass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObstacleMobility {
+    /// Not at all.
+    Fixed,
+    /// With its velocity.
+    Led,
+    /// As a rigid body.
+    Free,
+}
+
+/// Why a plane is not free.
+pub const FREE_PLANE: &str = "a plane cannot move freely";
+
+/// Changes of an obstacle; `None` leaves what it has at that tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ObstacleUpdate {
+    /// Shape.
+    pub shape: Option<Shape>,
+    /// How it moves.
+    pub mobility: Option<ObstacleMobility>,
+    /// Mass of a free one, kg.
+    pub mass: Option<f64>,
+    /// Friction.
+    pub friction: Option<f64>,
+    /// Position (m) and rotation.
+    pub pose: Option<(Vec3, Quat)>,
+    /// Velocity, m/s.
+    pub velocity: Option<Vec3>,
+    /// Angular velocity, rad/s.
+    pub angular_velocity: Option<Vec3>,
+}
+
+impl ObstacleUpdate {
+    /// The obstacle as it is to be.
+    ///
+    /// # Errors
+    /// A free plane, or a free obstacle without mass.
+    pub fn apply(self, now: &ObstacleSetup) -> Result<ObstacleSetup, Fault> {
+        let shape = self.shape.unwrap_or(now.shape);
+        let free = |mass: Option<f64>| match mass {
+            _ if shape == Shape::Plane => Err(Fault::invalid("obstacle.mobility", FREE_PLANE)),
+            Some(mass) => Ok(Mobility::Free(mass)),
+            None => Err(Fault::invalid("obstacle.mass_kg", "must be given")),
+        };
+        let had = match now.mobility {
+            Mobility::Free(mass) => Some(mass),
+            Mobility::Fixed | Mobility::Led => None,
+        };
+        let mobility = match self.mobility {
+            Some(ObstacleMobility::Fixed) => Mobility::Fixed,
+            Some(ObstacleMobility::Led) => Mobility::Led,
+            Some(ObstacleMobility::Free) => free(self.mass.or(had))?,
+            None if had.is_some() => free(self.mass.or(had))?,
+            None => now.mobility,
+        };
+        let (position, rotation) = self.pose.unwrap_or((now.position, now.rotation));
+        Ok(ObstacleSetup {
+            name: now.name.clone(),
+            shape,
+            mobility,
+            friction: self.friction.unwrap_or(now.friction),
+            position,
+            rotation,
+            velocity: self.velocity.unwrap_or(now.velocity),
+            angular_velocity: self.angular_velocity.unwrap_or(now.angular_velocity),
+        })
+    }
+}
+
+/// One obstacle.
+#[derive(Clone, Debug)]
+pub struct ObstacleInfo {
+    /// Last part of its name.
+    pub id: String,
+    /// Counts up from obstacle to obstacle of a world.
+    pub number: u64,
+    /// What it is, with its present pose and velocity.
+    pub setup: ObstacleSetup,
+    /// Mean force on it over the last tick, N.
+    pub force: Vec3,
+}

@@ -1,0 +1,61 @@
+//! What disturbs a figure.
+
+use crate::sim::body::SegmentId;
+use crate::sim::figure::SecondHand;
+use crate::sim::math::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// What holds a load besides its segment. In bytes, the first two are an option.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum SecondSegment {
+    /// Nothing.
+    Never,
+    /// Another segment from the beginning on, at a point as for the first.
+    Holds(SegmentId, Option<Vec3>),
+    /// The other hand reaches for it.
+    Helps(SecondHand),
+}
+
+/// What disturbs a figure.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Disturbance {
+    /// A carried mass, kg.
+    Load {
+        /// Carrying segment.
+        segment: SegmentId,
+        /// Where, segment frame; `None`: the tip of hands and feet, else the centre of mass.
+        point: Option<Vec3>,
+        /// Mass, kg.
+        mass: f64,
+        /// Velocity before it is taken, world axes, m/s.
+        velocity: Vec3,
+        /// What else holds it.
+        second: SecondSegment,
+        /// Force at one hand beyond which it is lost, N.
+        grip: f64,
+        /// How long, s; infinite until cleared.
+        duration: f64,
+    },
+    /// A force, N, world axes. An impulse is the force that gives it over its duration.
+    Force {
+        /// Pushed segment.
+        segment: SegmentId,
+        /// Where, segment frame; `None`: the centre of mass.
+        point: Option<Vec3>,
+        /// Force, N.
+        force: Vec3,
+        /// How long, s; infinite until cleared.
+        duration: f64,
+    },
+}
+
+/// A disturbance of one figure of a world.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FigureDisturbance {
+    /// Last part of the figure's name.
+    pub figure: String,
+    /// Tick at whose start it begins; `None`: the next.
+    pub tick: Option<i64>,
+    /// What happens.
+    pub what: Disturbance,
+}

@@ -1,0 +1,202 @@
+//! What viewers see: snapshots, events, and what they want of them.
+
+use super::figure::Follows;
+use super::obstacle::ObstacleInfo;
+use crate::sim::body::{Body, SegmentId, State};
+use crate::sim::figure::TickReport;
+use crate::sim::math::Vec3;
+use crate::sim::motion::Target;
+use std::sync::Arc;
+
+/// How numbers are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum NumberFormat {
+    /// 32-bit floating point.
+    Float,
+    /// 64-bit floating point.
+    Double,
+    /// 16-bit fixed point.
+    Fixed16,
+}
+
+/// A set of the optional fields of a figure's frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Fields(pub u32);
+
+/// What a viewer wants; equal views share encoded frames.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ViewSpec {
+    /// Last parts of figure names, sorted; empty: all.
+    pub figures: Vec<String>,
+    /// Fields.
+    pub fields: Fields,
+    /// Number format.
+    pub format: NumberFormat,
+    /// One frame for every so many ticks.
+    pub divisor: u32,
+}
+
+/// One figure of a roster.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RosterEntry {
+    /// Index in frames.
+    pub index: i32,
+    /// Last part of the figure's name.
+    pub figure: String,
+    /// Last part of the body's name.
+    pub body: String,
+}
+
+/// What a world looks like after one tick: everything that any view can show.
+#[derive(Clone, Debug)]
+pub struct Snapshot {
+    /// Last part of the world's name.
+    pub world: Arc<str>,
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// Gravity, m/s².
+    pub gravity: f64,
+    /// Ticks computed.
+    pub tick: u64,
+    /// World time, s.
+    pub time: f64,
+    /// State hash.
+    pub hash: u64,
+    /// Epoch.
+    pub epoch: i32,
+    /// Server clock, ns since 1970.
+    pub server_ns: i64,
+    /// Version of the roster.
+    pub roster_version: i32,
+    /// Who is who; same order as `figures`.
+    pub roster: Arc<[RosterEntry]>,
+    /// Figures, in the order of creation.
+    pub figures: Vec<FigureSnapshot>,
+    /// Obstacles, in the order they were added.
+    pub obstacles: Vec<ObstacleInfo>,
+}
+
+/// One figure after one tick.
+#[derive(Clone, Debug)]
+pub struct FigureSnapshot {
+    /// Its body.
+    pub body: Arc<Body>,
+    /// Positions and velocities.
+    pub state: State,
+    /// What the tick did; `None` before the first.
+    pub report: Option<TickReport>,
+    /// What was asked for at the end of the tick.
+    pub desired: Target,
+    /// Sequence of the desired-motion frame that acts; −1 if not driven live.
+    pub applied_sequence: i64,
+    /// Its source time, ns.
+    pub applied_source_ns: i64,
+    /// Loads carried: segment, point (segment frame, m), mass (kg).
+    pub loads: Vec<(SegmentId, Vec3, f64)>,
+    /// What each of the report's touches touches: `figures/{figure}` or `obstacles/{obstacle}`.
+    pub touched: Vec<String>,
+    /// How it follows its motion.
+    pub follows: Follows,
+}
+
+/// What happened in a world.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EventKind {
+    /// A segment began to support the figure.
+    SupportGained(SegmentId),
+    /// A segment no longer supports it.
+    SupportLost(SegmentId),
+    /// A DOF reached the limit of its strength.
+    Saturated(usize),
+    /// A DOF is no longer at its limit.
+    Relieved(usize),
+    /// Balance was lost.
+    BalanceLost,
+    /// Balance was found again.
+    Recovered,
+    /// The figure fell.
+    Fell,
+    /// The figure stands again after a fall.
+    GotUp,
+    /// A load was taken: segment, kg.
+    LoadTaken(SegmentId, f64),
+    /// A load was dropped: segment, kg.
+    LoadDropped(SegmentId, f64),
+    /// A load slipped from the hand: segment, kg.
+    LoadSlipped(SegmentId, f64),
+    /// The other hand took hold of a load too: segment, kg, that hand, share of its strength that the arm needs alone
+    /// and with help.
+    LoadShared(SegmentId, f64, SegmentId, [f64; 2]),
+    /// It let go: the same.
+    LoadUnshared(SegmentId, f64, SegmentId, [f64; 2]),
+    /// A push was accepted: segment, N·s.
+    Pushed(SegmentId, f64),
+    /// A segment began to touch a figure or an obstacle: name and, of a figure, its segment.
+    Touched(SegmentId, String, Option<SegmentId>),
+    /// A segment no longer touches it.
+    Parted(SegmentId, String, Option<SegmentId>),
+    /// Something is in the way of its steps: the figure broke off what it did.
+    WayBarred,
+    /// The figure is frozen at its last good state.
+    Quarantined,
+    /// An obstacle was added.
+    ObstacleAdded(String),
+    /// An obstacle was removed.
+    ObstacleRemoved(String),
+    /// A figure was added.
+    FigureAdded,
+    /// A figure was removed.
+    FigureRemoved,
+    /// A driver took the figure.
+    DriveBegan(String),
+    /// A driver no longer has the figure: driver, why.
+    DriveEnded(String),
+    /// The stream of a drive began anew: driver and reason.
+    DriveResynced(String),
+    /// A lease began: holder, and from whom.
+    ControlAcquired(String),
+    /// A lease ended: holder, why.
+    ControlReleased(String),
+    /// A lease was taken by higher priority: by whom, from whom.
+    ControlPreempted(String),
+    /// A lease is offered: by whom, to whom.
+    ControlOffered(String),
+    /// Someone was refused: who, which call.
+    AccessRefused(String),
+    /// The world was paused.
+    Paused,
+    /// The world was put into the state of a checkpoint of this tick.
+    Restored(u64),
+    /// The world was resumed.
+    Resumed,
+    /// The world failed: why.
+    Failed(String),
+    /// The world was deleted: by whom, or why.
+    Deleted(String),
+    /// A clip of this id began to play.
+    ClipBegan(String),
+    /// A clip of this id is over, or was ended.
+    ClipEnded(String),
+}
+
+/// One event.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldEvent {
+    /// Tick after which it was true.
+    pub tick: u64,
+    /// World time, s.
+    pub time: f64,
+    /// Last part of the figure's name; empty for events of the world.
+    pub figure: String,
+    /// What happened.
+    pub kind: EventKind,
+}
+
+/// Which events a viewer wants.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EventFilter {
+    /// Last parts of figure names; empty: all, and events of the world.
+    pub figures: Vec<String>,
+    /// Wanted types as on the wire; empty: all.
+    pub types: Vec<i32>,
+}

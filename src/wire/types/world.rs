@@ -1,0 +1,144 @@
+//! Worlds: what they are asked for, what they are, and what changes.
+
+use super::control::ControlInfo;
+use super::figure::FigureInfo;
+use serde::{Deserialize, Serialize};
+use std::time::{Duration, Instant};
+
+/// A place on the ground: world x, y (m) and heading about z (rad).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// World x, m.
+    pub x: f64,
+    /// World y, m.
+    pub y: f64,
+    /// Heading about z, rad.
+    pub yaw: f64,
+}
+
+/// What the clock does when a tick takes longer than its period.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Overrun {
+    /// Leaves out the deadlines that were missed.
+    Skip,
+    /// Computes up to this many missed ticks back to back, then leaves out the rest.
+    CatchUp(u32),
+    /// World time runs slower.
+    Dilate,
+}
+
+/// Settings of a world that may change while it runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pace {
+    /// Name for people.
+    pub display_name: String,
+    /// Overrun policy.
+    pub overrun: Overrun,
+    /// Catch-up limit as it was set; used by `Overrun::CatchUp`.
+    pub catch_up_limit: u32,
+    /// World seconds per wall second.
+    pub speed: f64,
+    /// How long the world may be idle before it is deleted; `None`: for ever.
+    pub idle_ttl: Option<Duration>,
+}
+
+/// Settings of a new world.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WorldSettings {
+    /// Ticks per second.
+    pub rate_hz: f64,
+    /// Substeps per tick.
+    pub substeps: u32,
+    /// Gravity, m/s².
+    pub gravity: f64,
+    /// Friction of the ground.
+    pub friction: f64,
+    /// Figures and obstacles touch each other.
+    pub collisions: bool,
+    /// What may change later.
+    pub pace: Pace,
+}
+
+/// What a world is doing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WorldCondition {
+    /// Its clock runs.
+    Running,
+    /// Its clock is stopped.
+    Paused,
+    /// A step ended abnormally: why.
+    Failed(String),
+}
+
+/// A world as it is now.
+#[derive(Clone, Debug)]
+pub struct WorldInfo {
+    /// Last part of its name.
+    pub id: String,
+    /// Settings.
+    pub settings: WorldSettings,
+    /// What it is doing.
+    pub condition: WorldCondition,
+    /// Ticks computed.
+    pub tick: u64,
+    /// World time, s.
+    pub time: f64,
+    /// Number of figures.
+    pub figures: usize,
+    /// Epoch.
+    pub epoch: i32,
+    /// When it was created.
+    pub created: std::time::SystemTime,
+}
+
+/// Changes of a world; `None` leaves a setting as it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WorldUpdate {
+    /// Name for people.
+    pub display_name: Option<String>,
+    /// Overrun policy; `CatchUp` carries a limit that `catch_up_limit` replaces.
+    pub overrun: Option<Overrun>,
+    /// Catch-up limit.
+    pub catch_up_limit: Option<u32>,
+    /// Speed.
+    pub speed: Option<f64>,
+    /// How long it may be idle; `Some(None)`: for ever.
+    pub idle_ttl: Option<Option<Duration>>,
+}
+
+impl WorldUpdate {
+    /// Changes the settings that it holds.
+    pub fn apply(self, pace: &mut Pace) {
+        if let Some(name) = self.display_name {
+            pace.display_name = name;
+        }
+        if let Some(limit) = self.catch_up_limit {
+            pace.catch_up_limit = limit;
+        }
+        if let Some(overrun) = self.overrun {
+            pace.overrun = overrun;
+        }
+        if let Overrun::CatchUp(limit) = &mut pace.overrun {
+            *limit = pace.catch_up_limit;
+        }
+        if let Some(speed) = self.speed {
+            pace.speed = speed;
+        }
+        if let Some(ttl) = self.idle_ttl {
+            pace.idle_ttl = ttl;
+        }
+    }
+}
+
+/// A world with its figures, as clients may ask for them at any time.
+#[derive(Clone, Debug)]
+pub struct Described {
+    /// The world; its tick and time are those of the last change.
+    pub world: WorldInfo,
+    /// Its figures, in the order of creation.
+    pub figures: Vec<FigureInfo>,
+    /// Who controls each of them, in the same order.
+    pub controls: Vec<ControlInfo>,
+    /// When that was so.
+    pub at: Instant,
+}
