@@ -22,7 +22,8 @@ if [ $# -eq 0 ]; then
     done
     IFS=$old
 fi
-"${CARGO:-cargo}" build --locked --quiet --manifest-path "$root/Cargo.toml" --bin sinew
+# An example needs what tests need: the same crates with the same features, so that nothing is compiled twice.
+"${CARGO:-cargo}" build --locked --quiet --manifest-path "$root/Cargo.toml" --bin sinew --example client
 target=${CARGO_TARGET_DIR:-$root/target}
 mkdir -p "$target/survey"
 status=0

@@ -44,7 +44,8 @@ if [ -n "${SINEW_BIN:-}" ]; then
     binary=$SINEW_BIN
 else
     # shellcheck disable=SC2086 # an empty flag must vanish
-    cargo build --quiet --locked $flag --bin sinew --manifest-path "$root/Cargo.toml"
+    # An example needs what tests need: the same crates with the same features, so that nothing is compiled twice.
+    cargo build --quiet --locked $flag --bin sinew --example client --manifest-path "$root/Cargo.toml"
     binary=${CARGO_TARGET_DIR:-$root/target}/$profile/sinew
 fi
 

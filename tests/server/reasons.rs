@@ -2,26 +2,40 @@
 
 use crate::raw::Raw;
 use crate::support::{TestServer, refusal};
+use hyper_util::client::legacy::Client;
+use hyper_util::client::legacy::connect::HttpConnector;
+use hyper_util::rt::TokioExecutor;
 use prost_reflect::{DescriptorPool, MethodDescriptor};
 use sinew::wire::{DESCRIPTOR_SET, pb};
 use std::time::{Duration, Instant};
+use tonic::codegen::http::Uri;
 use tonic::metadata::{MetadataMap, MetadataValue};
-use tonic::transport::{Channel, Endpoint};
 use tonic::{Code, Request, Status};
 
-async fn channel(server: &TestServer) -> Channel {
-    let endpoint = Endpoint::from_shared(format!("http://{}", server.address)).unwrap();
-    endpoint.connect().await.unwrap()
+/// A connection without deadlines of its own: tonic's channel ends calls by `grpc-timeout` like the server does.
+#[derive(Clone)]
+struct Connection {
+    http: Client<HttpConnector, tonic::body::Body>,
+    origin: Uri,
+}
+
+fn connection(server: &TestServer) -> Connection {
+    let mut http = Client::builder(TokioExecutor::new());
+    Connection {
+        http: http.http2_only(true).build_http(),
+        origin: format!("http://{}", server.address).parse().unwrap(),
+    }
 }
 
 /// How a call ends that sends these messages.
 async fn ends(
-    channel: &Channel,
+    connection: &Connection,
     path: &str,
     messages: Vec<Vec<u8>>,
     headers: &[(&'static str, &'static str)],
 ) -> Result<(), Status> {
-    let mut grpc = tonic::client::Grpc::new(channel.clone());
+    let Connection { http, origin } = connection.clone();
+    let mut grpc = tonic::client::Grpc::with_origin(http, origin);
     grpc.ready().await.unwrap();
     let mut request = Request::new(tokio_stream::iter(messages));
     let metadata: &mut MetadataMap = request.metadata_mut();
@@ -48,7 +62,7 @@ fn path(method: &MethodDescriptor) -> String {
 async fn broken_requests_of_every_call_are_told_why() {
     let small = [("max_request_bytes", "65536"), ("max_clip_bytes", "65536")];
     let server = TestServer::with(&small).await;
-    let channel = channel(&server).await;
+    let connection = connection(&server);
     let gzip = [("grpc-encoding", "gzip")];
     let all = methods();
     assert!(all.len() > 60);
@@ -68,14 +82,16 @@ async fn broken_requests_of_every_call_are_told_why() {
                 "MESSAGE_TOO_LARGE",
             ),
         ] {
-            let e = ends(&channel, &path, vec![bytes], &[]).await.unwrap_err();
+            let e = ends(&connection, &path, vec![bytes], &[])
+                .await
+                .unwrap_err();
             let (got, why, _) = refusal(&e);
             assert_eq!((got, why.as_str()), (code, reason), "{path}: {e:?}");
         }
         // No message at all, and an encoding that nobody asked for.
-        let e = ends(&channel, &path, vec![], &[]).await.unwrap_err();
+        let e = ends(&connection, &path, vec![], &[]).await.unwrap_err();
         assert_eq!(refusal(&e).0, Code::InvalidArgument, "{path}: {e:?}");
-        let e = ends(&channel, &path, vec![vec![]], &gzip)
+        let e = ends(&connection, &path, vec![vec![]], &gzip)
             .await
             .unwrap_err();
         assert_eq!(refusal(&e).1, "NOT_AVAILABLE", "{path}: {e:?}");
@@ -86,13 +102,13 @@ async fn broken_requests_of_every_call_are_told_why() {
 #[tokio::test(flavor = "multi_thread")]
 async fn errors_of_libraries_have_a_reason_too() {
     let server = TestServer::start().await;
-    let channel = channel(&server).await;
+    let connection = connection(&server);
     for unknown in [
         "/sinew.v1.WorldService/Nothing",
         "/sinew.v1.NothingService/GetWorld",
         "/sinew.v2.WorldService/GetWorld",
     ] {
-        let e = ends(&channel, unknown, vec![vec![]], &[])
+        let e = ends(&connection, unknown, vec![vec![]], &[])
             .await
             .unwrap_err();
         let (code, reason, _) = refusal(&e);
@@ -103,7 +119,13 @@ async fn errors_of_libraries_have_a_reason_too() {
     }
     // Health of what there is not: field 1 is the name of the service.
     let service = vec![0x0a, 1, b'x'];
-    let e = ends(&channel, "/grpc.health.v1.Health/Check", vec![service], &[]).await;
+    let e = ends(
+        &connection,
+        "/grpc.health.v1.Health/Check",
+        vec![service],
+        &[],
+    )
+    .await;
     assert_eq!(refusal(&e.unwrap_err()).1, "RESOURCE_NOT_FOUND");
     // A deadline that the client gave: a wait of a minute for work that does not end.
     let work = pb::start_operation_request::Work::SimulateClip(pb::SimulateClipRequest {
@@ -125,7 +147,7 @@ async fn errors_of_libraries_have_a_reason_too() {
     });
     let begun = Instant::now();
     let e = ends(
-        &channel,
+        &connection,
         "/sinew.v1.OperationService/WaitOperation",
         vec![wait],
         &[("grpc-timeout", "200m")],
