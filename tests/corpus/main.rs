@@ -26,7 +26,7 @@ mod corpus;
 mod dialect;
 #[path = "../../examples/corpus/gait.rs"]
 mod gait;
-#[path = "../../examples/corpus/motions.rs"]
+#[path = "../../examples/corpus/motions/mod.rs"]
 mod motions;
 #[path = "../../examples/corpus/plan.rs"]
 mod plan;

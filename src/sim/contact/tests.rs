@@ -4,7 +4,7 @@ use super::*;
 use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::contact::cone::{Cone, squared};
 use crate::sim::contact::interior::{Inner, TO_BOUNDARY, aim, to_cone, to_world};
-use crate::sim::contact::newton::NewtonWorkspace;
+use crate::sim::contact::newton::{LineSearch, NewtonWorkspace};
 use crate::sim::contact::projection::{derivative, project};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::dynamics::Terms;
@@ -221,5 +221,28 @@ fn newton_reaches_the_minimum_and_both_storages_agree() {
                 ..Vec3::zero()
             }
         );
+    }
+}
+
+#[test]
+fn a_line_search_ends_near_the_zero_of_a_slope_that_grows() {
+    // Slopes at a: linear, with a kink, with a step, nearly flat before it grows.
+    let slopes: [fn(f64) -> f64; 5] = [
+        |a| -1.0 + 4.0 * a,
+        |a| -1.0 + 30.0 * (a - 0.7).max(0.0) + 0.1 * a,
+        |a| if a < 0.3 { -1.0 } else { -0.02 },
+        |a| -1.0 + a + 1e2 * (a - 0.02).max(0.0),
+        |a| -1.0 + 0.5 * a,
+    ];
+    for (i, slope) in slopes.iter().enumerate() {
+        let mut search = LineSearch::new(-1.0, 12);
+        let mut evaluations = 1;
+        while !search.ends_at(slope(search.step)) {
+            evaluations += 1;
+        }
+        let left = slope(search.step);
+        assert!(evaluations <= 13, "{i}: {evaluations}");
+        let whole = search.step == 1.0 && left <= 0.1;
+        assert!(whole || left.abs() < 0.05, "{i}: {left} at {}", search.step);
     }
 }
