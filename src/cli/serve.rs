@@ -13,8 +13,9 @@ use std::sync::Arc;
 use tokio::net::TcpSocket;
 use tracing_subscriber::EnvFilter;
 
-/// Connections that the system holds until they are accepted.
-const BACKLOG: u32 = 1024;
+/// Connections that the system holds until they are accepted: as many as Linux allows. One that finds the queue full
+/// tries again after a second, whoever filled it.
+const BACKLOG: u32 = 4096;
 
 /// Arguments of `sinew serve`.
 #[derive(Clone, Debug, Default, clap::Args)]

@@ -3,7 +3,8 @@
 //! A connection must bring its first request soon. In total and per address only so many are kept. One more takes the
 //! place of the one that has been without a request the longest. If all are at work, a few more are taken all the same,
 //! for health and metrics only; of these one that has its answer goes first, then the oldest. So whoever holds
-//! connections without using them locks out nobody.
+//! connections without using them locks out nobody. Nor does whoever opens many at once: a connection that has just
+//! come keeps its place until its first request can have been read, and if need be accepting waits for that.
 
 use super::super::access::tls::Tls;
 use super::super::config::Config;
@@ -25,7 +26,11 @@ use tokio_stream::Stream;
 use tonic::transport::server::Connected;
 
 /// Connections beyond the limits, for health and metrics.
-const RESERVED: usize = 64;
+const RESERVED: usize = 256;
+/// Time that a new connection has for its first request before another one can take its place. A client sends it at
+/// once, but the connection has to be read as well. Longer would let a rush fill the queue of the kernel: beyond all
+/// limits, [`RESERVED`] connections are accepted in this time.
+const FIRST_WORD: Duration = Duration::from_millis(25);
 /// Least time between two lines of the log about connections that were closed.
 const LOG_EVERY: Duration = Duration::from_secs(10);
 /// Part of their greatest age by which connections are asked to close sooner or later, so that those that came
@@ -72,6 +77,8 @@ pub(in crate::server) struct Peer {
     pub address: SocketAddr,
     /// Whether it is beyond the limits.
     pub reserved: bool,
+    /// When it came.
+    since: Instant,
     /// Requests that are worked on.
     requests: AtomicUsize,
     /// Whether there was a request.
@@ -109,6 +116,7 @@ impl Peer {
         let peer = Arc::new(Self {
             address,
             reserved,
+            since: Instant::now(),
             requests: AtomicUsize::new(0),
             begun: AtomicBool::new(false),
             used: AtomicU64::new(0),
@@ -159,6 +167,15 @@ impl Peer {
         self.requests.load(Ordering::Relaxed) == 0
     }
 
+    /// Time that it still has for its first request; zero once that was there.
+    fn time_left(&self, patience: Duration) -> Duration {
+        if self.begun.load(Ordering::Relaxed) {
+            Duration::ZERO
+        } else {
+            patience.saturating_sub(self.since.elapsed())
+        }
+    }
+
     pub(super) fn is_closed(&self) -> bool {
         self.closed.load(Ordering::Acquire)
     }
@@ -181,6 +198,8 @@ pub(in crate::server) struct Doors {
     most: usize,
     most_per_address: usize,
     first_request: Duration,
+    /// [`FIRST_WORD`].
+    patience: Duration,
     /// When a connection is closed in any case.
     oldest: Option<Duration>,
     uses: Arc<AtomicU64>,
@@ -245,7 +264,11 @@ impl Table {
 
 impl Doors {
     pub(super) fn new(config: &Config) -> Arc<Self> {
-        Arc::new(Self {
+        Arc::new(Self::with_patience(config, FIRST_WORD))
+    }
+
+    fn with_patience(config: &Config, patience: Duration) -> Self {
+        Self {
             most: config.max_connections as usize,
             most_per_address: config
                 .max_connections_per_address
@@ -255,10 +278,11 @@ impl Doors {
                 let asked = config.max_connection_age_s * (1.0 + AGE_SPREAD);
                 Duration::from_secs_f64(asked + config.connection_age_grace_s)
             }),
+            patience,
             uses: Arc::default(),
             open: Mutex::default(),
             log: Mutex::default(),
-        })
+        }
     }
 
     /// Most connections, without those for health and metrics.
@@ -270,26 +294,32 @@ impl Doors {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes one more connection in, in place of another one if need be.
-    fn enter(self: &Arc<Self>, address: SocketAddr) -> (u64, Arc<Peer>) {
+    /// Takes one more connection in, in place of another one if need be. The error is the time to wait before it can be
+    /// taken in: all that could go have just come.
+    fn enter(self: &Arc<Self>, address: SocketAddr) -> Result<(u64, Arc<Peer>), Duration> {
         let mut table = self.table();
-        let of_address = |t: &Table| t.by_address.get(&address.ip()).copied().unwrap_or(0);
-        let usual = |p: &Peer| !p.reserved && p.is_idle();
-        let mut gone = Vec::new();
-        if of_address(&table) >= self.most_per_address {
-            let last = table.last(|p| usual(p) && p.address.ip() == address.ip());
-            gone.extend(last.and_then(|n| table.remove(n)));
+        let left = |p: &Peer| p.time_left(self.patience);
+        let can_go = |p: &Peer| !p.reserved && p.is_idle() && left(p).is_zero();
+        let of_address = table.by_address.get(&address.ip()).copied().unwrap_or(0);
+        let (full, last) = if of_address >= self.most_per_address {
+            let own = |p: &Peer| can_go(p) && p.address.ip() == address.ip();
+            (true, table.last(own))
+        } else if table.peers.len() - table.reserved >= self.most {
+            (true, table.last(can_go))
+        } else {
+            (false, None)
+        };
+        let reserved = full && last.is_none();
+        let last = if reserved && table.reserved >= RESERVED {
+            table.last_reserved()
+        } else {
+            last
+        };
+        let wait = last.and_then(|n| table.peers.get(&n)).map(|p| left(p));
+        if let Some(wait) = wait.filter(|w| !w.is_zero()) {
+            return Err(wait);
         }
-        if table.peers.len() - table.reserved >= self.most {
-            let last = table.last(usual);
-            gone.extend(last.and_then(|n| table.remove(n)));
-        }
-        let reserved = of_address(&table) >= self.most_per_address
-            || table.peers.len() - table.reserved >= self.most;
-        if reserved && table.reserved >= RESERVED {
-            let last = table.last_reserved();
-            gone.extend(last.and_then(|n| table.remove(n)));
-        }
+        let gone = last.and_then(|n| table.remove(n));
         let peer = Peer::new(address, reserved, self);
         let number = table.next;
         table.next += 1;
@@ -301,10 +331,20 @@ impl Doors {
         }
         metrics::gauge!("sinew_connections").set(table.peers.len() as f64);
         drop(table);
-        for peer in gone {
+        if let Some(peer) = gone {
             peer.close(Why::Room);
         }
-        (number, peer)
+        Ok((number, peer))
+    }
+
+    /// [`Self::enter`], once there is room.
+    async fn wait_to_enter(self: &Arc<Self>, address: SocketAddr) -> (u64, Arc<Peer>) {
+        loop {
+            match self.enter(address) {
+                Ok(entered) => return entered,
+                Err(wait) => tokio::time::sleep(wait).await,
+            }
+        }
     }
 
     fn leave(&self, number: u64) {
@@ -372,7 +412,7 @@ pub(in crate::server) fn incoming(
                     // Frames are small and wanted at once.
                     let _ = stream.set_nodelay(true);
                     metrics::counter!("sinew_connections_total").increment(1);
-                    let (number, peer) = doors.enter(address);
+                    let (number, peer) = doors.wait_to_enter(address).await;
                     let transport = match &tls {
                         Some(tls) => Transport::Agreeing(Box::new(tls.acceptor().accept(stream))),
                         None => Transport::Plain(stream),
@@ -548,11 +588,20 @@ mod tests {
     use super::*;
 
     fn doors(most: u64, per_address: u64) -> Arc<Doors> {
-        Doors::new(&Config {
+        patient(most, per_address, Duration::ZERO)
+    }
+
+    fn patient(most: u64, per_address: u64, patience: Duration) -> Arc<Doors> {
+        let config = Config {
             max_connections: most,
             max_connections_per_address: per_address,
             ..Config::default()
-        })
+        };
+        Arc::new(Doors::with_patience(&config, patience))
+    }
+
+    fn enter(doors: &Arc<Doors>, address: SocketAddr) -> Arc<Peer> {
+        doors.enter(address).expect("there is room").1
     }
 
     fn from(last: u8) -> SocketAddr {
@@ -562,23 +611,23 @@ mod tests {
     #[test]
     fn one_more_takes_the_place_of_the_one_that_is_unused_the_longest() {
         let doors = doors(3, 3);
-        let first = doors.enter(from(1)).1;
-        let silent = doors.enter(from(2)).1;
-        let busy = doors.enter(from(3)).1;
+        let first = enter(&doors, from(1));
+        let silent = enter(&doors, from(2));
+        let busy = enter(&doors, from(3));
         let _request = busy.open();
         drop(first.open()); // used, and after the silent one
-        let fourth = doors.enter(from(4)).1;
+        let fourth = enter(&doors, from(4));
         assert!(silent.is_closed() && !first.is_closed() && !busy.is_closed());
         drop(fourth.open());
-        doors.enter(from(5));
+        enter(&doors, from(5));
         assert!(first.is_closed() && !fourth.is_closed() && !busy.is_closed());
     }
 
     #[test]
     fn an_address_takes_no_more_than_its_share() {
         let doors = doors(10, 2);
-        let other = doors.enter(from(2)).1;
-        let own: Vec<_> = (0..3).map(|_| doors.enter(from(1)).1).collect();
+        let other = enter(&doors, from(2));
+        let own: Vec<_> = (0..3).map(|_| enter(&doors, from(1))).collect();
         assert_eq!(
             own.iter().map(|p| p.is_closed()).collect::<Vec<_>>(),
             [true, false, false]
@@ -586,38 +635,54 @@ mod tests {
         assert!(!other.is_closed());
         let _busy = (own[1].open(), own[2].open());
         assert!(
-            doors.enter(from(1)).1.reserved,
+            enter(&doors, from(1)).reserved,
             "all of its own are at work"
         );
-        assert!(!doors.enter(from(3)).1.reserved);
+        assert!(!enter(&doors, from(3)).reserved);
     }
 
     #[test]
     fn health_has_a_place_when_all_are_at_work() {
         let doors = doors(2, 2);
-        let busy: Vec<_> = (0..2).map(|i| doors.enter(from(i)).1).collect();
+        let busy: Vec<_> = (0..2).map(|i| enter(&doors, from(i))).collect();
         let _requests: Vec<_> = busy.iter().map(Peer::open).collect();
-        let extra: Vec<_> = (0..RESERVED + 1).map(|_| doors.enter(from(9)).1).collect();
+        let extra: Vec<_> = (0..RESERVED + 1).map(|_| enter(&doors, from(9))).collect();
         assert!(extra.iter().all(|p| p.reserved));
         assert!(extra[0].is_closed(), "the oldest made room");
         assert!(extra[1..].iter().all(|p| !p.is_closed()) && busy.iter().all(|p| !p.is_closed()));
         // One that has its answer goes before one that has yet to ask, and before one that is being answered.
         let asking = extra[2].open();
         drop(extra[3].open());
-        doors.enter(from(9));
+        enter(&doors, from(9));
         assert!(extra[3].is_closed() && !extra[1].is_closed() && !extra[2].is_closed());
         drop(asking);
-        doors.enter(from(9));
+        enter(&doors, from(9));
         assert!(extra[2].is_closed() && !extra[1].is_closed());
     }
 
     #[test]
     fn who_leaves_gives_the_place_back() {
         let doors = doors(1, 1);
-        let (number, peer) = doors.enter(from(1));
+        let (number, peer) = doors.enter(from(1)).unwrap();
         let _request = peer.open();
         doors.leave(number);
         doors.leave(number); // once is enough
-        assert!(!doors.enter(from(1)).1.reserved);
+        assert!(!enter(&doors, from(1)).reserved);
+    }
+    #[test]
+    fn who_has_just_come_keeps_the_place_until_the_first_request() {
+        let doors = patient(2, 2, Duration::from_secs(3600));
+        let busy = enter(&doors, from(1));
+        let _request = busy.open();
+        let new = enter(&doors, from(2));
+        let rush: Vec<_> = (0..RESERVED).map(|_| enter(&doors, from(3))).collect();
+        assert!(rush.iter().all(|p| p.reserved && !p.is_closed()));
+        assert!(!new.is_closed(), "it has not had the time to ask");
+        let wait = doors.enter(from(3)).unwrap_err();
+        assert!(wait > Duration::from_secs(3000));
+        assert!(!new.is_closed() && rush.iter().all(|p| !p.is_closed()));
+        // With its answer it can go, and the next one has the usual place.
+        drop(new.open());
+        assert!(!enter(&doors, from(3)).reserved && new.is_closed());
     }
 }
