@@ -430,6 +430,28 @@ fn a_figure_is_carried() {
     goes_on_bit_for_bit(Scenario::new("carried", helped(), 240, 13));
 }
 
+/// The impulse between the hands is found anew from the last one, and hardly changes.
+#[test]
+fn a_load_in_both_hands_is_held_at_rest() {
+    let body = man();
+    let mut world = world(1);
+    let setup = figure(&body, ControllerKind::Modern, still(bent(&body, 0.1)));
+    let key = world.add_figure(setup).unwrap();
+    let point = vec3(0.0, 0.0, -0.08);
+    let both = HeldLoad {
+        segment: R_HAND,
+        point,
+        mass: 4.0,
+        velocity: Vec3::zero(),
+        second: Some((L_HAND, point)),
+        grip: f64::INFINITY,
+        from: 0.2,
+        to: f64::INFINITY,
+    };
+    world.perturb(key, Perturbation::Held(both)).unwrap();
+    goes_on_bit_for_bit(Scenario::new("at rest", world, 900, 19));
+}
+
 /// Carries, is pushed, tired and helped, meets things, and has constraints that come and go.
 fn things() -> Scenario {
     let body = man();

@@ -7,9 +7,9 @@ use crate::common::collisions::{Meter, obstacle};
 use crate::common::{authored, figure, man, still};
 use crate::vec3;
 use sinew::sim::body::Body;
-use sinew::sim::body::topology::CHEST;
+use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
 use sinew::sim::collide::{MAX_OBSTACLES, Mobility, ObstacleSetup, Shape};
-use sinew::sim::figure::{ControllerKind, Flags, Perturbation, StepperKind};
+use sinew::sim::figure::{ControllerKind, Flags, HeldLoad, Perturbation, StepperKind};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::world::{FigureKey, FigureSetup, World, WorldError, WorldParams};
 use std::sync::Arc;
@@ -186,6 +186,71 @@ fn bystanders_and_threads_do_not_matter() {
         hashes.push(all);
     }
     assert!(hashes.iter().all(|h| *h == hashes[0]));
+}
+
+/// So it is beside a wall that stands on the floor by itself, near and not touched, while both hands hold a load, and
+/// while help carries somebody who was pushed along it: what a substep starts from does not depend on how often it is
+/// opened.
+#[test]
+fn a_wall_that_is_near_changes_nothing_for_full_hands_or_with_help() {
+    let body = man();
+    let load = HeldLoad {
+        segment: R_HAND,
+        point: vec3(0.0, 0.0, -0.08),
+        mass: 4.0,
+        velocity: Vec3::zero(),
+        second: Some((L_HAND, vec3(0.0, 0.0, -0.08))),
+        grip: f64::INFINITY,
+        from: 0.1,
+        to: f64::INFINITY,
+    };
+    let along = Perturbation::Force {
+        segment: CHEST,
+        point: vec3(0.0, 0.0, 0.1),
+        force: vec3(900.0, 0.0, 0.0),
+        from: 0.2,
+        to: 0.3,
+    };
+    for (what, max_help) in [(Perturbation::Held(load), 0.0), (along, 0.3)] {
+        let world = |wall: Option<f64>| {
+            let mut world = World::new(WorldParams::default()).unwrap();
+            let mut setup = stander(&body, ControllerKind::Modern, 0.0, 0.0, 0.0);
+            setup.options.max_help = max_help;
+            let key = world.add_figure(setup).unwrap();
+            world.perturb(key, what).unwrap();
+            if let Some(y) = wall {
+                let half = vec3(3.0, 0.1, 0.8);
+                let place = vec3(0.0, y + half.y, half.z);
+                let wall = obstacle(Shape::Box { half }, Mobility::Free(200.0), place);
+                world.add_obstacle(wall).unwrap();
+            }
+            (world, key)
+        };
+        let (mut alone, key) = world(None);
+        let mut carried = Vec::new();
+        let hashes: Vec<u64> = (0..90)
+            .map(|_| {
+                alone.step();
+                let f = alone.figure(key).unwrap();
+                carried.push(f.is_carried());
+                f.state_hash()
+            })
+            .collect();
+        let mut beside_it = 0;
+        for cm in 30..42 {
+            let (mut beside, key) = world(Some(0.01 * f64::from(cm)));
+            for (hash, carried) in hashes.iter().zip(&carried) {
+                beside.step();
+                let f = beside.figure(key).unwrap();
+                if !f.report().unwrap().touches.is_empty() {
+                    break;
+                }
+                assert_eq!(f.state_hash(), *hash, "{cm} cm, tick {}", beside.tick());
+                beside_it += u32::from(max_help == 0.0 || *carried);
+            }
+        }
+        assert!(beside_it > 300, "beside it for {beside_it} ticks");
+    }
 }
 
 /// A tower of a ball-shaped, a box-shaped and a long thing comes to rest and stays.

@@ -227,7 +227,8 @@ struct SubstepSolution {
     /// Impulse of the assist.
     assist: [f64; 6],
     outcome: Outcome,
-    /// Joints whose motors gave all they had, by bit; `None` before the first substep of a tick.
+    /// Joints whose motors gave all they had in the last substep that was closed, by bit; `None` before the first
+    /// substep of a tick.
     saturated: Option<u64>,
 }
 
@@ -243,8 +244,10 @@ struct ExternalContacts {
 /// What a bar between two points gives.
 #[derive(Clone, Copy, Debug, Default)]
 struct BarImpulse {
-    /// Impulse along the bar, N·s; positive pushes its ends apart. First guess of the next substep.
+    /// Impulse along the bar, N·s; positive pushes its ends apart.
     impulse: f64,
+    /// That of the last substep that was closed: first guess of the next one.
+    start: f64,
     /// Its forces in the last substep of a tick: segment, world point, world force, N.
     forces: Option<[(SegmentId, Vec3, Vec3); 2]>,
 }
@@ -306,12 +309,12 @@ impl TorqueStepper {
 
     /// What it remembers from tick to tick: impulse along the bar between two hands, N·s, and its mean force, N.
     pub(super) fn memory(&self) -> (f64, Vec3) {
-        (self.bar.impulse, self.forces.bar)
+        (self.bar.start, self.forces.bar)
     }
 
     /// Remembers what was read from a checkpoint.
     pub(super) fn remember(&mut self, impulse: f64, force: Vec3) {
-        self.bar.impulse = impulse;
+        self.bar.start = impulse;
         self.forces.bar = force;
     }
 
@@ -434,6 +437,7 @@ impl TorqueStepper {
             i + 1 == input.world.substeps,
         );
         self.close(h, state);
+        self.keep_starts();
         if let Some(row) = self.problem.row.take() {
             self.account_bar(&row, h, input.world.dt, last);
         }

@@ -31,6 +31,7 @@ impl TorqueStepper {
         if self.solver.accuracy.motors_first {
             self.begin_at_motors(h, &mut v);
         }
+        self.bar.impulse = self.bar.start;
         self.solution.assist = [0.0; 6];
         self.solution.outcome = Outcome::default();
         self.problem.slides.begin(
@@ -63,10 +64,16 @@ impl TorqueStepper {
             self.bar.impulse = 0.0;
         }
         (self.solution.velocity, self.solution.pushed) = (v, x);
+    }
+
+    /// What the next substep starts from. It is kept when a substep is closed: a figure that is near others opens it
+    /// twice, and is to have the same bits as if it were alone.
+    pub(super) fn keep_starts(&mut self) {
         let motors = &self.problem.motors;
         let given = self.solver.newton.motor.iter().enumerate();
         let saturated = given.filter(|(j, t)| **t >= motors.upper[*j] || **t <= motors.lower[*j]);
         self.solution.saturated = Some(saturated.fold(0, |all, (j, _)| all | 1 << j));
+        self.bar.start = self.bar.impulse;
     }
 
     /// Solves as often as points that slide take.
