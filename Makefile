@@ -19,7 +19,7 @@ help: ## what there is
 run: ## the demo server
 	cd $(ROOT) && $(CARGO) run --release
 
-PARTS := setup lint proto physics rust traces survey release load deploy oracle python viewer
+PARTS := setup lint proto rust traces survey release load deploy oracle python viewer
 
 test: $(PARTS) ## every test that needs nothing from outside the repository; installs what they need
 	@echo "make test: passed: $(PARTS)."
@@ -47,7 +47,7 @@ lint: setup ## format, lints with warnings denied, width of lines, licences and 
 proto: setup ## the protos: rules of buf, and nothing broken since version 1 of the API (proto/v1.binpb)
 	$(ROOT)/tests/proto.sh
 
-physics: ## the physics compiles without a network crate in sight
+physics: ## the physics compiles without a network crate in sight; `make release` compiles it so, too
 	cd $(ROOT) && $(CARGO) check --locked --lib --no-default-features
 
 rust: ## Rust tests
@@ -61,7 +61,7 @@ traces: ## the feature otlp, which is off by default, with a collector in the te
 survey: ## every measure of every clip of tests/corpus against the stored one
 	$(ROOT)/tests/survey.sh $(ROOT)/tests/corpus
 
-release: ## whole figures in the profile that is shipped, which rounds and inlines differently
+release: ## whole figures in the profile that is shipped, which rounds and inlines differently; without a network crate
 	cd $(ROOT) && $(CARGO) test --release --locked --no-default-features --test acceptance
 
 load: setup ## ghz against a live server
