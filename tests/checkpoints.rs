@@ -430,15 +430,10 @@ fn a_figure_is_carried() {
     goes_on_bit_for_bit(Scenario::new("carried", helped(), 240, 13));
 }
 
-/// The impulse between the hands is found anew from the last one, and hardly changes.
-#[test]
-fn a_load_in_both_hands_is_held_at_rest() {
-    let body = man();
-    let mut world = world(1);
-    let setup = figure(&body, ControllerKind::Modern, still(bent(&body, 0.1)));
-    let key = world.add_figure(setup).unwrap();
+/// Four kilograms in both hands, from 0.2 s on.
+fn in_both_hands() -> HeldLoad {
     let point = vec3(0.0, 0.0, -0.08);
-    let both = HeldLoad {
+    HeldLoad {
         segment: R_HAND,
         point,
         mass: 4.0,
@@ -447,8 +442,19 @@ fn a_load_in_both_hands_is_held_at_rest() {
         grip: f64::INFINITY,
         from: 0.2,
         to: f64::INFINITY,
-    };
-    world.perturb(key, Perturbation::Held(both)).unwrap();
+    }
+}
+
+/// The impulse between the hands is found anew from the last one, and hardly changes.
+#[test]
+fn a_load_in_both_hands_is_held_at_rest() {
+    let body = man();
+    let mut world = world(1);
+    let setup = figure(&body, ControllerKind::Modern, still(bent(&body, 0.1)));
+    let key = world.add_figure(setup).unwrap();
+    world
+        .perturb(key, Perturbation::Held(in_both_hands()))
+        .unwrap();
     goes_on_bit_for_bit(Scenario::new("at rest", world, 900, 19));
 }
 
@@ -465,16 +471,11 @@ fn things() -> Scenario {
         self_contact: true,
     };
     let key = world.add_figure(setup).unwrap();
-    let point = vec3(0.0, 0.0, -0.08);
     let both = HeldLoad {
-        segment: R_HAND,
-        point,
-        mass: 4.0,
         velocity: vec3(-1.0, 0.0, 0.0),
-        second: Some((L_HAND, point)),
         grip: 250.0,
-        from: 0.2,
         to: 1.5,
+        ..in_both_hands()
     };
     world.perturb(key, Perturbation::Held(both)).unwrap();
     world
