@@ -19,9 +19,10 @@ def target() -> Path:
     return (ROOT / given if given else ROOT / "target") / "debug"
 
 
-def build(*what: str) -> None:
-    """Builds with the profile of the tests; nothing to do when `make` has done so."""
-    subprocess.run(["cargo", "build", "--quiet", "--locked", *what], cwd=ROOT, check=True)
+def build() -> None:
+    """Builds all programs with the profile of the tests; nothing to do when `make` has done so. Examples have features
+    of the tests' crates, so the server is built along with them: alone it would be compiled once more without."""
+    subprocess.run(["cargo", "build", "--quiet", "--locked", "--bins", "--examples"], cwd=ROOT, check=True)
 
 
 @pytest.fixture(scope="session")
@@ -29,7 +30,7 @@ def dump(tmp_path_factory: pytest.TempPathFactory):
     """Random states of several bodies with what our dynamics says about them."""
     from engines import Dump
 
-    build("--example", "dump_dynamics")
+    build()
     directory = tmp_path_factory.mktemp("dynamics")
     subprocess.run([target() / "examples" / "dump_dynamics", directory, "120"], check=True)
     return Dump(directory)

@@ -228,7 +228,7 @@ def test_pinocchio_reads_the_limits_of_the_urdf(dump):
 @pytest.fixture(scope="module")
 def server():
     """A client of a server of its own."""
-    build("--bin", "sinew")
+    build()
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("SINEW_BIN", os.fspath(target() / "sinew"))
         with sinew.serve() as client:

@@ -22,7 +22,7 @@ SPEED = 1e-8
 
 @pytest.fixture(scope="module")
 def cases(tmp_path_factory: pytest.TempPathFactory) -> dict:
-    build("--example", "dump_paper")
+    build()
     file = tmp_path_factory.mktemp("paper") / "paper.json"
     subprocess.run([target() / "examples" / "dump_paper", file, "40"], check=True)
     return json.loads(file.read_text())

@@ -40,7 +40,7 @@ def stubs():
 @pytest.fixture(scope="module")
 def server():
     """A server on a free port; yields its address."""
-    build("--bin", "sinew")
+    build()
     process = subprocess.Popen(
         [target() / "sinew", "serve", "--listen", "127.0.0.1:0", "--no-demo"],
         stdout=subprocess.PIPE,
