@@ -1,4 +1,5 @@
-# Short recipes; `make ci` runs exactly what CI runs. Everything uses the dev profile, so nothing is compiled twice.
+# Short recipes; `make ci` runs exactly what CI runs. All but `traces` and `release` use the dev profile with the
+# features of the tests, so that nothing is compiled twice.
 # Targets work from any directory: make -C path/to/sinew test.
 
 ROOT := $(abspath $(dir $(lastword $(MAKEFILE_LIST))))

@@ -1,7 +1,7 @@
 //! Incoming connections: how many are kept, and which of them go when there are too many.
 //!
 //! A connection must bring its first request soon. In total and per address only so many are kept. One more takes the
-//! place of the one that has been without a request the longest. If all are at work, a few more are taken all the same,
+//! place of the one that has been without a request the longest. If all are at work, some more are taken all the same,
 //! for health and metrics only; of these one that has its answer goes first, then the oldest. So whoever holds
 //! connections without using them locks out nobody. Nor does whoever opens many at once: a connection that has just
 //! come keeps its place until its first request can have been read, and if need be accepting waits for that.
@@ -639,6 +639,16 @@ mod tests {
             "all of its own are at work"
         );
         assert!(!enter(&doors, from(3)).reserved);
+    }
+
+    #[test]
+    fn an_address_that_has_its_share_closes_nobody_else() {
+        let doors = doors(2, 1);
+        let other = enter(&doors, from(2));
+        let busy = enter(&doors, from(1));
+        let _request = busy.open();
+        assert!(enter(&doors, from(1)).reserved);
+        assert!(!other.is_closed(), "it would have made no room");
     }
 
     #[test]
