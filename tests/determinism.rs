@@ -108,6 +108,67 @@ fn neighbours_do_not_matter() {
     }
 }
 
+#[test]
+fn worlds_that_a_thread_steps_in_turns_do_not_matter() {
+    // A thread has one workspace, and lends it to a figure of one world after a figure of another.
+    let scenes = || -> Vec<(World, FigureKey)> {
+        let grounds = [(9.81, 0.9), (3.7, 0.15), (9.81, 0.4)];
+        let mut out = Vec::new();
+        for ((gravity, friction), newtons) in grounds.into_iter().zip([150.0, 300.0, 800.0]) {
+            for kind in KINDS {
+                let mut world = World::new(WorldParams {
+                    gravity,
+                    friction,
+                    ..WorldParams::default()
+                })
+                .unwrap();
+                let key = subject(kind, newtons).enter(&mut world);
+                out.push((world, key));
+            }
+        }
+        // Two who meet need a workspace each.
+        let mut meet = world(1);
+        let key = subject(ControllerKind::Modern, 800.0).enter(&mut meet);
+        let mut other = subject(ControllerKind::Modern, 0.0);
+        other.shift(Vec3 {
+            x: 0.5,
+            y: 0.0,
+            z: 0.0,
+        });
+        other.enter(&mut meet);
+        out.push((meet, key));
+        out
+    };
+    let alone: Vec<Vec<u64>> = scenes()
+        .into_iter()
+        .map(|(mut world, key)| {
+            // On a thread that has never stepped another.
+            let run = move || trace(&mut world, key, 90);
+            std::thread::spawn(run).join().unwrap()
+        })
+        .collect();
+    let mut together = scenes();
+    let mut got = vec![Vec::new(); alone.len()];
+    let mut touched = 0;
+    for tick in 0..90 {
+        for ((world, key), got) in together.iter_mut().zip(&mut got) {
+            world.step();
+            let figure = world.figure(*key).unwrap();
+            touched += figure.report().unwrap().touches.len();
+            if tick % 10 == 9 {
+                got.push(figure.state_hash());
+            }
+        }
+    }
+    assert_eq!(alone, got);
+    // They did different things, and two met.
+    assert!(touched > 0);
+    let mut ends: Vec<u64> = got.iter().map(|g| g[8]).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    assert_eq!(ends.len(), alone.len());
+}
+
 /// Name and hash of every golden scene.
 fn golden_scenes() -> Vec<(String, u64)> {
     let mut out = Vec::new();

@@ -2,7 +2,7 @@
 //! step is seen.
 
 use sinew::sim::body::angles::anatomical_angles;
-use sinew::sim::body::{Body, DOF_COUNT, Links, State};
+use sinew::sim::body::{Body, DOF_COUNT, Links, NV, State};
 use sinew::sim::contact::Tissue;
 use sinew::sim::dynamics::Terms;
 use sinew::sim::figure::StrengthScale;
@@ -69,6 +69,7 @@ impl Bare {
             strength: &self.strength,
             scale: &self.scale,
             terms: &self.terms,
+            last_acceleration: &[0.0; NV],
             command: &command,
             available: &available,
             tissue,

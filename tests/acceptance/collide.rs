@@ -237,7 +237,7 @@ fn a_wall_that_is_near_changes_nothing_for_full_hands_or_with_help() {
             })
             .collect();
         let mut beside_it = 0;
-        for cm in 30..42 {
+        for cm in 30..48 {
             let (mut beside, key) = world(Some(0.01 * f64::from(cm)));
             for (hash, carried) in hashes.iter().zip(&carried) {
                 beside.step();

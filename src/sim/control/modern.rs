@@ -28,10 +28,12 @@ use crate::sim::report::Flags;
 use crate::sim::report::MAX_CONTACTS;
 use crate::sim::support::Polygon;
 use multiversion::multiversion;
-use serde::{Deserialize, Serialize};
 use tasks::pendulum_time;
 
+pub use memory::ModernMemory;
+
 mod contacts;
+mod memory;
 mod momentum;
 mod roll;
 mod tasks;
@@ -107,13 +109,11 @@ const MEANT_FADE: (f64, f64) = (0.004, 0.012);
 /// Points of one segment.
 const POINTS: usize = MAX_CONTACTS / SEGMENT_COUNT;
 
-/// The modern controller with its buffers and its memory of the last tick (warm start).
+/// The modern controller with its buffers and what it remembers of the last tick (warm start).
 ///
 /// Problem 14.1.
 pub struct Modern {
-    price: [f64; NV],
-    last_torque: [f64; DOF_COUNT],
-    last_force: Box<[Vec3; MAX_CONTACTS]>,
+    memory: ModernMemory,
     p: Box<Dense>,
     y: Box<Dense>,
     a: Box<Dense>,
@@ -158,42 +158,15 @@ impl std::fmt::Debug for Modern {
     }
 }
 
-/// What [`Modern`] remembers from tick to tick.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct ModernMemory {
-    #[serde(with = "crate::sim::saved::array")]
-    price: [f64; NV],
-    #[serde(with = "crate::sim::saved::array")]
-    last_torque: [f64; DOF_COUNT],
-    /// Contact forces that are not zero, by index.
-    last_force: Vec<(u8, Vec3)>,
-}
-
 impl Modern {
-    /// What it remembers, to be written into a checkpoint.
-    pub fn memory(&self) -> ModernMemory {
-        let forces = (0u8..).zip(self.last_force.iter());
-        ModernMemory {
-            price: self.price,
-            last_torque: self.last_torque,
-            last_force: forces
-                .filter(|(_, f)| f.to_array().iter().any(|x| x.to_bits() != 0))
-                .map(|(k, f)| (k, *f))
-                .collect(),
-        }
+    /// Exchanges what it remembers for what it remembered of another figure.
+    pub fn swap_memory(&mut self, memory: &mut ModernMemory) {
+        std::mem::swap(&mut self.memory, memory);
     }
 
-    /// Remembers what was read from a checkpoint. False if it cannot be what was written.
-    #[must_use]
-    pub fn remember(&mut self, memory: &ModernMemory) -> bool {
-        (self.price, self.last_torque) = (memory.price, memory.last_torque);
-        self.last_force.fill(Vec3::zero());
-        let forces = memory.last_force.iter().flat_map(|(_, f)| f.to_array());
-        let numbers = memory.price.iter().chain(&memory.last_torque).copied();
-        memory.last_force.iter().all(|(k, f)| {
-            let place = self.last_force.get_mut(usize::from(*k));
-            place.map(|p| *p = *f).is_some()
-        }) && numbers.chain(forces).all(f64::is_finite)
+    /// Plans with a little less friction than the simulator's `friction` from now on.
+    pub fn set_friction(&mut self, friction: f64) {
+        self.contacts.friction = friction * FRICTION_MARGIN;
     }
 
     /// The last decision.
@@ -205,9 +178,7 @@ impl Modern {
     pub fn new(friction: f64) -> Self {
         let dense = || Box::new([[0.0; WIDTH]; NV]);
         Self {
-            price: [0.0; NV],
-            last_torque: [0.0; DOF_COUNT],
-            last_force: Box::new([Vec3::zero(); MAX_CONTACTS]),
+            memory: ModernMemory::default(),
             p: dense(),
             y: dense(),
             a: dense(),
@@ -324,7 +295,7 @@ impl Controller for Modern {
             self.motors.lower[j] = input.lower[j];
             self.motors.upper[j] = input.upper[j];
             self.motors.rest[j] =
-                self.last_torque[j].clamp(input.lower[j], input.upper[j]) / self.motors.gain[j];
+                self.memory.torque[j].clamp(input.lower[j], input.upper[j]) / self.motors.gain[j];
         }
         for (upper, load) in [L_UPPER_ARM, R_UPPER_ARM].into_iter().zip(input.carried) {
             if load > 0.0 {
@@ -350,14 +321,17 @@ impl Controller for Modern {
         }
         self.assist = input.assist;
         let Some(outcome) = kernel(self, t, &diagonal, &mut linear) else {
-            self.command.acceleration = [f64::NAN; NV];
-            self.command.joint_acceleration = [f64::NAN; DOF_COUNT];
-            self.command.torque = [f64::NAN; DOF_COUNT];
+            self.command = Command {
+                acceleration: [f64::NAN; NV],
+                joint_acceleration: [f64::NAN; DOF_COUNT],
+                torque: [f64::NAN; DOF_COUNT],
+                ..Command::default()
+            };
             return &self.command;
         };
         if !outcome.converged {
             // An iterate that got nowhere is no place to start the next tick from.
-            self.price = [0.0; NV];
+            self.memory.price = [0.0; NV];
         }
         let c = &mut self.command;
         c.flags = Flags::default();
@@ -370,7 +344,7 @@ impl Controller for Modern {
         for j in 0..DOF_COUNT {
             let tau = self.newton.motor[j];
             c.torque[j] = tau;
-            self.last_torque[j] = tau;
+            self.memory.torque[j] = tau;
             if tau <= input.lower[j] || tau >= input.upper[j] {
                 c.saturated |= 1 << j;
             }
@@ -380,7 +354,7 @@ impl Controller for Modern {
         for (k, p) in self.contacts.points.iter().enumerate() {
             let f = self.newton.force[k];
             if p.vertex < POINTS {
-                self.last_force[p.segment * POINTS + p.vertex] = f;
+                self.memory.force[p.segment * POINTS + p.vertex] = f;
             }
             force += f;
             moment += (t.segment_position(p.segment) + p.r).cross(f);
@@ -399,9 +373,7 @@ impl Controller for Modern {
     }
 
     fn reset(&mut self) {
-        self.price = [0.0; NV];
-        self.last_torque = [0.0; DOF_COUNT];
-        self.last_force.fill(Vec3::zero());
+        self.memory.reset();
     }
 }
 
@@ -495,7 +467,7 @@ fn kernel(
         limits: &c.limits,
         contacts: &c.contacts,
     };
-    let (hessian, price, newton) = (&mut c.hessian, &mut c.price, &mut c.newton);
+    let (hessian, price, newton) = (&mut c.hessian, &mut c.memory.price, &mut c.newton);
     let stop = StopRule {
         iterations: NEWTON_ITERATIONS,
         tolerance: TOLERANCE,
@@ -514,7 +486,7 @@ fn kernel(
         outcome.converged = outcome.residual < TOLERANCE;
     }
     let mut v = *linear;
-    for (row, x) in t.m.iter().zip(&c.price) {
+    for (row, x) in t.m.iter().zip(&c.memory.price) {
         for i in 0..WIDTH {
             v[i] += row[i] * x;
         }

@@ -63,9 +63,7 @@ pub struct Paper {
     held_count: usize,
     held_qr: RowQr,
     planned: Planned,
-    anchors: [Option<(Vec3, Quat)>; 2],
-    previous: Option<Row>,
-    overload: bool,
+    memory: PaperMemory,
     left_out: Option<[bool; MAX_CONTACTS]>,
     command: Command,
 }
@@ -86,9 +84,7 @@ impl Default for Paper {
             held_count: 0,
             held_qr: RowQr::default(),
             planned: Planned([true; 2]),
-            anchors: [None; 2],
-            previous: None,
-            overload: false,
+            memory: PaperMemory::default(),
             left_out: None,
             command: Command::default(),
         }
@@ -115,7 +111,7 @@ struct Stand {
 }
 
 /// What [`Paper`] remembers from tick to tick.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct PaperMemory {
     anchors: [Option<(Vec3, Quat)>; 2],
     previous: Option<Previous>,
@@ -125,21 +121,17 @@ pub struct PaperMemory {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Previous(#[serde(with = "crate::sim::saved::array")] Row);
 
-impl Paper {
-    /// What it remembers, to be written into a checkpoint.
-    pub fn memory(&self) -> PaperMemory {
-        PaperMemory {
-            anchors: self.anchors,
-            previous: self.previous.map(Previous),
-            overload: self.overload,
-        }
+impl PaperMemory {
+    /// Forgets the last tick.
+    pub fn reset(&mut self) {
+        *self = Self::default();
     }
+}
 
-    /// Remembers what was read from a checkpoint.
-    pub fn remember(&mut self, memory: &PaperMemory) {
-        self.anchors = memory.anchors;
-        self.previous = memory.previous.as_ref().map(|p| p.0);
-        self.overload = memory.overload;
+impl Paper {
+    /// Exchanges what it remembers for what it remembered of another figure.
+    pub fn swap_memory(&mut self, memory: &mut PaperMemory) {
+        std::mem::swap(&mut self.memory, memory);
     }
 
     /// A controller that has seen nothing yet.
@@ -269,9 +261,9 @@ impl Paper {
         }
         let members = first.set.count_ones() + second.set.count_ones();
         let complete = first.complete && second.complete && qdd.iter().all(|a| a.is_finite());
-        self.overload = !complete
+        self.memory.overload = !complete
             || members
-                > if self.overload {
+                > if self.memory.overload {
                     OVERLOAD_LEAVE - 1
                 } else {
                     OVERLOAD_ENTER
@@ -283,7 +275,7 @@ impl Paper {
             }
             _ => false,
         };
-        if self.overload || clip {
+        if self.memory.overload || clip {
             (qdd, first) = self.overloaded(input, law, &initial, &tau0, mode);
             second = Outcome::default();
         }
@@ -374,7 +366,7 @@ impl Controller for Paper {
         self.update_anchors(input);
         let (mut pass, stand) = self.decide(input, &law, &initial);
         let mut flags = stand.flags;
-        if self.overload {
+        if self.memory.overload {
             flags.set(Flags::OVERLOAD);
         }
         if pass.first.damped || pass.second.damped {
@@ -387,7 +379,7 @@ impl Controller for Paper {
             // Within limits by construction; rounding, overload and a damped solution are cut here. (`max` first: NaN
             // becomes a limit.)
             torque[j] = tau.max(lower).min(upper);
-            if !self.overload && violates(tau, lower, upper, CLAMP_NOTICE) {
+            if !self.memory.overload && violates(tau, lower, upper, CLAMP_NOTICE) {
                 flags.set(Flags::DAMPED);
             }
         }
@@ -396,7 +388,7 @@ impl Controller for Paper {
         }
         let mut qdd = [0.0; DOF_COUNT];
         qdd.copy_from_slice(&pass.qdd[..DOF_COUNT]);
-        self.previous = Some(pass.qdd);
+        self.memory.previous = Some(Previous(pass.qdd));
         self.command = Command {
             joint_acceleration: qdd,
             acceleration: self.map.acceleration(&pass.qdd),
@@ -413,9 +405,7 @@ impl Controller for Paper {
     }
 
     fn reset(&mut self) {
-        self.anchors = [None; 2];
-        self.previous = None;
-        self.overload = false;
+        self.memory.reset();
     }
 }
 

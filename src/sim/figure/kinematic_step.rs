@@ -96,12 +96,17 @@ impl KinematicStepper {
         self.anchor = None;
     }
 
+    /// Ground with friction coefficient `friction` from now on.
+    pub fn set_friction(&mut self, friction: f64) {
+        self.contacts.friction = friction;
+    }
+
     /// What it remembers from tick to tick: the segment that supports, and where it stands.
     pub(super) fn memory(&self) -> Option<(SegmentId, Vec3, Quat)> {
         self.anchor
     }
 
-    /// Remembers what was read from a checkpoint.
+    /// Remembers what it did of this figure.
     pub(super) fn remember(&mut self, anchor: Option<(SegmentId, Vec3, Quat)>) {
         self.anchor = anchor;
     }

@@ -38,6 +38,7 @@ pub use plan_task::{LatePlans, PlanRequest, Planning};
 pub use rehearsed::{RehearsedMotion, RehearsedPlayback};
 pub use second_hand::Help;
 pub(crate) use tick::SavedFigure;
+pub(crate) use tick::Slot;
 pub use tick::{Figure, TickContext};
 
 /// Identity of a figure in a world; never used again after removal.

@@ -1,6 +1,6 @@
-//! One tick of one figure (docs/tick.md). The world calls [`Figure::prepare`], then [`Figure::integrate`], or the
-//! substeps of [`cluster`] for figures that are near something, then [`Figure::finish`]. Their bodies are the list of
-//! stages:
+//! One tick of one figure (docs/tick.md). The world calls [`Figure::begin`], lends a [`workspace`], and calls
+//! [`Figure::decide`], then [`Figure::integrate`], or the substeps of [`cluster`] for figures that are near something,
+//! then [`Figure::finish`]. Their bodies are the list of stages:
 //!
 //! 1. `commands`: loads and pushes that are due.
 //! 2. `sense`: dynamics of the present state; `update_activity` and `update_desired_motion`: what it is to do.
@@ -24,16 +24,19 @@ mod saved;
 mod second_hand;
 mod state;
 mod stream_entry;
+mod workspace;
 
 pub(super) use motion_switch::ExitPlan;
 pub(crate) use saved::SavedFigure;
 pub(super) use stream_entry::StreamEntryPlan;
+pub(crate) use workspace::Slot;
 
 use crate::sim::figure::params::support::REST_SHARE;
 use state::{
-    BodyConstants, Controllers, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch,
-    StepperChoice, Steppers, Surroundings,
+    BodyConstants, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch, StepperChoice,
+    Surroundings,
 };
+use workspace::{Loan, Workspace};
 
 use super::activity::MotionState;
 use super::assist::{Assist, PelvisHelp};
@@ -50,7 +53,7 @@ use super::touches::Chosen;
 use crate::sim::body::State;
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::contact::Tissue;
-use crate::sim::control::{Command, Modern, MomentumTarget, Paper};
+use crate::sim::control::{Modern, MomentumTarget, Paper};
 use crate::sim::math::Vec3;
 use crate::sim::motion::arm_ik::ARMS;
 use crate::sim::report::{Flags, TickReport};
@@ -91,8 +94,7 @@ pub struct Figure {
     desired: DesiredMotion,
     surroundings: Surroundings,
     stepping: StepperChoice,
-    controllers: Controllers,
-    steppers: Steppers,
+    workspace: Loan,
     scratch: Scratch,
     outcome: Outcome,
     pub(crate) neighbours: Neighbours,
@@ -119,8 +121,8 @@ struct StepDemand {
 }
 
 impl Figure {
-    /// A figure on ground with friction coefficient `friction`; the world has validated the setup.
-    pub(crate) fn new(setup: FigureSetup, friction: f64) -> Self {
+    /// A figure whose setup the world has validated.
+    pub(crate) fn new(setup: FigureSetup) -> Self {
         Self {
             constants: BodyConstants::new(&setup.body, &setup.strength),
             physical: PhysicalState::new(&setup),
@@ -128,15 +130,7 @@ impl Figure {
             desired: DesiredMotion::new(&setup),
             surroundings: Surroundings::default(),
             stepping: StepperChoice::default(),
-            controllers: Controllers {
-                paper: Box::default(),
-                modern: Box::new(Modern::new(friction)),
-                motors: Command::default(),
-            },
-            steppers: Steppers {
-                torque: TorqueStepper::new(friction),
-                kinematic: Box::new(KinematicStepper::new(friction)),
-            },
+            workspace: Loan::default(),
             scratch: Scratch::new(&setup),
             outcome: Outcome {
                 report: TickReport::empty(&setup.state, MAX_CONSTRAINTS, MAX_APPLIED),
@@ -154,8 +148,9 @@ impl Figure {
         }
     }
 
-    /// Stages 1–5 of a tick: everything before the body moves. False for a frozen figure, whose tick ends here.
-    pub(crate) fn prepare(&mut self, world: &TickContext) -> bool {
+    /// Stage 1, and the dynamics of the present state: what has to be known of every figure before it is known which
+    /// are near each other. The tick of a frozen figure ends here.
+    pub(crate) fn begin(&mut self, world: &TickContext) {
         self.neighbours.moved_alone = false;
         self.outcome.watcher.begin();
         self.outcome.late = LatePlans::default();
@@ -163,16 +158,29 @@ impl Figure {
         if self.physical.frozen {
             self.outcome.report.flags = Flags::QUARANTINED;
             self.motion.note(FollowMode::Nothing, 0.0, 0.0, world.dt);
-            return false;
+        } else {
+            self.sense(world);
         }
-        self.sense(world);
+    }
+
+    /// Takes the workspace of `slot` for the rest of a tick on ground with friction coefficient `friction`.
+    pub(crate) fn borrow(&mut self, slot: &mut Slot, friction: f64) {
+        self.workspace.borrow(slot, friction);
+    }
+
+    /// Gives it back.
+    pub(crate) fn give_back(&mut self, slot: &mut Slot) {
+        self.workspace.give_back(slot, !self.physical.frozen);
+    }
+
+    /// Stages 2–5 of a tick: the rest of what comes before the body moves.
+    pub(crate) fn decide(&mut self, world: &TickContext) {
         self.update_activity(world);
         self.update_desired_motion(world);
         self.update_support(world);
         self.update_help(world);
         self.limit_torques(world);
         self.solve_control(world);
-        true
     }
 
     /// Stages 7 and 8 of a tick, after the body has moved.
@@ -248,7 +256,7 @@ impl Figure {
 
     /// Stage 3: what it holds, what it stands and rests on, and whether it keeps its balance.
     fn update_support(&mut self, world: &TickContext) {
-        let bar = self.steppers.torque.forces.bar;
+        let bar = self.workspace.steppers.torque.forces.bar;
         let least = self.least_rest(world);
         let at_once = self.active_controller() == ControllerKind::Paper;
         let terms = &self.scratch.terms;
@@ -442,6 +450,7 @@ impl Figure {
     /// What the steppers read, the steppers, and the state they move.
     fn integration<'a>(&'a mut self, world: &'a TickContext) -> Integration<'a> {
         let (carried, pull) = (self.is_carried(), self.pull());
+        let meets_itself = self.meets_itself();
         let results = &self.scratch.results;
         let target = &self.desired.target;
         let spring = results.assist.as_ref();
@@ -457,7 +466,11 @@ impl Figure {
         } else {
             Accuracy::default()
         };
-        self.steppers.torque.set_accuracy(accuracy);
+        let Workspace {
+            controllers,
+            steppers,
+        } = &mut *self.workspace;
+        steppers.torque.set_accuracy(accuracy);
         let disturbances = &self.surroundings.disturbances;
         let input = StepInput {
             world,
@@ -466,6 +479,7 @@ impl Figure {
             strength: &self.constants.strength,
             scale: &self.physical.muscles,
             terms: &self.scratch.terms,
+            last_acceleration: &self.outcome.report.audit.acceleration,
             command: &results.command,
             available: &results.available,
             tissue: results.tissue.as_ref(),
@@ -474,17 +488,17 @@ impl Figure {
                 bar: disturbances.bar(),
                 assist,
             },
-            own: self.meets_itself().then_some(OwnBody {
+            own: meets_itself.then_some(OwnBody {
                 shape: &self.constants.shape,
                 desired: target,
             }),
         };
         Integration {
             input,
-            torque: &mut self.steppers.torque,
-            kinematic: &mut self.steppers.kinematic,
-            paper: &self.controllers.paper,
-            modern: &self.controllers.modern,
+            torque: &mut steppers.torque,
+            kinematic: &mut steppers.kinematic,
+            paper: &controllers.paper,
+            modern: &controllers.modern,
             support: &self.surroundings.support,
             state: &mut self.physical.state,
         }

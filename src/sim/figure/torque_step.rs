@@ -43,6 +43,8 @@ pub struct StepInput<'a> {
     pub scale: &'a MuscleScale,
     /// Terms of the state at the start of the tick, those the controller used.
     pub terms: &'a Terms,
+    /// Acceleration in the last substep of the tick before, from which the first solve starts; zeros without one.
+    pub last_acceleration: &'a [f64; NV],
     /// What the motors are asked to do.
     pub command: &'a MotorCommand,
     /// Available torque at the start of the tick.
@@ -151,9 +153,9 @@ pub struct Accuracy {
     pub tolerance: f64,
     /// Most solves for points that slide, after the first.
     pub slide_rounds: u32,
-    /// Begins with the joints at the rates that the motors want, not at those they have: stiff motors get there, and
-    /// Newton's method need not find out which of them do. After the first substep of a tick the pelvis, and joints
-    /// whose motors gave all they had, begin where their last acceleration leads.
+    /// Newton's method begins with the joints at the rates that the motors want, instead of where the last acceleration
+    /// leads: stiff motors get there, and it need not find out which of them do. After the first substep of a tick the
+    /// pelvis, and joints whose motors gave all they had, begin where their last acceleration leads.
     pub motors_first: bool,
 }
 
@@ -307,12 +309,17 @@ impl TorqueStepper {
         self.problem.slides.limit_rounds(accuracy.slide_rounds);
     }
 
+    /// Ground with friction coefficient `friction` from now on.
+    pub fn set_friction(&mut self, friction: f64) {
+        self.problem.contacts.friction = friction;
+    }
+
     /// What it remembers from tick to tick: impulse along the bar between two hands, N·s, and its mean force, N.
     pub(super) fn memory(&self) -> (f64, Vec3) {
         (self.bar.start, self.forces.bar)
     }
 
-    /// Remembers what was read from a checkpoint.
+    /// Remembers what it did of this figure.
     pub(super) fn remember(&mut self, impulse: f64, force: Vec3) {
         self.bar.start = impulse;
         self.forces.bar = force;

@@ -5,7 +5,7 @@ use super::look::{Cost, Look, Looker, Off};
 use super::problem::{Problem, Reference};
 use super::settings::Settings;
 use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::body::{Body, Links, State};
 use crate::sim::contact::Tissue;
 use crate::sim::control::Law;
@@ -154,6 +154,7 @@ impl Simulator {
             strength,
             scale: muscles,
             terms: &self.terms,
+            last_acceleration: &[0.0; NV],
             command: &command,
             available: &self.available,
             tissue: Some(&tissue),

@@ -355,7 +355,7 @@ impl World {
             .into_iter()
             .map(|(key, saved)| {
                 validate::setup(&saved.setup)?;
-                let figure = Figure::restored(saved, params.friction, params.gravity);
+                let figure = Figure::restored(saved, params.gravity);
                 let figure = figure.map_err(content)?;
                 for p in figure.perturbations() {
                     validate::acting(p)?;

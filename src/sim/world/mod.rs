@@ -16,10 +16,11 @@ use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};
 use crate::sim::figure::loads::MAX_PERTURBATIONS;
 use crate::sim::figure::{
     Constraint, ControlParams, ControllerKind, FigureOptions, LatePlans, MAX_CONSTRAINTS,
-    Perturbation, PlanRequest, Planning, StrengthScale, TickContext,
+    Perturbation, PlanRequest, Planning, Slot, StrengthScale, TickContext,
 };
 use crate::sim::math::hash::Fnv;
 use serde::{Deserialize, Serialize};
+use std::cell::RefCell;
 
 /// Fixed properties of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -152,10 +153,10 @@ impl World {
             gravity: self.params.gravity,
             planning: self.planning,
         };
-        let threads = self.params.threads;
-        each(&mut self.figures, threads, |f| {
-            f.prepare(&context);
-        });
+        let WorldParams {
+            threads, friction, ..
+        } = self.params;
+        each(&mut self.figures, threads, |f| f.begin(&context));
         let gathered = self.neighbourhood.gather(
             &mut self.figures,
             &mut self.obstacles,
@@ -163,23 +164,34 @@ impl World {
             self.params.collisions,
         );
         let (near, alone) = self.figures.split_at_mut(gathered);
-        each(alone, threads, |f| {
+        let mut slots = SLOTS.take();
+        if slots.len() < threads.max(near.len()) {
+            slots.resize_with(threads.max(near.len()), Slot::default);
+        }
+        each_with(alone, &mut slots[..threads], |f, slot| {
             if !f.is_frozen() {
+                f.borrow(slot, friction);
+                f.decide(&context);
                 f.integrate(&context);
                 f.finish(&context);
+                f.give_back(slot);
             }
         });
         if self.neighbourhood.any() {
-            self.neighbourhood.simulate(
-                &context,
-                self.params.friction,
-                threads,
-                near,
-                &mut self.obstacles,
-            );
+            for ((_, f), slot) in near.iter_mut().zip(&mut slots) {
+                f.borrow(slot, friction);
+            }
+            each(near, threads, |f| f.decide(&context));
+            let obstacles = &mut self.obstacles;
+            let neighbourhood = &mut self.neighbourhood;
+            neighbourhood.simulate(&context, friction, threads, near, obstacles);
+            for ((_, f), slot) in near.iter_mut().zip(&mut slots) {
+                f.give_back(slot);
+            }
             self.figures.sort_unstable_by_key(|(k, _)| *k);
             self.obstacles.sort_unstable_by_key(|(k, _)| *k);
         }
+        SLOTS.set(slots);
         collisions::lead(&mut self.obstacles, context.dt);
         self.tick += 1;
     }
@@ -239,8 +251,7 @@ impl World {
         validate::setup(&setup)?;
         let key = FigureKey(self.next_key);
         self.next_key += 1;
-        self.figures
-            .push((key, Box::new(Figure::new(setup, self.params.friction))));
+        self.figures.push((key, Box::new(Figure::new(setup))));
         Ok(key)
     }
 
@@ -430,22 +441,38 @@ impl World {
     }
 }
 
+thread_local! {
+    /// Workspaces of the worlds that this thread steps.
+    static SLOTS: RefCell<Vec<Slot>> = const { RefCell::new(Vec::new()) };
+}
+
 /// Does `work` for every figure, on so many threads.
 fn each(
     figures: &mut [(FigureKey, Box<Figure>)],
     threads: usize,
     work: impl Fn(&mut Figure) + Sync,
 ) {
-    let threads = threads.min(figures.len());
+    each_with(figures, &mut vec![(); threads], |f, ()| work(f));
+}
+
+/// Does `work` for every figure, on as many threads as there are of `own`, each with its own one.
+fn each_with<T: Send>(
+    figures: &mut [(FigureKey, Box<Figure>)],
+    own: &mut [T],
+    work: impl Fn(&mut Figure, &mut T) + Sync,
+) {
+    let threads = own.len().min(figures.len());
     if threads <= 1 {
-        figures.iter_mut().for_each(|(_, f)| work(f));
+        for (_, f) in figures {
+            work(f, &mut own[0]);
+        }
         return;
     }
     let share = figures.len().div_ceil(threads);
     std::thread::scope(|scope| {
-        for chunk in figures.chunks_mut(share) {
+        for (chunk, own) in figures.chunks_mut(share).zip(own) {
             let work = &work;
-            scope.spawn(move || chunk.iter_mut().for_each(|(_, f)| work(f)));
+            scope.spawn(move || chunk.iter_mut().for_each(|(_, f)| work(f, own)));
         }
     });
 }

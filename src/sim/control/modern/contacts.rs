@@ -91,7 +91,7 @@ impl Modern {
                 || s == R_TOES.index();
             let on_feet = input.contacts.floor.is_none();
             if on_feet && foot && !planted[usize::from(s >= R_FOOT.index())] {
-                self.last_force[s * POINTS..(s + 1) * POINTS].fill(Vec3::zero());
+                self.memory.force[s * POINTS..(s + 1) * POINTS].fill(Vec3::zero());
                 continue;
             }
             for (vertex, p) in input.body.segments[s]
@@ -121,7 +121,7 @@ impl Modern {
                     fade *= OTHER_SEGMENT;
                 }
                 if fade <= 0.0 {
-                    self.last_force[s * POINTS + vertex] = Vec3::zero();
+                    self.memory.force[s * POINTS + vertex] = Vec3::zero();
                     continue;
                 }
                 let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
@@ -130,7 +130,7 @@ impl Modern {
                 let a = stop((z, v), spin, input.dt) - t.point_bias(s, *p);
                 let ease = if on_feet { 1.0 } else { ease(s, foot) };
                 let inverse_r = ease * fade.max(OTHER_SEGMENT) / weight::FORCE;
-                let c = self.last_force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
+                let c = self.memory.force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
                 let slot = self.contacts.slot(&t.kin, s);
                 self.contacts.points.push(PointRow {
                     slot,

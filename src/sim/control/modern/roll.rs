@@ -73,7 +73,7 @@ impl Modern {
 
     /// What foot `s` and its toes carried in the last plan, N.
     fn force(&self, s: usize) -> Vec3 {
-        let points = &self.last_force[s * POINTS..(s + 2) * POINTS];
+        let points = &self.memory.force[s * POINTS..(s + 2) * POINTS];
         points.iter().fold(Vec3::zero(), |sum, f| sum + *f)
     }
 

@@ -354,7 +354,7 @@ fn decided(c: &Modern) -> Solution {
         torque: c.command.torque,
         force: c.newton.force[..n].to_vec(),
         // Stationarity: assist = −compliance × price.
-        assist: std::array::from_fn(|i| -c.assist[i / 3] * c.price[i]),
+        assist: std::array::from_fn(|i| -c.assist[i / 3] * c.memory.price[i]),
     }
 }
 
@@ -417,7 +417,7 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
         if round % 5 == 0 {
             c.reset();
         }
-        let (torques, forces) = (c.last_torque, c.last_force.clone());
+        let (torques, forces) = (c.memory.torque, c.memory.force.clone());
         c.control(&s.input());
         let forces: [Vec3; MAX_CONTACTS] = *forces;
         counts.push(c.command.iterations);

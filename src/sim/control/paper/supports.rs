@@ -106,7 +106,7 @@ impl Paper {
             }
             Share::Paper => {
                 // The reaction of the last step, at the point of each polygon closest to its zero-moment point.
-                let before = self.previous.unwrap_or(*initial);
+                let before = self.memory.previous.as_ref().map_or(*initial, |p| p.0);
                 let (force, moment) = self.map.ground_wrench_world(terms, &before);
                 let Some(z) = zmp(force, moment) else {
                     return;
@@ -150,7 +150,8 @@ impl Paper {
             .into_iter()
             .enumerate()
         {
-            let Some((position, rotation)) = self.anchors[side].filter(|_| foot != main) else {
+            let Some((position, rotation)) = self.memory.anchors[side].filter(|_| foot != main)
+            else {
                 continue;
             };
             let s = foot.index();
@@ -198,9 +199,9 @@ impl Paper {
             let touching = support.points().iter().filter(|p| p.support == foot);
             let flat = touching.count() >= 3;
             let keep = input.kinematic && on_foot && flat && input.target.next.planted[side];
-            self.anchors[side] = if keep {
+            self.memory.anchors[side] = if keep {
                 let s = foot.index();
-                self.anchors[side].or_else(|| {
+                self.memory.anchors[side].or_else(|| {
                     let r = Quat::from_mat3(&input.terms.segment_rotation(s));
                     Some((input.terms.segment_position(s), r))
                 })

@@ -5,7 +5,7 @@
 use super::*;
 use crate::sim::body::State;
 use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
+use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, NV};
 use crate::sim::body::{Body, Links};
 use crate::sim::contact::Tissue;
 use crate::sim::dynamics::{Kinematics, kinetic_energy, rotor_energy};
@@ -107,6 +107,7 @@ impl Rig {
             strength: &self.strength,
             scale: &scale,
             terms: &self.terms,
+            last_acceleration: &[0.0; NV],
             command: &command,
             available: &available,
             tissue: Some(&tissue),

@@ -2,10 +2,9 @@
 
 use super::state::rested;
 use super::{ExitPlan, Figure, StreamEntryPlan};
-use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::body::{Body, Links, SegmentId, State};
 use crate::sim::collide::shape::BodyShape;
-use crate::sim::control::Controller;
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::constraints::Constraint;
 use crate::sim::figure::drive::{Drive, LivePlayback, QueuedClip};
@@ -76,7 +75,7 @@ impl Figure {
     }
     /// Where its segments are in the present substep.
     pub(crate) fn substep_terms(&self) -> &Terms {
-        &self.steppers.torque.terms
+        &self.workspace.steppers.torque.terms
     }
     /// Where its segments were at the start of the tick.
     pub(crate) fn tick_terms(&self) -> &Terms {
@@ -199,11 +198,11 @@ impl Figure {
         self.desired.second_hand = SecondHand::default();
         self.surroundings.disturbances.stop_help();
         self.physical.com_acceleration = Vec3::zero();
+        self.outcome.report.audit.acceleration = [0.0; NV];
         self.surroundings.support.reset();
         self.surroundings.touches = Touches::default();
-        self.controllers.paper.reset();
-        self.controllers.modern.reset();
-        self.steppers.kinematic.reset();
+        self.workspace.reset_controllers();
+        self.workspace.reset_anchor();
         self.stepping.handed_over = None;
         self.surroundings.balance.reset();
     }
@@ -241,8 +240,7 @@ impl Figure {
     /// Changes controller and gains.
     pub fn set_controller(&mut self, controller: ControllerKind, params: ControlParams) {
         if controller != self.setup.controller {
-            self.controllers.paper.reset();
-            self.controllers.modern.reset();
+            self.workspace.reset_controllers();
         }
         self.setup.controller = controller;
         self.setup.params = params;

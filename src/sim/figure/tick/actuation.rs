@@ -104,9 +104,9 @@ impl Figure {
             .strength
             .range(angles, rates, &rested.muscles(1.0), &mut lower, &mut upper);
         let torque = if self.stepping.prescribed {
-            &self.steppers.kinematic.forces.torque
+            &self.workspace.steppers.kinematic.forces.torque
         } else {
-            &self.steppers.torque.forces.torque
+            &self.workspace.steppers.torque.forces.torque
         };
         fatigue.step(torque, &lower, &upper, dt);
         self.outcome.report.joints.remaining = fatigue.remaining();
@@ -163,11 +163,11 @@ impl Figure {
         };
         let (command, saturation_speed) = match self.active_controller() {
             ControllerKind::Paper => (
-                self.controllers.paper.control(&input),
+                self.workspace.controllers.paper.control(&input),
                 motors::FEED_FORWARD_SPEED,
             ),
             ControllerKind::Modern => (
-                self.controllers.modern.control(&input),
+                self.workspace.controllers.modern.control(&input),
                 motors::MODERN_SPEED,
             ),
             ControllerKind::Motors => {
@@ -200,12 +200,13 @@ impl Figure {
                     braced.as_ref().unwrap_or(&self.desired.target),
                     &law,
                 );
-                self.controllers
+                self.workspace
+                    .controllers
                     .motors
                     .joint_acceleration
                     .copy_from_slice(&demand[..DOF_COUNT]);
                 (
-                    &self.controllers.motors,
+                    &self.workspace.controllers.motors,
                     if limp {
                         fall::SATURATION_SPEED
                     } else {

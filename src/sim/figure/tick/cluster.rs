@@ -14,7 +14,7 @@ use crate::sim::setup::{ControllerKind, StepperKind};
 
 impl Articulated for (FigureKey, Box<Figure>) {
     fn parts(&mut self) -> Parts<'_> {
-        self.1.steppers.torque.parts()
+        self.1.workspace.steppers.torque.parts()
     }
 }
 
@@ -39,7 +39,7 @@ impl Figure {
     /// Shows where the segments are now that it has moved.
     pub(crate) fn show_moved(&mut self, world: &TickContext) {
         let applied = self.surroundings.disturbances.applied();
-        self.steppers.torque.terms.compute(
+        self.workspace.steppers.torque.terms.compute(
             &self.physical.links,
             &self.physical.state,
             applied,
@@ -51,8 +51,8 @@ impl Figure {
     pub(crate) fn held_still(&self) -> [Option<(SegmentId, Option<Vec3>)>; 2] {
         let support = &self.surroundings.support;
         let command = match self.setup.controller {
-            ControllerKind::Paper => self.controllers.paper.command(),
-            _ => self.controllers.modern.command(),
+            ControllerKind::Paper => self.workspace.controllers.paper.command(),
+            _ => self.workspace.controllers.modern.command(),
         };
         let Some(main) = support.main().filter(|_| !command.flags.has(Flags::FLIGHT)) else {
             return [None; 2];
@@ -87,7 +87,7 @@ impl Figure {
     pub(crate) fn record_impact(&mut self, what: &Contacting, dt: f64) {
         self.surroundings
             .touches
-            .add(&self.steppers.torque.terms, what, dt);
+            .add(&self.workspace.steppers.torque.terms, what, dt);
     }
 
     /// Something will be met, and contact acts by forces: torques take over before the tick begins.
@@ -97,13 +97,17 @@ impl Figure {
     }
     /// Shows where the segments are before it is known which stepper moves them.
     pub(crate) fn show(&mut self) {
-        self.steppers.torque.terms.clone_from(&self.scratch.terms);
+        self.workspace
+            .steppers
+            .torque
+            .terms
+            .clone_from(&self.scratch.terms);
     }
 
     /// Starts the tick.
     pub(crate) fn begin_substeps(&mut self) {
-        self.steppers.kinematic.reset();
-        self.steppers.torque.begin(&self.physical.state);
+        self.workspace.steppers.kinematic.reset();
+        self.workspace.steppers.torque.begin(&self.physical.state);
         self.surroundings.touches.begin();
     }
     /// Substep `i` as if nothing but the ground were touched.
@@ -118,16 +122,17 @@ impl Figure {
     }
     /// Takes the impulse of an island in velocity components.
     pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: Outcome) {
-        self.steppers.torque.touch(impulse, outcome);
+        self.workspace.steppers.torque.touch(impulse, outcome);
     }
     /// One contact of the substep, with its impulse on this figure.
     pub(crate) fn record(&mut self, what: &Contacting, h: f64, dt: f64) {
-        self.steppers
+        self.workspace
+            .steppers
             .torque
             .push(what.segment, what.position, what.impulse * (1.0 / h));
         self.surroundings
             .touches
-            .add(&self.steppers.torque.terms, what, dt);
+            .add(&self.workspace.steppers.torque.terms, what, dt);
     }
     /// Closes substep `i` and moves.
     pub(crate) fn close_substep(&mut self, world: &TickContext, i: u32) {

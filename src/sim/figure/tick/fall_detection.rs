@@ -4,7 +4,7 @@ use super::state::rested;
 use super::{Figure, TickContext};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{HEAD, L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
-use crate::sim::control::{Controller, PointTarget};
+use crate::sim::control::PointTarget;
 use crate::sim::figure::balance_loss::{Observation, Reach};
 use crate::sim::figure::constraints::MAX_CONSTRAINTS;
 use crate::sim::figure::drive::Drive;
@@ -16,7 +16,6 @@ use crate::sim::figure::params::balance::PAPER_REACH;
 use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
 use crate::sim::figure::params::get_up::STILL_SPEED;
 use crate::sim::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
-use crate::sim::math::Vec3;
 use crate::sim::motion::{Target, TargetPair};
 use crate::sim::report::{Flags, TickReport};
 use crate::sim::setup::ControllerKind;
@@ -62,8 +61,7 @@ impl Figure {
 
     /// Controllers and steps forget what they knew of a figure that has fallen or stumbled since.
     pub(super) fn start_afresh(&mut self) {
-        self.controllers.modern.reset();
-        self.controllers.paper.reset();
+        self.workspace.reset_controllers();
         self.desired.tracker.reset();
     }
 
@@ -164,7 +162,7 @@ impl Figure {
     pub(super) fn forget_numbers(&mut self) {
         self.forget();
         self.desired.tracker.reset_clock();
-        self.steppers.torque.remember(0.0, Vec3::zero());
+        self.workspace.forget_bar();
         self.surroundings.help = Help::default();
         if self
             .physical

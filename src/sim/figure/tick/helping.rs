@@ -2,7 +2,6 @@
 
 use super::fall_detection::FEET;
 use super::{Figure, TickContext};
-use crate::sim::control::Controller;
 use crate::sim::figure::drive::Drive;
 use crate::sim::figure::help::{Forecast, Situation, pull};
 use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
@@ -63,7 +62,7 @@ impl Figure {
         match (before, self.is_carried()) {
             (false, true) => self.surroundings.balance.reset(),
             (true, false) => {
-                self.controllers.modern.reset();
+                self.workspace.reset_modern();
                 self.surroundings.balance.reset();
             }
             _ => {}

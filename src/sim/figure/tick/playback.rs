@@ -6,7 +6,6 @@ use super::motion_switch::ExitGoal;
 use super::state::Scratch;
 use super::{Figure, TickContext};
 use crate::sim::body::Posture;
-use crate::sim::control::Controller;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Entry, EntryProblem, QueuedClip};
 use crate::sim::figure::get_up::GetUpDecision;
 use crate::sim::figure::params::get_up::UP_HEIGHT;
@@ -281,11 +280,11 @@ impl Figure {
         match get_up.decide(solver, terms, height, self.motion.gets_up()) {
             GetUpDecision::Continue => {}
             GetUpDecision::Begin => {
-                self.controllers.modern.reset();
+                self.workspace.reset_modern();
                 self.motion.begin_to_get_up();
             }
             GetUpDecision::GiveUp => {
-                self.controllers.modern.reset();
+                self.workspace.reset_modern();
                 self.motion.give_up();
             }
         }

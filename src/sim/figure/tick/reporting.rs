@@ -24,13 +24,13 @@ impl Figure {
         } = &self.scratch.results;
         let (f, penetration) = if self.stepping.prescribed {
             (
-                &self.steppers.kinematic.forces,
-                self.steppers.kinematic.penetration(),
+                &self.workspace.steppers.kinematic.forces,
+                self.workspace.steppers.kinematic.penetration(),
             )
         } else {
             (
-                &self.steppers.torque.forces,
-                self.steppers.torque.penetration(),
+                &self.workspace.steppers.torque.forces,
+                self.workspace.steppers.torque.penetration(),
             )
         };
         let r = &mut self.outcome.report;

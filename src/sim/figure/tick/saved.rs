@@ -4,16 +4,13 @@
 
 use super::Figure;
 use super::state::{
-    BodyConstants, Controllers, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch,
-    StepperChoice, Steppers, Surroundings,
+    BodyConstants, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch, StepperChoice,
+    Surroundings,
 };
-use crate::sim::body::{SegmentId, State};
-use crate::sim::control::{Command, Modern, ModernMemory, Paper, PaperMemory};
+use super::workspace::{Loan, Memory};
+use crate::sim::body::State;
 use crate::sim::figure::activity::MotionState;
 use crate::sim::figure::drive::Drive;
-use crate::sim::figure::kinematic_step::KinematicStepper;
-use crate::sim::figure::torque_step::TorqueStepper;
-use crate::sim::math::{Quat, Vec3};
 use crate::sim::setup::FigureSetup;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -27,31 +24,12 @@ pub(crate) struct SavedFigure<'a> {
     desired: Cow<'a, DesiredMotion>,
     surroundings: Cow<'a, Surroundings>,
     stepping: StepperChoice,
-    controllers: ControllerMemory,
-    steppers: StepperMemory,
+    memory: Cow<'a, Memory>,
     outcome: Cow<'a, Outcome>,
     /// State at the start of the last tick: commands look at the dynamics of it.
     before: Cow<'a, State>,
     /// Put where it is since the last tick.
     is_new: bool,
-}
-
-/// What the controllers remember.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct ControllerMemory {
-    paper: PaperMemory,
-    modern: ModernMemory,
-}
-
-/// What the steppers remember.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct StepperMemory {
-    /// Impulse along the bar between two hands, N·s: first guess of the next substep.
-    bar_impulse: f64,
-    /// Its mean force in the last tick, N.
-    bar_force: Vec3,
-    /// Where the support of prescribed accelerations stands.
-    anchor: Option<(SegmentId, Vec3, Quat)>,
 }
 
 impl Figure {
@@ -65,13 +43,7 @@ impl Figure {
             desired,
             surroundings,
             stepping,
-            controllers:
-                Controllers {
-                    paper,
-                    modern,
-                    motors: _, // written anew in each tick that uses it
-                },
-            steppers: Steppers { torque, kinematic },
+            workspace,
             scratch,
             outcome,
             neighbours:
@@ -81,7 +53,6 @@ impl Figure {
                     is_new,
                 },
         } = self;
-        let (bar_impulse, bar_force) = torque.memory();
         SavedFigure {
             setup: Cow::Borrowed(setup),
             physical: Cow::Borrowed(physical),
@@ -89,31 +60,18 @@ impl Figure {
             desired: Cow::Borrowed(desired),
             surroundings: Cow::Borrowed(surroundings),
             stepping: *stepping,
-            controllers: ControllerMemory {
-                paper: paper.memory(),
-                modern: modern.memory(),
-            },
-            steppers: StepperMemory {
-                bar_impulse,
-                bar_force,
-                anchor: kinematic.memory(),
-            },
+            memory: Cow::Borrowed(workspace.memory()),
             outcome: Cow::Borrowed(outcome),
             before: Cow::Borrowed(&scratch.results.before),
             is_new: *is_new,
         }
     }
 
-    /// The figure that [`Self::saved`] described, in a world with this friction and gravity (m/s²). The setup was
-    /// checked.
+    /// The figure that [`Self::saved`] described, in a world with this gravity (m/s²). The setup was checked.
     ///
     /// # Errors
     /// What cannot have been written.
-    pub(crate) fn restored(
-        saved: SavedFigure<'_>,
-        friction: f64,
-        gravity: f64,
-    ) -> Result<Self, &'static str> {
+    pub(crate) fn restored(saved: SavedFigure<'_>, gravity: f64) -> Result<Self, &'static str> {
         let SavedFigure {
             setup,
             physical,
@@ -121,8 +79,7 @@ impl Figure {
             desired,
             surroundings,
             stepping,
-            controllers,
-            steppers,
+            memory,
             outcome,
             before,
             is_new,
@@ -163,16 +120,10 @@ impl Figure {
         if !(counts && desired.constraints.is_valid()) {
             return Err("more touches, perturbations or constraints than a figure can have");
         }
-        let mut modern = Box::new(Modern::new(friction));
-        if !modern.remember(&controllers.modern) {
-            return Err("contact forces of points that no body has");
+        let memory = memory.into_owned();
+        if !memory.modern.is_valid() {
+            return Err("torques or forces that cannot be");
         }
-        let mut paper = Box::<Paper>::default();
-        paper.remember(&controllers.paper);
-        let mut torque = TorqueStepper::new(friction);
-        torque.remember(steppers.bar_impulse, steppers.bar_force);
-        let mut kinematic = Box::new(KinematicStepper::new(friction));
-        kinematic.remember(steppers.anchor);
         let outcome = outcome.into_owned();
         let mut scratch = Scratch::new(&setup);
         scratch.results.before = before.into_owned();
@@ -190,12 +141,7 @@ impl Figure {
             desired,
             surroundings,
             stepping,
-            controllers: Controllers {
-                paper,
-                modern,
-                motors: Command::default(),
-            },
-            steppers: Steppers { torque, kinematic },
+            workspace: Loan::remembering(memory),
             scratch,
             outcome,
             neighbours: Neighbours {

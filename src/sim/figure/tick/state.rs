@@ -1,14 +1,14 @@
 //! What a figure consists of. [`PhysicalState`], [`MotionState`](crate::sim::figure::activity::MotionState),
 //! [`DesiredMotion`], [`Surroundings`] and [`StepperChoice`] are its state: they pass from tick to tick and decide what
-//! comes next. [`Scratch`] holds nothing that a tick needs of the one before. Controllers and steppers keep their
-//! buffers with a first guess for the next tick.
+//! comes next, with what controllers and steppers remember ([`Loan`](super::workspace::Loan)). [`Scratch`] holds what
+//! stages hand on; of it, only dynamics and state at the start of a tick are looked at after it.
 
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::collide::shape::BodyShape;
 use crate::sim::contact::Tissue;
-use crate::sim::control::{Command, Modern, Paper, PointTarget};
+use crate::sim::control::PointTarget;
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
 use crate::sim::figure::assist::Assist;
 use crate::sim::figure::balance_loss::BalanceWatch;
@@ -16,13 +16,12 @@ use crate::sim::figure::constraints::Constraints;
 use crate::sim::figure::events::Watcher;
 use crate::sim::figure::get_up::GetUp;
 use crate::sim::figure::help::Help;
-use crate::sim::figure::kinematic_step::KinematicStepper;
 use crate::sim::figure::load_compensation::LoadCompensation;
 use crate::sim::figure::loads::Disturbances;
 use crate::sim::figure::plan_task::LatePlans;
 use crate::sim::figure::second_hand::SecondHand;
 use crate::sim::figure::tasks::{TaskPoints, TaskWorkspace};
-use crate::sim::figure::torque_step::{MotorCommand, TorqueRange, TorqueStepper};
+use crate::sim::figure::torque_step::{MotorCommand, TorqueRange};
 use crate::sim::figure::touches::Touches;
 use crate::sim::get_up::GetUpSolver;
 use crate::sim::math::Vec3;
@@ -162,22 +161,6 @@ pub(super) struct StepperChoice {
     pub prescribed: bool,
     /// The controller's decision tips over an edge or a vertex of the support.
     pub tips: bool,
-}
-
-/// The controllers, of which one is in charge.
-#[derive(Debug)]
-pub(super) struct Controllers {
-    pub paper: Box<Paper>,
-    pub modern: Box<Modern>,
-    /// Command of motors alone.
-    pub motors: Command,
-}
-
-/// The steppers, of which one moves the body.
-#[derive(Debug)]
-pub(super) struct Steppers {
-    pub torque: TorqueStepper,
-    pub kinematic: Box<KinematicStepper>,
 }
 
 /// Buffers of a tick, and what its stages hand on to each other.

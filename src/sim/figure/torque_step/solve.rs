@@ -30,6 +30,14 @@ impl TorqueStepper {
         let mut v = state.velocity;
         if self.solver.accuracy.motors_first {
             self.begin_at_motors(h, &mut v);
+        } else {
+            let acceleration = match self.solution.saturated {
+                None => input.last_acceleration,
+                Some(_) => &self.forces.audit.acceleration,
+            };
+            for (v, a) in v.iter_mut().zip(acceleration) {
+                *v += h * a;
+            }
         }
         self.bar.impulse = self.bar.start;
         self.solution.assist = [0.0; 6];

@@ -1,0 +1,70 @@
+//! What the controller remembers from tick to tick, also in a checkpoint.
+
+use crate::sim::body::topology::{DOF_COUNT, NV};
+use crate::sim::math::Vec3;
+use crate::sim::report::MAX_CONTACTS;
+use serde::{Deserialize, Serialize};
+
+/// What [`Modern`](super::Modern) remembers from tick to tick: where its next solve starts, and what that is to stay
+/// near.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct ModernMemory {
+    #[serde(with = "crate::sim::saved::array")]
+    pub(super) price: [f64; NV],
+    #[serde(with = "crate::sim::saved::array")]
+    pub(super) torque: [f64; DOF_COUNT],
+    /// Contact forces by segment × 8 + vertex, N.
+    #[serde(with = "sparse")]
+    pub(super) force: Box<[Vec3; MAX_CONTACTS]>,
+}
+
+impl Default for ModernMemory {
+    fn default() -> Self {
+        Self {
+            price: [0.0; NV],
+            torque: [0.0; DOF_COUNT],
+            force: Box::new([Vec3::zero(); MAX_CONTACTS]),
+        }
+    }
+}
+
+impl ModernMemory {
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let forces = self.force.iter().flat_map(|f| f.to_array());
+        let numbers = self.price.iter().chain(&self.torque).copied();
+        numbers.chain(forces).all(f64::is_finite)
+    }
+
+    /// Forgets the last tick.
+    pub fn reset(&mut self) {
+        self.price = [0.0; NV];
+        self.torque = [0.0; DOF_COUNT];
+        self.force.fill(Vec3::zero());
+    }
+}
+
+/// Forces of points that mostly have none, with the indices of those that have.
+mod sparse {
+    use super::{MAX_CONTACTS, Vec3};
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    type Forces = [Vec3; MAX_CONTACTS];
+    const _: () = assert!(MAX_CONTACTS < 256, "indices are bytes");
+
+    pub fn serialize<S: Serializer>(all: &Forces, to: S) -> Result<S::Ok, S::Error> {
+        let is_zero = |f: &Vec3| f.to_array().iter().all(|x| x.to_bits() == 0);
+        let some = (0u8..).zip(all).filter(|(_, f)| !is_zero(f));
+        some.collect::<Vec<(u8, &Vec3)>>().serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Box<Forces>, D::Error> {
+        let mut all = Box::new([Vec3::zero(); MAX_CONTACTS]);
+        for (k, f) in Vec::<(u8, Vec3)>::deserialize(from)? {
+            let place = all.get_mut(usize::from(k));
+            *place.ok_or_else(|| D::Error::custom("a contact force of no point"))? = f;
+        }
+        Ok(all)
+    }
+}

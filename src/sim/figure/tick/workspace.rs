@@ -1,0 +1,221 @@
+//! What a tick computes in: controllers and steppers with their buffers, several hundred kB.
+//!
+//! No figure owns one. The thread that steps a world lends a [`Workspace`] to a figure for a tick, so that the next
+//! figure finds it in the cache. What controllers and steppers remember from tick to tick is a few kB, and stays with
+//! the figure ([`Memory`]).
+
+use crate::sim::body::SegmentId;
+use crate::sim::control::{Command, Controller, Modern, ModernMemory, Paper, PaperMemory};
+use crate::sim::figure::kinematic_step::KinematicStepper;
+use crate::sim::figure::torque_step::TorqueStepper;
+use crate::sim::math::{Quat, Vec3};
+use serde::{Deserialize, Serialize};
+use std::ops::{Deref, DerefMut};
+
+/// Controllers and steppers.
+#[derive(Debug)]
+pub(crate) struct Workspace {
+    pub(super) controllers: Controllers,
+    pub(super) steppers: Steppers,
+}
+
+/// The controllers, of which one is in charge.
+#[derive(Debug)]
+pub(super) struct Controllers {
+    pub paper: Box<Paper>,
+    pub modern: Box<Modern>,
+    /// Command of motors alone.
+    pub motors: Command,
+}
+
+/// The steppers, of which one moves the body.
+#[derive(Debug)]
+pub(super) struct Steppers {
+    pub torque: TorqueStepper,
+    pub kinematic: Box<KinematicStepper>,
+}
+
+impl Default for Workspace {
+    /// Of no figure yet. Allocates.
+    fn default() -> Self {
+        Self {
+            controllers: Controllers {
+                paper: Box::default(),
+                modern: Box::new(Modern::new(1.0)),
+                motors: Command::default(),
+            },
+            steppers: Steppers {
+                torque: TorqueStepper::new(1.0),
+                kinematic: Box::new(KinematicStepper::new(1.0)),
+            },
+        }
+    }
+}
+
+/// The place for a workspace: a thread's while none of its figures has it, a figure's during its tick.
+#[derive(Debug, Default)]
+pub(crate) struct Slot(Option<Box<Workspace>>);
+
+impl Slot {
+    /// With a workspace in it, a new one if there was none.
+    pub fn fill(&mut self) {
+        self.0.get_or_insert_default();
+    }
+}
+
+impl Deref for Slot {
+    type Target = Workspace;
+
+    fn deref(&self) -> &Workspace {
+        self.0.as_deref().expect("it is lent for the whole tick")
+    }
+}
+
+impl DerefMut for Slot {
+    fn deref_mut(&mut self) -> &mut Workspace {
+        self.0
+            .as_deref_mut()
+            .expect("it is lent for the whole tick")
+    }
+}
+
+/// What controllers and steppers remember of a figure from tick to tick.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Memory {
+    pub paper: PaperMemory,
+    pub modern: ModernMemory,
+    pub steppers: StepperMemory,
+}
+
+/// What the steppers remember.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct StepperMemory {
+    /// Impulse along the bar between two hands, N·s: first guess of the next substep.
+    pub bar_impulse: f64,
+    /// Its mean force in the last tick, N.
+    pub bar_force: Vec3,
+    /// Where the support of prescribed accelerations stands.
+    pub anchor: Option<(SegmentId, Vec3, Quat)>,
+}
+
+impl Default for StepperMemory {
+    fn default() -> Self {
+        Self {
+            bar_impulse: 0.0,
+            bar_force: Vec3::zero(),
+            anchor: None,
+        }
+    }
+}
+
+/// What controllers and steppers remember of a figure, and the workspace that it is lent for a tick. The memory is in
+/// the workspace during a tick, and here between two.
+#[derive(Debug, Default)]
+pub(super) struct Loan {
+    memory: Memory,
+    slot: Slot,
+}
+
+impl Loan {
+    /// With what was read from a checkpoint.
+    pub fn remembering(memory: Memory) -> Self {
+        Self {
+            memory,
+            slot: Slot::default(),
+        }
+    }
+
+    /// What is remembered between two ticks.
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// Takes the workspace of `slot` for a tick on ground with friction coefficient `friction`.
+    pub fn borrow(&mut self, slot: &mut Slot, friction: f64) {
+        slot.fill();
+        std::mem::swap(&mut self.slot, slot);
+        let Workspace {
+            controllers,
+            steppers: Steppers { torque, kinematic },
+        } = &mut *self.slot;
+        controllers.paper.swap_memory(&mut self.memory.paper);
+        controllers.modern.swap_memory(&mut self.memory.modern);
+        controllers.modern.set_friction(friction);
+        let remembered = &self.memory.steppers;
+        torque.remember(remembered.bar_impulse, remembered.bar_force);
+        torque.set_friction(friction);
+        kinematic.remember(remembered.anchor);
+        kinematic.set_friction(friction);
+    }
+
+    /// Gives the workspace back to `slot`; not if it has computed with numbers that are not `finite`: they must not
+    /// reach another figure.
+    pub fn give_back(&mut self, slot: &mut Slot, finite: bool) {
+        let Workspace {
+            controllers,
+            steppers: Steppers { torque, kinematic },
+        } = &mut *self.slot;
+        controllers.paper.swap_memory(&mut self.memory.paper);
+        controllers.modern.swap_memory(&mut self.memory.modern);
+        let (bar_impulse, bar_force) = torque.memory();
+        self.memory.steppers = StepperMemory {
+            bar_impulse,
+            bar_force,
+            anchor: kinematic.memory(),
+        };
+        std::mem::swap(&mut self.slot, slot);
+        if !finite {
+            *slot = Slot::default();
+        }
+    }
+
+    /// The modern controller forgets the last tick; during a tick or between two.
+    pub fn reset_modern(&mut self) {
+        match &mut self.slot.0 {
+            Some(workspace) => workspace.controllers.modern.reset(),
+            None => self.memory.modern.reset(),
+        }
+    }
+
+    /// The controllers forget the last tick; during a tick or between two.
+    pub fn reset_controllers(&mut self) {
+        self.reset_modern();
+        match &mut self.slot.0 {
+            Some(workspace) => workspace.controllers.paper.reset(),
+            None => self.memory.paper.reset(),
+        }
+    }
+
+    /// A bar between two hands pushes with nothing; during a tick or between two.
+    pub fn forget_bar(&mut self) {
+        match &mut self.slot.0 {
+            Some(workspace) => workspace.steppers.torque.remember(0.0, Vec3::zero()),
+            None => {
+                let steppers = &mut self.memory.steppers;
+                (steppers.bar_impulse, steppers.bar_force) = (0.0, Vec3::zero());
+            }
+        }
+    }
+
+    /// Prescribed accelerations forget where their support stands; during a tick or between two.
+    pub fn reset_anchor(&mut self) {
+        match &mut self.slot.0 {
+            Some(workspace) => workspace.steppers.kinematic.reset(),
+            None => self.memory.steppers.anchor = None,
+        }
+    }
+}
+
+impl Deref for Loan {
+    type Target = Workspace;
+
+    fn deref(&self) -> &Workspace {
+        &self.slot
+    }
+}
+
+impl DerefMut for Loan {
+    fn deref_mut(&mut self) -> &mut Workspace {
+        &mut self.slot
+    }
+}
