@@ -9,8 +9,9 @@ mod common;
 
 use common::actors::{KINDS, crowd, subject, world};
 use common::{Scene, bent, figure, still};
+use sinew::sim::body::topology::{L_HAND, R_HAND};
 use sinew::sim::body::{Body, Profile, Sex};
-use sinew::sim::figure::ControllerKind;
+use sinew::sim::figure::{ControllerKind, HeldLoad, Perturbation};
 use sinew::sim::math::Vec3;
 use sinew::sim::world::{FigureKey, World, WorldParams};
 use std::fmt::Write as _;
@@ -137,6 +138,26 @@ fn worlds_that_a_thread_steps_in_turns_do_not_matter() {
         });
         other.enter(&mut meet);
         out.push((meet, key));
+        // A load in both hands is one more unknown, and begins with what the last substep found.
+        let mut carries = world(1);
+        let mut carrier = subject(ControllerKind::Modern, 20.0);
+        let point = Vec3 {
+            x: 0.0,
+            y: 0.0,
+            z: -0.08,
+        };
+        carrier.perturbations[0] = Perturbation::Held(HeldLoad {
+            segment: R_HAND,
+            point,
+            mass: 4.0,
+            velocity: Vec3::zero(),
+            second: Some((L_HAND, point)),
+            grip: f64::INFINITY,
+            from: 0.1,
+            to: f64::INFINITY,
+        });
+        let key = carrier.enter(&mut carries);
+        out.push((carries, key));
         out
     };
     let alone: Vec<Vec<u64>> = scenes()

@@ -4,7 +4,7 @@ use super::TorqueStepper;
 use crate::sim::body::topology::{NV, SegmentId};
 use crate::sim::contact::Outcome;
 use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::dynamics::{Terms, solve};
+use crate::sim::dynamics::{Terms, factor, solve};
 use crate::sim::figure::assist::Spring;
 use crate::sim::figure::loads::Bar;
 use crate::sim::figure::params::bar;
@@ -71,6 +71,7 @@ impl TorqueStepper {
         v: &mut [f64; NV],
     ) -> Outcome {
         let mut total = Outcome::default();
+        let earlier = self.solution.outcome.iterations;
         let mut before: Option<(f64, f64)> = None;
         let mut slope = 0.0;
         for _ in 0..bar::ITERATIONS {
@@ -88,17 +89,25 @@ impl TorqueStepper {
             let secant = before
                 .map(|(p, o)| (off - o) / (self.bar.impulse - p))
                 .filter(|s| s.is_finite() && *s > 0.1 * slope && *s < 10.0 * slope);
-            slope = secant.unwrap_or_else(|| {
-                // The last matrix that was factored: motors, limits and contacts as they stood then.
-                let mut x = [0.0; NV];
-                bar.add(1.0, &mut x);
-                solve(&self.solver.hessian, &mut x);
-                bar.rate(&x).max(1e-4)
-            });
+            slope = secant.unwrap_or_else(|| self.slope(bar, earlier + total.iterations > 0));
             before = Some((self.bar.impulse, off));
             self.bar.impulse -= off / slope;
         }
         total
+    }
+
+    /// How much a unit impulse along the bar changes the rate of its length: by the last matrix that Newton's method
+    /// has factored, with motors, limits and contacts as they stood then. If nothing was `factored` in this substep,
+    /// what is there is of another one, and maybe of another figure: then by the mass matrix.
+    fn slope(&mut self, bar: &BarRow, factored: bool) -> f64 {
+        if !factored {
+            self.solver.hessian.rows = self.terms.mass_matrix.rows;
+            factor(&mut self.solver.hessian);
+        }
+        let mut x = [0.0; NV];
+        bar.add(1.0, &mut x);
+        solve(&self.solver.hessian, &mut x);
+        bar.rate(&x).max(1e-4)
     }
 
     /// Adds the bar's forces to the means, and to the audit of the last substep.
