@@ -159,7 +159,7 @@ impl std::fmt::Debug for Modern {
 }
 
 impl Modern {
-    /// Exchanges what it remembers for what it remembered of another figure.
+    /// Exchanges what it remembers for `memory`: that of a figure when its tick begins, the same back when it ends.
     pub fn swap_memory(&mut self, memory: &mut ModernMemory) {
         std::mem::swap(&mut self.memory, memory);
     }

@@ -129,7 +129,7 @@ impl PaperMemory {
 }
 
 impl Paper {
-    /// Exchanges what it remembers for what it remembered of another figure.
+    /// Exchanges what it remembers for `memory`: that of a figure when its tick begins, the same back when it ends.
     pub fn swap_memory(&mut self, memory: &mut PaperMemory) {
         std::mem::swap(&mut self.memory, memory);
     }

@@ -442,7 +442,8 @@ impl World {
 }
 
 thread_local! {
-    /// Workspaces of the worlds that this thread steps.
+    /// Workspaces of the worlds that this thread steps. A tick takes them and puts them back: one that panics loses
+    /// them, and the next makes new ones.
     static SLOTS: RefCell<Vec<Slot>> = const { RefCell::new(Vec::new()) };
 }
 

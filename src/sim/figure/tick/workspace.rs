@@ -36,7 +36,7 @@ pub(super) struct Steppers {
 }
 
 impl Default for Workspace {
-    /// Of no figure yet. Allocates.
+    /// Of no figure yet; each that borrows it sets the friction of its ground. Allocates.
     fn default() -> Self {
         Self {
             controllers: Controllers {
