@@ -9,7 +9,7 @@ mod common;
 #[path = "checkpoints/forged.rs"]
 mod forged;
 
-use common::actors::{Actor, KINDS, crowd, load, push, subject, world};
+use common::actors::{Actor, KINDS, crowd, in_both_hands, load, push, subject, world};
 use common::collisions::obstacle;
 use common::{
     Scene, authored, bent, corpus, figure, man, play, still, synthesised, synthesised_cycle,
@@ -430,21 +430,6 @@ fn a_figure_is_carried() {
     goes_on_bit_for_bit(Scenario::new("carried", helped(), 240, 13));
 }
 
-/// Four kilograms in both hands, from 0.2 s on.
-fn in_both_hands() -> HeldLoad {
-    let point = vec3(0.0, 0.0, -0.08);
-    HeldLoad {
-        segment: R_HAND,
-        point,
-        mass: 4.0,
-        velocity: Vec3::zero(),
-        second: Some((L_HAND, point)),
-        grip: f64::INFINITY,
-        from: 0.2,
-        to: f64::INFINITY,
-    }
-}
-
 /// The impulse between the hands is found anew from the last one, and hardly changes.
 #[test]
 fn a_load_in_both_hands_is_held_at_rest() {
@@ -453,7 +438,7 @@ fn a_load_in_both_hands_is_held_at_rest() {
     let setup = figure(&body, ControllerKind::Modern, still(bent(&body, 0.1)));
     let key = world.add_figure(setup).unwrap();
     world
-        .perturb(key, Perturbation::Held(in_both_hands()))
+        .perturb(key, Perturbation::Held(in_both_hands(0.2)))
         .unwrap();
     goes_on_bit_for_bit(Scenario::new("at rest", world, 900, 19));
 }
@@ -475,7 +460,7 @@ fn things() -> Scenario {
         velocity: vec3(-1.0, 0.0, 0.0),
         grip: 250.0,
         to: 1.5,
-        ..in_both_hands()
+        ..in_both_hands(0.2)
     };
     world.perturb(key, Perturbation::Held(both)).unwrap();
     world

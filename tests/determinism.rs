@@ -7,11 +7,10 @@
 
 mod common;
 
-use common::actors::{KINDS, crowd, subject, world};
+use common::actors::{KINDS, crowd, in_both_hands, subject, world};
 use common::{Scene, bent, figure, still};
-use sinew::sim::body::topology::{L_HAND, R_HAND};
 use sinew::sim::body::{Body, Profile, Sex};
-use sinew::sim::figure::{ControllerKind, HeldLoad, Perturbation};
+use sinew::sim::figure::{ControllerKind, Perturbation};
 use sinew::sim::math::Vec3;
 use sinew::sim::world::{FigureKey, World, WorldParams};
 use std::fmt::Write as _;
@@ -141,21 +140,7 @@ fn worlds_that_a_thread_steps_in_turns_do_not_matter() {
         // A load in both hands is one more unknown, and begins with what the last substep found.
         let mut carries = world(1);
         let mut carrier = subject(ControllerKind::Modern, 20.0);
-        let point = Vec3 {
-            x: 0.0,
-            y: 0.0,
-            z: -0.08,
-        };
-        carrier.perturbations[0] = Perturbation::Held(HeldLoad {
-            segment: R_HAND,
-            point,
-            mass: 4.0,
-            velocity: Vec3::zero(),
-            second: Some((L_HAND, point)),
-            grip: f64::INFINITY,
-            from: 0.1,
-            to: f64::INFINITY,
-        });
+        carrier.perturbations[0] = Perturbation::Held(in_both_hands(0.1));
         let key = carrier.enter(&mut carries);
         out.push((carries, key));
         out

@@ -3,13 +3,14 @@
 //! pushed into each other, one falling onto another, two that dance; books of momentum and of the work of contacts by
 //! the tick, overlaps, and the hashes of bystanders.
 
+use crate::common::actors::in_both_hands;
 use crate::common::collisions::{Meter, obstacle};
 use crate::common::{authored, figure, man, still};
 use crate::vec3;
 use sinew::sim::body::Body;
-use sinew::sim::body::topology::{CHEST, L_HAND, R_HAND};
+use sinew::sim::body::topology::CHEST;
 use sinew::sim::collide::{MAX_OBSTACLES, Mobility, ObstacleSetup, Shape};
-use sinew::sim::figure::{ControllerKind, Flags, HeldLoad, Perturbation, StepperKind};
+use sinew::sim::figure::{ControllerKind, Flags, Perturbation, StepperKind};
 use sinew::sim::math::{Quat, Vec3};
 use sinew::sim::world::{FigureKey, FigureSetup, World, WorldError, WorldParams};
 use std::sync::Arc;
@@ -194,16 +195,7 @@ fn bystanders_and_threads_do_not_matter() {
 #[test]
 fn a_wall_that_is_near_changes_nothing_for_full_hands_or_with_help() {
     let body = man();
-    let load = HeldLoad {
-        segment: R_HAND,
-        point: vec3(0.0, 0.0, -0.08),
-        mass: 4.0,
-        velocity: Vec3::zero(),
-        second: Some((L_HAND, vec3(0.0, 0.0, -0.08))),
-        grip: f64::INFINITY,
-        from: 0.1,
-        to: f64::INFINITY,
-    };
+    let load = in_both_hands(0.1);
     let along = Perturbation::Force {
         segment: CHEST,
         point: vec3(0.0, 0.0, 0.1),

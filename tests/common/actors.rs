@@ -2,9 +2,9 @@
 
 use super::{authored, bent, figure, man, people, play, still};
 use sinew::sim::body::angles::{anatomical_angles, set_anatomical_angles};
-use sinew::sim::body::topology::{CHEST, DOF_NAMES, R_HAND};
+use sinew::sim::body::topology::{CHEST, DOF_NAMES, L_HAND, R_HAND};
 use sinew::sim::body::{Body, Posture, Sex};
-use sinew::sim::figure::{ControllerKind, FigureSetup, Perturbation};
+use sinew::sim::figure::{ControllerKind, FigureSetup, HeldLoad, Perturbation};
 use sinew::sim::math::Vec3;
 use sinew::sim::motion::Clip;
 use sinew::sim::world::{Drive, FigureKey, World, WorldParams};
@@ -44,6 +44,25 @@ pub fn load(kg: f64, from: f64, to: f64) -> Perturbation {
         mass: kg,
         from,
         to,
+    }
+}
+
+/// Four kilograms in both hands from `from` on, s.
+pub fn in_both_hands(from: f64) -> HeldLoad {
+    let point = Vec3 {
+        x: 0.0,
+        y: 0.0,
+        z: -0.08,
+    };
+    HeldLoad {
+        segment: R_HAND,
+        point,
+        mass: 4.0,
+        velocity: Vec3::zero(),
+        second: Some((L_HAND, point)),
+        grip: f64::INFINITY,
+        from,
+        to: f64::INFINITY,
     }
 }
 
