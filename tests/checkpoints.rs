@@ -324,7 +324,7 @@ fn a_rehearsed_motion_and_what_comes_after_it() {
     (settings.trials.near.samples, settings.trials.budget) = (12, 12);
     settings.trials.far.samples = 12;
     settings.trials.least_budget = 0;
-    let found = rehearse(&problem, &clip, &settings, 2, &[], &mut |_| true).unwrap();
+    let found = rehearse(&problem, &clip, &settings, 2, &mut |_| true).unwrap();
     let motion = Arc::new(found.motion);
     let mut scene = Scene::of(figure(&body, ControllerKind::Modern, motion.start()));
     let play = RehearsedPlayback::new(Arc::clone(&motion), 0.0);

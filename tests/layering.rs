@@ -86,9 +86,11 @@ const TICK_MODULES: &[&str] = &[
     "sim::figure",
     "sim::track",
     "sim::get_up",
-    "sim::plan::stream",
+    "sim::plan",
     "sim::rehearsal",
     "sim::world",
+    "server::ingest",
+    "server::tick",
 ];
 
 #[derive(Clone, Debug, PartialEq)]

@@ -57,7 +57,7 @@ fn rehearsed() -> &'static Rehearsal {
     static ONE: OnceLock<Rehearsal> = OnceLock::new();
     ONE.get_or_init(|| {
         let p = problem();
-        rehearse(&p, &squat(&p.body), &few(), 2, &[], &mut |_| true).unwrap()
+        rehearse(&p, &squat(&p.body), &few(), 2, &mut |_| true).unwrap()
     })
 }
 
@@ -92,8 +92,7 @@ fn any_number_of_threads_finds_the_same() {
     let mut p = problem();
     p.most_help = 0.3;
     let clip = slide(&p.body);
-    let of =
-        |p: &Problem, threads| rehearse(p, &clip, &few(), threads, &[], &mut |_| true).unwrap();
+    let of = |p: &Problem, threads| rehearse(p, &clip, &few(), threads, &mut |_| true).unwrap();
     let one = of(&p, 1);
     assert!(
         one.motion
@@ -247,7 +246,7 @@ fn a_figure_that_stands_plays_a_clip_as_it_was_rehearsed() {
     let whole = builtin(&p.body, "squat").unwrap();
     let postures = (0..=45).map(|i| whole.sample(i as f64 / 60.0).posture);
     let clip = Clip::from_postures("down", 60.0, postures.collect(), vec![[true; 2]; 46]).unwrap();
-    let found = rehearse(&p, &clip, &few(), 2, &[], &mut |_| true).unwrap();
+    let found = rehearse(&p, &clip, &few(), 2, &mut |_| true).unwrap();
     assert!(found.completed(), "{:?}", found.errors);
     let (motion, clip) = (Arc::new(found.motion), Arc::new(clip));
     let played = |off: f64| {
@@ -295,7 +294,7 @@ fn what_ends_at_rest_ends_with_a_stand_and_what_does_not_does_not() {
 fn a_search_that_is_stopped_has_the_best_so_far() {
     let p = problem();
     let (mut asked, mut ticks) = (0, 0);
-    let r = rehearse(&p, &squat(&p.body), &few(), 1, &[], &mut |progress| {
+    let r = rehearse(&p, &squat(&p.body), &few(), 1, &mut |progress| {
         assert!(progress.ticks >= ticks && progress.reached[0] <= progress.reached[1]);
         (asked, ticks) = (asked + 1, progress.ticks);
         asked < 3
@@ -303,6 +302,38 @@ fn a_search_that_is_stopped_has_the_best_so_far() {
     let r = r.unwrap();
     assert_eq!(asked, 3);
     assert!(r.work.stopped && !r.completed() && r.motion.is_valid());
+}
+
+#[test]
+fn a_search_that_does_not_get_beyond_its_first_window_asks_and_gives_up() {
+    let mut p = problem();
+    p.most_help = 0.3;
+    let hopeless = Settings { kept: 0.0, ..few() };
+    let mut asked = 0;
+    let r = rehearse(&p, &squat(&p.body), &hopeless, 1, &mut |_| {
+        asked += 1;
+        true
+    });
+    let work = r.unwrap().work;
+    assert_eq!(work.reached[0], 0);
+    // In each of three stages.
+    assert_eq!(work.rounds, 3 * hopeless.trials.patience);
+    assert_eq!(asked, work.rounds);
+    let r = rehearse(&p, &squat(&p.body), &hopeless, 1, &mut |_| false);
+    assert_eq!(r.unwrap().work.rounds, 1);
+}
+
+#[test]
+fn taking_help_away_can_be_stopped() {
+    let mut p = problem();
+    p.most_help = 0.3;
+    let settings = few();
+    let r = rehearse(&p, &slide(&p.body), &settings, 1, &mut |progress| {
+        progress.polished < settings.trials.polish.rounds
+    });
+    let r = r.unwrap();
+    assert!(r.work.stopped && r.work.reached[0] == r.work.reached[1]);
+    assert!(r.help.impulse > 0.0 && r.motion.is_valid());
 }
 
 /// A body that slides on its soles, faster than it could walk: strength cannot do that.
@@ -320,10 +351,10 @@ fn slide(body: &Body) -> Clip {
 fn help_is_taken_only_where_it_is_allowed_and_within_its_bound() {
     let mut p = problem();
     let clip = slide(&p.body);
-    let strict = rehearse(&p, &clip, &few(), 2, &[], &mut |_| true).unwrap();
+    let strict = rehearse(&p, &clip, &few(), 2, &mut |_| true).unwrap();
     assert_eq!(strict.help.impulse, 0.0);
     p.most_help = 0.3;
-    let helped = rehearse(&p, &clip, &few(), 2, &[], &mut |_| true).unwrap();
+    let helped = rehearse(&p, &clip, &few(), 2, &mut |_| true).unwrap();
     let weight = p.body.profile.mass * p.stage.gravity;
     assert!(
         helped.help.most[0] <= 0.3 * weight * (1.0 + 1e-9),
@@ -340,7 +371,7 @@ fn clips_without_length_and_motions_that_cannot_be_are_refused() {
     let p = problem();
     let stand = builtin(&p.body, "idle").unwrap().sample(0.0).posture;
     let one = Clip::from_postures("one", 60.0, vec![stand], vec![[true; 2]]).unwrap();
-    let refused = rehearse(&p, &one, &few(), 1, &[], &mut |_| true);
+    let refused = rehearse(&p, &one, &few(), 1, &mut |_| true);
     assert!(matches!(refused, Err(ProblemError::Length { .. })));
 
     let good = &rehearsed().motion;

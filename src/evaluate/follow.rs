@@ -254,12 +254,12 @@ pub fn problem(
     };
     let body = Arc::clone(&conditions.body);
     let mut problem = Problem::new(body, &conditions.strength, world.friction, stage);
-    for load in conditions
-        .perturbations
-        .iter()
-        .filter_map(Perturbation::load)
-    {
-        if load.second.is_some() {
+    for given in &conditions.perturbations {
+        let Some(load) = given.load() else {
+            continue;
+        };
+        // The other hand may come at any moment of the motion.
+        if load.second.is_some() || matches!(given, Perturbation::Helped { .. }) {
             return Err(FollowError::TwoHands);
         }
         if load.from > 0.0 || load.to.is_finite() {
@@ -367,7 +367,7 @@ pub fn follow(
     let ends = [f64::NEG_INFINITY, f64::INFINITY];
     problem.stands = Some(ends.map(|t| reference.prepared.sample(t).posture));
     let (settings, threads) = (&options.settings, options.threads);
-    let rehearsal = rehearse(&problem, as_recorded, settings, threads, &[], go_on)?;
+    let rehearsal = rehearse(&problem, as_recorded, settings, threads, go_on)?;
     let report = RehearsalReport::from(&rehearsal);
     let motion = Arc::new(rehearsal.motion);
     let played = Conditions {
@@ -378,7 +378,7 @@ pub fn follow(
         ..strict
     };
     let outcome = run(&played, reference)?;
-    let helped = match outcome.completed && outcome.assist_share == 0.0 {
+    let helped = match report.stopped || outcome.completed && outcome.assist_share == 0.0 {
         true => None,
         false => live_help(conditions, reference, options)?,
     };

@@ -15,13 +15,11 @@ use crate::sim::dynamics::{ExternalForces, Kinematics, RneaWorkspace, center_of_
 use crate::sim::figure::StrengthScale;
 use crate::sim::math::Vec3;
 use crate::sim::math::nnls::nnls;
-use crate::sim::motion::{Clip, Target};
+use crate::sim::motion::{Clip, GRAVITY, Target};
 use crate::sim::strength::{MuscleScale, Strength};
 
 /// Samples per second that are looked at: motion is below 6 Hz.
 const RATE: f64 = 30.0;
-/// Gravity that motions are prepared for, m/s².
-const GRAVITY: f64 = 9.81;
 /// Friction that the floor is believed to have: what the modern controller counts on, on the default floor.
 const FRICTION: f64 = 0.8;
 /// Edges of the pyramid that stands for a friction cone.

@@ -99,12 +99,10 @@ fn inverse(place: PlanarTransform, p: Vec3) -> Vec3 {
 impl GetUpMotion {
     /// Of a body that has not begun yet.
     pub fn new(body: &Body) -> Self {
-        let leg =
-            body.joint_offset[L_FOOT.index()].norm() + body.joint_offset[L_SHANK.index()].norm();
         let o = [Vec3::zero(); 2];
         Self {
             layout: Layout {
-                scale: leg / REFERENCE_LEG,
+                scale: body.leg_length(0) / REFERENCE_LEG,
                 pelvis: Vec3::zero(),
                 roll: 0.0,
                 yaw: 0.0,

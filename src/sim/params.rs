@@ -71,4 +71,39 @@ mod tests {
             ]
         );
     }
+
+    /// What is not in a list is not in docs/parameters.md, and nothing checks its range.
+    #[test]
+    fn every_module_of_parameters_is_in_the_list_of_its_part() {
+        use crate::sim::{figure, get_up, plan, retarget, track};
+        type Groups = Vec<(&'static str, &'static [super::Param])>;
+        let parts: [(&str, Groups); 5] = [
+            (
+                include_str!("retarget/params.rs"),
+                retarget::params::groups().to_vec(),
+            ),
+            (
+                include_str!("plan/params.rs"),
+                plan::params::groups().to_vec(),
+            ),
+            (
+                include_str!("track/params.rs"),
+                track::params::groups().to_vec(),
+            ),
+            (
+                include_str!("get_up/params.rs"),
+                get_up::params::groups().to_vec(),
+            ),
+            (
+                include_str!("figure/params.rs"),
+                figure::params::groups().to_vec(),
+            ),
+        ];
+        for (source, groups) in parts {
+            let declared = source.lines().filter_map(|l| l.strip_prefix("pub mod "));
+            let declared: Vec<_> = declared.filter_map(|l| l.strip_suffix(" {")).collect();
+            let listed: Vec<_> = groups.iter().map(|g| g.0).collect();
+            assert_eq!(listed, declared);
+        }
+    }
 }

@@ -7,12 +7,11 @@ use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::dynamics::{Kinematics, center_of_mass, kinetic_energy, rotor_energy};
 use crate::sim::figure::StrengthScale;
 use crate::sim::math::{Quat, Vec3};
+use crate::sim::motion::GRAVITY;
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::world::World;
 use std::sync::Arc;
 
-/// Gravity of the default world, m/s².
-const GRAVITY: f64 = 9.81;
 /// Height of the centre of mass that ends the comparison, m.
 pub const LOW: f64 = 0.5;
 /// Shortest edge that a figure can tip over as a whole, m; shorter ones round a corner.

@@ -7,14 +7,12 @@ use crate::sim::body::{Body, Links, State};
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::tasks::grip;
 use crate::sim::figure::{Perturbation, StrengthScale};
-use crate::sim::motion::Clip;
 use crate::sim::motion::builtin::{LIFT_GRASP, builtin};
+use crate::sim::motion::{Clip, GRAVITY};
 use crate::sim::strength::Strength;
 use crate::sim::world::{ClipPlayback, Drive, FigureKey, World};
 use std::sync::Arc;
 
-/// Gravity of the default world, m/s².
-const GRAVITY: f64 = 9.81;
 /// Share of the static need of 3 kg that the arm has.
 const SHARE: f64 = 0.98;
 /// The figure goes on holding the load after the clip has ended; s in all.

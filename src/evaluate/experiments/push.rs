@@ -4,11 +4,10 @@ use super::{Pair, Record, push_at_chest, record};
 use crate::sim::body::{Body, State};
 use crate::sim::figure::StrengthScale;
 use crate::sim::math::Vec3;
+use crate::sim::motion::GRAVITY;
 use crate::sim::motion::builtin::at_ease;
 use std::sync::Arc;
 
-/// Gravity of the default world, m/s².
-const GRAVITY: f64 = 9.81;
 /// The push begins after the figure has settled, s, and lasts this long, s.
 const BEGINS: f64 = 0.5;
 const LASTS: f64 = 0.1;

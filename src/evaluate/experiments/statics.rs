@@ -6,10 +6,8 @@ use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::dynamics::Terms;
 use crate::sim::figure::StrengthScale;
 use crate::sim::figure::tasks::grip;
+use crate::sim::motion::GRAVITY;
 use crate::sim::strength::Strength;
-
-/// Gravity of the default world, m/s².
-const GRAVITY: f64 = 9.81;
 
 /// A posture that is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

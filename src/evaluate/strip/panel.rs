@@ -7,6 +7,7 @@ use crate::sim::body::topology::{DOF_COUNT, DOF_SEGMENT, SEGMENT_NAMES};
 use crate::sim::body::{Body, Mesh, Posture, SEGMENT_COUNT};
 use crate::sim::math::Vec3;
 use crate::sim::math::polygon::hull;
+use crate::sim::motion::GRAVITY;
 
 const BACKGROUND: Rgba = Rgba::hex(0xfb_fbf9);
 const GROUND: Rgba = Rgba::hex(0xec_ebe6);
@@ -509,7 +510,7 @@ fn marks(
     poses: &[SegmentPose; SEGMENT_COUNT],
     place: &Place,
 ) {
-    let weight = body.profile.mass * 9.81;
+    let weight = body.profile.mass * GRAVITY;
     for (point, force) in frame.contact {
         let length = force * (WEIGHT_LENGTH / weight);
         let n = length.norm();

@@ -58,8 +58,11 @@ impl Comparison {
         let worse = self.regressions();
         let _ = writeln!(
             out,
-            "{} clips compared: {} better, {worse} worse beyond noise",
-            self.compared,
+            "{} compared: {} better, {worse} worse beyond noise",
+            match self.compared {
+                1 => "1 clip".to_owned(),
+                n => format!("{n} clips"),
+            },
             self.changes.len() - worse
         );
         out

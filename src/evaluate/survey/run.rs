@@ -11,7 +11,7 @@ use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R
 use crate::sim::body::{Body, State};
 use crate::sim::dynamics::{Kinematics, momentum};
 use crate::sim::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StrengthScale};
-use crate::sim::motion::Clip;
+use crate::sim::motion::{Clip, GRAVITY};
 use crate::sim::plan::StreamPlan;
 use crate::sim::plan::contact_labels::ContactPhase;
 use crate::sim::plan::stream::RATE;
@@ -21,8 +21,6 @@ use crate::sim::world::{
 };
 use std::sync::Arc;
 
-/// Gravity that weights are told in, m/s², whatever that of the world is.
-const GRAVITY: f64 = 9.81;
 /// How long a figure is watched after a prepared clip has ended, s, and after a stream has.
 const AFTER: f64 = 1.0;
 /// See [`AFTER`]; the stream's last posture is held.

@@ -644,8 +644,7 @@ impl JitterBuffer {
         let mut p = self.stand;
         p.root_position.x = held.root_position.x;
         p.root_position.y = held.root_position.y;
-        let forward = held.root_rotation.rotate(Vec3::X);
-        p.root_rotation = Quat::from_axis_angle(Vec3::Z, forward.y.atan2(forward.x));
+        p.root_rotation = Quat::from_axis_angle(Vec3::Z, held.root_rotation.heading());
         p
     }
 

@@ -230,6 +230,13 @@ impl Body {
         &self.segments[id.index()]
     }
 
+    /// Length of the leg of a side (0 left, 1 right) from hip to ankle, m.
+    pub fn leg_length(&self, side: usize) -> f64 {
+        use super::topology::{L_FOOT, L_SHANK, R_FOOT, R_SHANK};
+        let [shank, foot] = [[L_SHANK, L_FOOT], [R_SHANK, R_FOOT]][side];
+        self.joint_offset[shank.index()].norm() + self.joint_offset[foot.index()].norm()
+    }
+
     /// Height of the pelvis origin over the soles in the zero pose, m.
     pub fn standing_root_height(&self) -> f64 {
         use super::topology as t;

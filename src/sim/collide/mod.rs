@@ -15,4 +15,4 @@ pub mod obstacle;
 pub mod shape;
 
 pub use crate::sim::touch::{MAX_TOUCHES, ObstacleKey, Other, Touch};
-pub use obstacle::{MAX_OBSTACLES, Mobility, Obstacle, ObstacleSetup, Shape};
+pub use obstacle::{MAX_OBSTACLES, Mobility, OBSTACLE_FRICTION, Obstacle, ObstacleSetup, Shape};

@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 
 /// Most obstacles of one world.
 pub const MAX_OBSTACLES: usize = 256;
+/// Friction coefficient of an obstacle that says nothing about it, and between two figures: wood or cloth on skin and
+/// cloth.
+pub const OBSTACLE_FRICTION: f64 = 0.6;
 
 /// Shape of an obstacle in its own frame, whose origin is its centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -77,7 +77,7 @@ impl Goal {
             root = next;
         }
         let reach = STRETCH * length + BEYOND;
-        self.difference(terms, root + capped(wanted - root, reach))
+        self.difference(terms, root + (wanted - root).capped(reach))
     }
 
     fn difference(&self, terms: &Terms, wanted: Vec3) -> Vec3 {
@@ -137,16 +137,7 @@ impl Goal {
 }
 
 fn demand(error: Vec3, rate: Vec3, t: f64, most: f64) -> Vec3 {
-    capped(
-        (capped(error * (0.25 / t), 4.0 * t * most) - rate) * (1.0 / t),
-        most,
-    )
-}
-
-/// Capped in norm.
-fn capped(a: Vec3, most: f64) -> Vec3 {
-    let n = a.norm();
-    if n > most { a * (most / n) } else { a }
+    (((error * (0.25 / t)).capped(4.0 * t * most) - rate) * (1.0 / t)).capped(most)
 }
 
 #[cfg(test)]

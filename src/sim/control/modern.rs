@@ -230,12 +230,6 @@ fn law_feedback(law: &Law, error: Vec3, rate: Vec3) -> Vec3 {
     error * (0.25 / (t * t)) + rate * (1.0 / t)
 }
 
-/// Capped in norm.
-fn soft(a: Vec3, most: f64) -> Vec3 {
-    let n = a.norm();
-    if n > most { a * (most / n) } else { a }
-}
-
 /// Rotation vector from the segment's present rotation to `desired`, world axes.
 fn rotation_error(t: &Terms, s: usize, desired: Quat) -> Vec3 {
     (desired * Quat::from_mat3(&t.kin.rotation[s]).conjugate()).log()
@@ -251,10 +245,7 @@ fn pelvis_demand(t: &Terms, target: &TargetPair, law: &Law, dt: f64) -> Vec3 {
     let error =
         (target.now.posture.root_rotation * t.state.posture.root_rotation.conjugate()).log();
     (next - now) * (1.0 / dt)
-        + soft(
-            law_feedback(law, error, now - w(&t.state.velocity)),
-            ROTATION_FEEDBACK,
-        )
+        + law_feedback(law, error, now - w(&t.state.velocity)).capped(ROTATION_FEEDBACK)
 }
 
 impl Controller for Modern {

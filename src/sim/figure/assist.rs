@@ -72,12 +72,6 @@ impl PelvisHelp<'_> {
     }
 }
 
-/// `v`, with its norm cut to `most`.
-pub(super) fn capped(v: Vec3, most: f64) -> Vec3 {
-    let n = v.norm();
-    if n > most { v * (most / n) } else { v }
-}
-
 impl Assist {
     /// The help a body gets at `share`; `None` at 0.
     pub fn new(body: &Body, share: f64) -> Option<Self> {
@@ -106,8 +100,8 @@ impl Assist {
         Spring {
             gain: self.stiffness,
             rest: [
-                rate[0] + capped(off[0] * (RETURN / h), RETURN_RATE),
-                rate[1] + capped(off[1] * (RETURN / h), RETURN_SPEED),
+                rate[0] + (off[0] * (RETURN / h)).capped(RETURN_RATE),
+                rate[1] + (off[1] * (RETURN / h)).capped(RETURN_SPEED),
             ],
             most: [self.most_moment * h, self.most_force * h],
             given: None,
@@ -153,7 +147,7 @@ impl Spring {
     /// The same, cut to the bound, and whether it was.
     pub fn cut(&self, k: usize, v: &[f64; 6]) -> (Vec3, bool) {
         let p = self.impulse(k, v);
-        let bounded = capped(p, self.most[k]);
+        let bounded = p.capped(self.most[k]);
         (bounded, bounded != p)
     }
 }

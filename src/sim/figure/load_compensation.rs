@@ -9,7 +9,6 @@
 
 mod arm;
 
-use super::assist::capped;
 use crate::sim::body::topology::{
     ABDOMEN, CHEST, HEAD, JOINT, Joint, L_FOOT, L_TOES, L_UPPER_ARM, PARENT, R_FOOT, R_TOES,
     R_UPPER_ARM, SEGMENT_COUNT,
@@ -227,7 +226,7 @@ impl Lean<'_> {
         let mut shift = Vec3::zero();
         for _ in 0..SHIFT_ROUNDS {
             let off = goal - self.real.center(&forward(self.body, &out));
-            shift = capped(shift + Vec3 { z: 0.0, ..off } * SHIFT_GAIN, LARGEST_SHIFT);
+            shift = (shift + Vec3 { z: 0.0, ..off } * SHIFT_GAIN).capped(LARGEST_SHIFT);
             out.root_position = posture.root_position + shift;
             for (left, foot, toes) in [(true, L_FOOT, L_TOES), (false, R_FOOT, R_TOES)] {
                 if let Joint::Hinge1(toe) = JOINT[toes.index()] {
@@ -242,7 +241,7 @@ impl Lean<'_> {
 
 /// Tilts the trunk towards `by`, half of it in the waist; head and arms keep the directions they have in `poses`.
 fn tilt(posture: &mut Posture, poses: &Poses, by: Vec3) {
-    let tilt = capped(Vec3::Z.cross(by) * LEAN, LARGEST_LEAN);
+    let tilt = (Vec3::Z.cross(by) * LEAN).capped(LARGEST_LEAN);
     let mut turned = poses.map(|(_, rotation)| rotation);
     turned[ABDOMEN.index()] = Quat::exp(tilt * 0.5) * turned[ABDOMEN.index()];
     turned[CHEST.index()] = Quat::exp(tilt) * turned[CHEST.index()];

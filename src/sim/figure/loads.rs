@@ -356,7 +356,8 @@ impl Disturbances {
         }
         for load in loads.filter_map(|s| s.what.load()) {
             let i = load.segment.index();
-            if load.from > time - dt && before[i] < links.mass[i] {
+            // Not carried in the tick before, by the same tolerance.
+            if load.from > time - dt + 1e-9 * dt && before[i] < links.mass[i] {
                 taken = true;
                 for (segment, point, mass) in load.shares() {
                     add_momentum(

@@ -1,4 +1,4 @@
-//! One figure, one tick. The stages are listed in [`step`].
+//! One figure, one tick. The stages are listed in [`tick`].
 
 use serde::{Deserialize, Serialize};
 

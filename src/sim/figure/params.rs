@@ -399,18 +399,20 @@ pub mod kinematic {
 }
 
 /// All groups with their names.
-pub fn groups() -> [(&'static str, &'static [Param]); 15] {
+pub fn groups() -> [(&'static str, &'static [Param]); 17] {
     [
         ("support", support::ALL),
         ("staged", staged::ALL),
         ("balance", balance::ALL),
         ("fall", fall::ALL),
+        ("bracing", bracing::ALL),
         ("get_up", get_up::ALL),
         ("switch", switch::ALL),
         ("load", load::ALL),
         ("second_hand", second_hand::ALL),
         ("constraints", constraints::ALL),
         ("assist", assist::ALL),
+        ("help", help::ALL),
         ("motors", motors::ALL),
         ("contact", contact::ALL),
         ("self_contact", self_contact::ALL),

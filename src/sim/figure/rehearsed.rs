@@ -10,7 +10,7 @@
 //! its end, and when the figure is farther from the path than the hold can mend; then the figure stands, recovers or
 //! falls as after any other motion.
 
-use super::assist::{Missing, PelvisHelp, Spring, capped};
+use super::assist::{Missing, PelvisHelp, Spring};
 use super::tick::TickContext;
 use super::torque_step::MotorCommand;
 use crate::sim::body::topology::DOF_COUNT;
@@ -196,7 +196,7 @@ impl Hold {
         let ([mass, inertia], w) = (self.inertia, self.frequency);
         let pull = |k: usize, inertia: f64, most: f64| {
             let pull = (off[k] * (w * w) + (rate[k] - now[k]) * (2.0 * w)) * inertia;
-            capped(pull, most) * h
+            pull.capped(most) * h
         };
         Spring {
             gain: [0.0; 2],

@@ -101,6 +101,13 @@ pub fn atan2<L: Lane>(y: L, x: L) -> L {
     y.select_lt(L::zero(), -a, a)
 }
 
+/// The angle within ±π/2 whose sine this is, rad; numbers beyond ±1 count as ±1.
+#[inline]
+pub fn asin(x: f64) -> f64 {
+    let x = x.clamp(-1.0, 1.0);
+    atan2(x, ((1.0 - x) * (1.0 + x)).sqrt())
+}
+
 /// The same direction within −π…π, rad.
 #[inline]
 pub fn wrapped(angle: f64) -> f64 {

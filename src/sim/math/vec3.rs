@@ -51,6 +51,11 @@ impl<L: Lane> Vec3<L> {
     pub fn norm(self) -> L {
         self.dot(self).sqrt()
     }
+    /// Length of what it is on the floor, z apart.
+    #[inline(always)]
+    pub fn level(self) -> L {
+        (self.x * self.x + self.y * self.y).sqrt()
+    }
     /// Vector of lane `k`.
     #[inline(always)]
     pub fn lane(self, k: usize) -> Vec3<f64> {
@@ -85,6 +90,16 @@ impl Vec3<f64> {
     /// True if every component is finite.
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
+    }
+    /// Shortened to the length `most` if it is longer.
+    #[inline(always)]
+    pub fn capped(self, most: f64) -> Self {
+        let length = self.norm();
+        if length > most {
+            self * (most / length)
+        } else {
+            self
+        }
     }
     /// Unit vector of the same direction; `fallback` if the length is below 1e-12.
     pub fn normalized_or(self, fallback: Self) -> Self {

@@ -13,8 +13,9 @@ mod parse;
 use crate::sim::math::{Quat, Vec3, vec3::vec3};
 use parse::{Reader, Warnings, parse_frames, parse_hierarchy, parse_motion_head};
 
-/// Most joints a file may have; a hand-animated figure with fingers and face has a few hundred.
-pub const MAX_JOINTS: usize = 4096;
+/// Most joints of a skeleton that is read; rigs with full faces have about 300. Bounds the quadratic searches of the
+/// tree.
+pub const MAX_JOINTS: usize = 1024;
 
 /// One number of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,6 +108,52 @@ pub struct Bvh {
     relative_position: Vec<bool>,
 }
 
+/// What the head of a file says, before its frames are read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BvhHead {
+    /// As [`Bvh::joints`].
+    pub joints: Vec<BvhJoint>,
+    /// Channels of one frame.
+    pub channel_count: usize,
+    /// Number of frames as declared.
+    pub frame_count: u64,
+    /// Time between frames as declared, s.
+    pub frame_time: f64,
+    /// Index of each joint's first channel within a frame.
+    first_channel: Vec<usize>,
+}
+
+impl BvhHead {
+    /// Reads the head of a file.
+    ///
+    /// # Errors
+    /// The first thing that cannot be read, with its line.
+    pub fn parse(bytes: &[u8]) -> Result<Self, BvhError> {
+        Self::read(&mut Reader::new(bytes), &mut Warnings::default())
+    }
+
+    fn read(reader: &mut Reader<'_>, warnings: &mut Warnings) -> Result<Self, BvhError> {
+        let joints = parse_hierarchy(reader, warnings)?;
+        let mut first_channel = Vec::with_capacity(joints.len());
+        let mut channel_count = 0;
+        for joint in &joints {
+            first_channel.push(channel_count);
+            channel_count += joint.channels.len();
+        }
+        if channel_count == 0 {
+            return Err(BvhError::NoChannels { line: reader.line });
+        }
+        let (frame_count, frame_time) = parse_motion_head(reader)?;
+        Ok(Self {
+            joints,
+            channel_count,
+            frame_count,
+            frame_time,
+            first_channel,
+        })
+    }
+}
+
 /// Why a file is not readable BVH. Lines, frames and columns count from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[allow(missing_docs)]
@@ -182,31 +229,19 @@ impl Bvh {
     pub fn parse(bytes: &[u8]) -> Result<Self, BvhError> {
         let mut reader = Reader::new(bytes);
         let mut warnings = Warnings::default();
-        let joints = parse_hierarchy(&mut reader, &mut warnings)?;
-
-        let mut first_channel = Vec::with_capacity(joints.len());
-        let mut channel_count = 0;
-        for joint in &joints {
-            first_channel.push(channel_count);
-            channel_count += joint.channels.len();
-        }
-        if channel_count == 0 {
-            return Err(BvhError::NoChannels { line: reader.line });
-        }
-
-        let (declared, frame_time) = parse_motion_head(&mut reader)?;
-        let (values, frame_count) =
-            parse_frames(&mut reader, channel_count, declared, &mut warnings)?;
+        let head = BvhHead::read(&mut reader, &mut warnings)?;
+        let (columns, declared) = (head.channel_count, head.frame_count);
+        let (values, frame_count) = parse_frames(&mut reader, columns, declared, &mut warnings)?;
 
         let mut bvh = Self {
-            relative_position: vec![false; joints.len()],
-            joints,
-            frame_time,
+            relative_position: vec![false; head.joints.len()],
+            joints: head.joints,
+            frame_time: head.frame_time,
             frame_count,
             warnings: Vec::new(),
             values,
-            first_channel,
-            channel_count,
+            first_channel: head.first_channel,
+            channel_count: columns,
         };
         bvh.find_relative_positions(&mut warnings);
         bvh.warnings = warnings.0;

@@ -54,7 +54,7 @@ impl Biquad {
 ///
 /// * `cutoff_hz`, `rate_hz`: Hz. Above 0.45 of the rate, or with fewer than three samples, the signal is left alone.
 ///
-/// O(n); allocates the extension (at most one second at each end).
+/// O(n); allocates the extension (at most 3/`cutoff_hz` seconds at each end).
 pub fn low_pass(signal: &mut [f64], cutoff_hz: f64, rate_hz: f64) {
     let n = signal.len();
     if n < 3 || !(cutoff_hz > 0.0 && cutoff_hz < TOP_FRACTION * rate_hz) {

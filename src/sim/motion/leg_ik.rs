@@ -340,7 +340,7 @@ mod tests {
         let mut posture = Posture::default();
         let (thigh, foot) = (L_THIGH.index(), L_FOOT.index());
         let hip = body.joint_offset[thigh];
-        let length = body.joint_offset[L_SHANK.index()].norm() + body.joint_offset[foot].norm();
+        let length = body.leg_length(0);
         let direction = Vec3 {
             x: 0.6,
             y: 0.0,

@@ -6,7 +6,7 @@
 //! the arms meet), so spine names never matter. When names fail, the shape of the tree decides: two legs, and a trunk
 //! that splits into two arms and a head.
 
-use super::bvh::BvhJoint;
+use super::bvh::{BvhJoint, MAX_JOINTS};
 use crate::sim::math::Vec3;
 
 /// The bones of one arm and one leg; indices into the file's joints.
@@ -44,10 +44,6 @@ pub struct SkeletonMap {
     /// True if names were of no use and the tree decided.
     pub by_structure: bool,
 }
-
-/// Most joints of a skeleton that is read; rigs with full faces have about 300. Bounds the quadratic searches of the
-/// tree.
-pub const MAX_JOINTS: usize = 1024;
 
 /// Why a skeleton cannot be mapped.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

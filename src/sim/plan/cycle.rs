@@ -111,6 +111,7 @@ pub fn cycle(body: &Body, clip: &Clip) -> Option<Clip> {
     }
 }
 
+/// How a repeated motion is prepared: as any other, in all respects.
 const HOW: PrepareOptions = PrepareOptions {
     lock_feet: true,
     balance: true,
@@ -139,9 +140,10 @@ pub(crate) fn relabel_prepared(
         .collect();
     (0..postures.len())
         .map(|i| {
-            let before = i.saturating_sub(1);
+            // The first sample has none before it, and may be of a foot that swings.
+            let (now, before) = (i.max(1).min(feet.len() - 1), i.max(1) - 1);
             std::array::from_fn(|s| {
-                let speed = (feet[i][s].0 - feet[before][s].0).norm() * rate;
+                let speed = (feet[now][s].0 - feet[before][s].0).norm() * rate;
                 planted[i][s]
                     || (feet[i][s].1 < contact::PREPARED_HEIGHT && speed < contact::PREPARED_SPEED)
             })

@@ -12,7 +12,7 @@ use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::nnls::nnls;
 use crate::sim::math::polygon::{hull, margin};
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::plan::params::{balance, contact, feasibility};
@@ -183,7 +183,7 @@ fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, 
         };
         for k in 0..feasibility::CONE_EDGES {
             let (s, c) =
-                (std::f64::consts::TAU * k as f64 / feasibility::CONE_EDGES as f64).sin_cos();
+                trig::sin_cos(std::f64::consts::TAU * k as f64 / feasibility::CONE_EDGES as f64);
             let f = Vec3 {
                 x: feasibility::FRICTION * c,
                 y: feasibility::FRICTION * s,

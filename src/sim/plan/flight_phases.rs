@@ -21,7 +21,7 @@ fn pace(at: impl Fn(usize) -> Vec3, (from, to): (usize, usize), n: usize, rate_h
     let half = (run::PACE_TIME * rate_hz) as usize;
     let (a, b) = (from.saturating_sub(half), (to + half).min(n - 1));
     let way = at(b) - at(a);
-    way.x.hypot(way.y) * rate_hz / (b - a).max(1) as f64
+    way.level() * rate_hz / (b - a).max(1) as f64
 }
 
 /// Takes out what lasts too short: first gaps, then stances.

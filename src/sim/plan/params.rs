@@ -41,8 +41,6 @@ pub mod contact {
         LEAST_PITCH: f64 = -1.05, "rad", -1.4..=-0.5, "docs/locomotion.md#foot-lock";
         /// Pitch of a foot on its heel, and roll, beyond which it does not stand on its sole.
         MOST_TILT: f64 = 0.6, "rad", 0.3..=1.0, "docs/locomotion.md#foot-lock";
-        /// Sine of that roll.
-        MOST_ROLL_SINE: f64 = 0.56, "1", 0.3..=0.8, "docs/locomotion.md#foot-lock";
         /// A foot of a stream lands only below this share of the steepest pitch and roll.
         LANDING_STEEPNESS: f64 = 0.8, "1", 0.5..=1.0, "docs/locomotion.md#streams";
         /// A foot of a stream that leaves the floor may be too steep for so long.
@@ -393,7 +391,7 @@ pub mod run {
 /// Whether the ground can give what a motion asks for.
 pub mod feasibility {
     crate::sim::params::params! {
-        /// Friction that the ground is believed to have: what the modern controller counts on.
+        /// Friction that the ground is believed to have.
         FRICTION: f64 = 0.8, "1", 0.3..=1.2, "docs/locomotion.md#balance";
         /// Edges of the pyramid that stands for a friction cone.
         CONE_EDGES: usize = 8, "1", 4..=32, "numerical";
@@ -632,15 +630,15 @@ pub mod transition {
         SAME_HEADING: f64 = 0.02, "rad", 0..=0.1, "docs/locomotion.md#transitions";
         /// A foot that its leg cannot hold to this accuracy makes a transition useless.
         MOST_STRAY: f64 = 0.003, "m", 5e-4..=0.02, "docs/locomotion.md#transitions";
-        /// A clip begins as a figure stands if no foot is farther away than this.
+        /// A clip begins as a figure stands only if no foot is farther away than this.
         BEGIN_DISTANCE: f64 = 0.04, "m", 0.01..=0.1, "docs/locomotion.md#transitions";
-        /// And no foot is turned further,
+        /// A clip begins as a figure stands only if no foot is turned by more than this.
         BEGIN_ANGLE: f64 = 0.2, "rad", 0.05..=0.5, "docs/locomotion.md#transitions";
-        /// and the capture point is no farther away,
+        /// A clip begins as a figure stands only if the capture point is no farther away than this.
         BEGIN_CAPTURE: f64 = 0.05, "m", 0.01..=0.15, "docs/locomotion.md#transitions";
-        /// and no joint is,
+        /// A clip begins as a figure stands only if no joint differs by more than this.
         BEGIN_JOINT: f64 = 0.25, "rad", 0.05..=0.6, "docs/locomotion.md#transitions";
-        /// and no joint is faster.
+        /// A clip begins as a figure stands only if no joint of the clip is faster than this.
         BEGIN_RATE: f64 = 1.0, "rad/s", 0.2..=3.0, "docs/locomotion.md#transitions";
     }
 }

@@ -97,7 +97,9 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
     prepare_in(body, draft, options, balance::ROUNDS)
 }
 
-/// The same with another number of rounds in which ankles are unloaded and the pelvis is shifted.
+/// The same with another number of rounds in which ankles are unloaded and the pelvis is shifted. With fewer than
+/// [`balance::REACH_ROUND`], as for what joins two motions, feet that their legs do not reach go on carrying: taken off
+/// the floor they would step in place, and there is no time for that.
 pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: usize) -> Prepared {
     let mut work = Preparation::new(body, draft, options);
     let zmp_before = zmp_outside(&work.motion.track, &work.feet.support);
@@ -280,7 +282,7 @@ impl<'a> Preparation<'a> {
             Some(f) => pelvis_shift_in_run(&problem, f.air()),
         };
         for s in &mut shift {
-            let far = s[0].hypot(s[1]);
+            let far = (s[0] * s[0] + s[1] * s[1]).sqrt();
             if far > balance::MOST_SHIFT {
                 *s = s.map(|x| x * balance::MOST_SHIFT / far);
             }
@@ -390,7 +392,10 @@ impl<'a> Preparation<'a> {
             clamped,
             slide: (slide_before, held.slide),
             penetration: (depth_before, held.penetration),
-            shift_max: shift.iter().map(|s| s[0].hypot(s[1])).fold(0.0, f64::max),
+            shift_max: shift
+                .iter()
+                .map(|s| (s[0] * s[0] + s[1] * s[1]).sqrt())
+                .fold(0.0, f64::max),
             drop_max: -drop.iter().copied().fold(0.0, f64::min),
             tilt_max: folded.tilt_max,
             raise_max: folded.raise_max,

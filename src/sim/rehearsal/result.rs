@@ -80,9 +80,8 @@ struct Run {
     errors: Errors,
 }
 
-/// Rehearses `clip`, on so many threads; the result does not depend on them. `before`: actions of an earlier rehearsal
-/// of the same clip, to begin with. `go_on` is told how far it is, about ten times a second, and stops it by `false`:
-/// then the best path so far is the result.
+/// Rehearses `clip`, on so many threads; the result does not depend on them. `go_on` is told how far it is, about ten
+/// times a second, and stops it by `false`: then the best path so far is the result.
 ///
 /// # Errors
 /// A clip that is too short or too long.
@@ -91,17 +90,16 @@ pub fn rehearse(
     clip: &Clip,
     settings: &Settings,
     threads: usize,
-    before: &[Action],
     go_on: &mut dyn FnMut(&Progress) -> bool,
 ) -> Result<Rehearsal, ProblemError> {
     let reference = Reference::new(problem, clip, &settings.rest)?;
-    let mut search = Search::new(problem, &reference, settings, threads, before);
+    let mut search = Search::new(problem, &reference, settings, threads);
     let count = reference.ticks().div_ceil(window_ticks(problem, settings));
     let Path {
         mut actions,
         reached,
         rounds,
-        stopped,
+        mut stopped,
         ..
     } = search.run(go_on);
     actions.resize(count, Action::NONE);
@@ -114,7 +112,13 @@ pub fn rehearse(
         sim: &mut sim,
     };
     if reached == count && !stopped {
-        stage.take_help_away(&mut actions, settings.help.passes);
+        let mut go_on = |ticks| {
+            go_on(&Progress {
+                ticks: search.ticks() + ticks,
+                ..search.progress()
+            })
+        };
+        stopped = !stage.take_help_away(&mut actions, settings.help.passes, &mut go_on);
     }
     let run = stage.run(&actions);
     let ticks = search.ticks() + sim.ticks;
@@ -206,11 +210,16 @@ impl Playing<'_> {
     }
 
     /// Takes help away from one window after the other, from the last to the first, all of it and then parts, as long
-    /// as the motion is kept.
-    fn take_help_away(&mut self, actions: &mut [Action], passes: usize) {
+    /// as the motion is kept. `go_on` is asked before each with the ticks that it has simulated; false if it said no.
+    fn take_help_away(
+        &mut self,
+        actions: &mut [Action],
+        passes: usize,
+        go_on: &mut dyn FnMut(u64) -> bool,
+    ) -> bool {
         let start = self.reference.start();
         let Some(mut states) = self.kept(actions, 0, &start) else {
-            return;
+            return true;
         };
         for pass in 0..passes {
             let left = if pass == 0 { 0.0 } else { 0.6 };
@@ -218,6 +227,9 @@ impl Playing<'_> {
                 let before = actions[w].help;
                 if before <= 0.0 {
                     continue;
+                }
+                if !go_on(self.sim.ticks) {
+                    return false;
                 }
                 actions[w].help = left * before;
                 let from = states[w];
@@ -227,6 +239,7 @@ impl Playing<'_> {
                 }
             }
         }
+        true
     }
 }
 

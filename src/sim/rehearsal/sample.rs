@@ -42,13 +42,6 @@ pub(super) fn action(v: &Vector) -> Action {
     }
 }
 
-pub(super) fn vector(action: &Action) -> Vector {
-    std::array::from_fn(|k| match k {
-        HELP => action.help,
-        k => action.offset.0[SAMPLED[k]],
-    })
-}
-
 /// What a thread needs for its share of a window.
 #[derive(Clone, Copy)]
 pub(super) struct Window<'a> {

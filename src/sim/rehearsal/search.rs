@@ -8,9 +8,7 @@
 
 use super::look::Cost;
 use super::problem::{Problem, Reference};
-use super::sample::{
-    D, HELP, Node, Vector, Window, action, chosen, pool_score, simulate_all, vector,
-};
+use super::sample::{D, HELP, Node, Vector, Window, action, chosen, pool_score, simulate_all};
 use super::settings::{Settings, Tries};
 use super::simulator::{Action, Simulator};
 
@@ -97,14 +95,12 @@ impl std::fmt::Debug for Search<'_> {
 }
 
 impl<'a> Search<'a> {
-    /// A search that nothing is known of yet, or that begins with what was found before. As many threads as there are
-    /// simulators; their number does not matter to what is found.
+    /// A search that nothing is known of yet, on so many threads; their number does not matter to what is found.
     pub fn new(
         problem: &'a Problem,
         reference: &'a Reference,
         settings: &'a Settings,
         threads: usize,
-        before: &[Action],
     ) -> Self {
         let n = reference.ticks();
         let window = window_ticks(problem, settings);
@@ -112,10 +108,6 @@ impl<'a> Search<'a> {
         let count = bounds.len() - 1;
         let mut first = [0.0; D];
         first[..HELP].copy_from_slice(&settings.spread.each());
-        let mut means = vec![[0.0; D]; count];
-        for (m, a) in means.iter_mut().zip(before) {
-            *m = vector(a);
-        }
         let root = Node {
             state: reference.start(),
             parent: 0,
@@ -130,7 +122,7 @@ impl<'a> Search<'a> {
             settings,
             cost: Cost::new(settings.sizes),
             bounds,
-            means,
+            means: vec![[0.0; D]; count],
             spreads: vec![first; count],
             first,
             layers: vec![vec![root]],
@@ -189,6 +181,17 @@ impl<'a> Search<'a> {
             cost: self.state.total / self.state.reached.max(1) as f64,
             rounds: self.state.round,
             stopped: self.state.stopped,
+        }
+    }
+
+    /// How far it has come.
+    pub fn progress(&self) -> Progress {
+        Progress {
+            round: self.state.round,
+            reached: [self.state.reached, self.count()],
+            polished: self.state.polished,
+            helps: self.helps(),
+            ticks: self.ticks(),
         }
     }
 
@@ -256,28 +259,22 @@ impl<'a> Search<'a> {
                 "states at the start of window {w}"
             );
             let chosen = self.window(w);
-            if chosen.is_empty() {
-                break;
-            }
             let cheapest = chosen.iter().map(|n| n.cost).fold(f64::INFINITY, f64::min);
-            self.layers.push(chosen);
-            lost = if cheapest > self.tries().lost {
-                lost + 1
-            } else {
-                0
-            };
-            let progress = Progress {
-                round: self.state.round,
-                reached: [self.state.reached.max(w + 1 - lost), count],
-                polished: self.state.polished,
-                helps: self.helps(),
-                ticks: self.ticks(),
-            };
+            let ended = chosen.is_empty();
+            if !ended {
+                self.layers.push(chosen);
+                lost = if cheapest > self.tries().lost {
+                    lost + 1
+                } else {
+                    0
+                };
+            }
+            let mut progress = self.progress();
+            progress.reached[0] = progress.reached[0].max(self.layers.len() - 1 - lost);
             if !go_on(&progress) {
                 self.state.stopped = true;
-                break;
             }
-            if lost >= 2 {
+            if ended || self.state.stopped || lost >= 2 {
                 break;
             }
         }
@@ -285,6 +282,9 @@ impl<'a> Search<'a> {
         self.layers.truncate(now + 1);
         if now > 0 {
             self.learn(first, now);
+        } else {
+            // Lost in the first window.
+            self.state.stuck += 1;
         }
     }
 
@@ -437,7 +437,7 @@ mod tests {
         let mut settings = Settings::default();
         (settings.trials.near.samples, settings.trials.batch) = (12, 12);
         let reference = Reference::new(&problem, &clip, &settings.rest).unwrap();
-        let mut search = Search::new(&problem, &reference, &settings, 1, &[]);
+        let mut search = Search::new(&problem, &reference, &settings, 1);
         search.round(&mut |_| true);
         let count = search.count();
         assert_eq!(

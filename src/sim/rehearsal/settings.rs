@@ -1,6 +1,6 @@
 //! All numbers of a rehearsal, with units and why. One set for all clips.
 
-use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_COUNT, DOF_SEGMENT, HEAD, L_THIGH};
 use crate::sim::figure::rehearsed::MotorLaw;
 
 /// Joint DOFs that a sample offsets: waist, thorax, shoulders without rotation, hips, knees, ankles without rotation.
@@ -75,10 +75,10 @@ pub struct Spread {
 impl Spread {
     /// One for each of [`SAMPLED`].
     pub fn each(&self) -> [f64; SAMPLED.len()] {
-        SAMPLED.map(|d| match d {
-            0..=2 => self.waist,
-            3..=5 => self.thorax,
-            6..=22 => self.shoulders,
+        SAMPLED.map(|d| match DOF_SEGMENT[d] {
+            s if s == ABDOMEN.index() => self.waist,
+            s if s == CHEST.index() => self.thorax,
+            s if s < L_THIGH.index() => self.shoulders,
             _ => self.legs,
         })
     }
@@ -89,7 +89,7 @@ impl Spread {
 pub struct Sizes {
     /// Joints, root mean square, rad.
     pub joints: f64,
-    /// Weight of an arm's joint against one of the trunk or legs: arms keep the balance.
+    /// Weight of a joint of an arm or the neck against one of the trunk or legs: arms keep the balance.
     pub arms: f64,
     /// Turn of the pelvis, rad.
     pub turn: f64,
@@ -112,9 +112,10 @@ pub struct Sizes {
 impl Sizes {
     /// Weight of each joint DOF.
     pub fn joint_weights(&self) -> [f64; DOF_COUNT] {
-        std::array::from_fn(|d| match d {
-            6..=22 => self.arms,
-            _ => 1.0,
+        let arms_and_neck = HEAD.index()..L_THIGH.index();
+        std::array::from_fn(|d| match arms_and_neck.contains(&DOF_SEGMENT[d]) {
+            true => self.arms,
+            false => 1.0,
         })
     }
 }
@@ -310,5 +311,39 @@ impl Default for Settings {
                 passes: 3,
             },
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sim::body::topology::DOF_NAMES;
+
+    #[test]
+    fn samples_offset_the_joints_that_are_named() {
+        let side = |s: &str, joints: &[&str]| -> Vec<String> {
+            joints.iter().map(|j| format!("{s}_{j}")).collect()
+        };
+        let trunk = [
+            "waist_flexion",
+            "waist_lateral",
+            "waist_rotation",
+            "thorax_flexion",
+            "thorax_lateral",
+        ];
+        let arm = ["shoulder_flexion", "shoulder_abduction"];
+        let leg = [
+            "hip_flexion",
+            "hip_abduction",
+            "hip_rotation",
+            "knee_flexion",
+            "ankle_flexion",
+            "ankle_inversion",
+        ];
+        let mut named: Vec<String> = trunk.map(str::to_owned).to_vec();
+        for joints in [&arm[..], &leg] {
+            named.extend(["l", "r"].iter().flat_map(|s| side(s, joints)));
+        }
+        assert_eq!(SAMPLED.map(|d| DOF_NAMES[d]).to_vec(), named);
     }
 }

@@ -57,16 +57,6 @@ pub(super) fn horizontal(v: Vec3) -> Vec3 {
     Vec3 { z: 0.0, ..v }
 }
 
-/// A vector shortened to the length `most`.
-pub(super) fn limited(v: Vec3, most: f64) -> Vec3 {
-    let length = v.norm();
-    if length > most {
-        v * (most / length)
-    } else {
-        v
-    }
-}
-
 /// Touching points, on the floor, of the foot that stands while `side` swings. The swinging foot carries nothing any
 /// more, even while it still touches.
 pub(super) fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2]> + '_ {

@@ -131,11 +131,9 @@ struct Legs {
 
 impl Legs {
     fn of(body: &Body) -> Self {
-        let length =
-            body.joint_offset[L_FOOT.index()].norm() + body.joint_offset[L_FOOT.index() - 1].norm();
         Self {
             soles: [Sole::new(body, 0), Sole::new(body, 1)],
-            length,
+            length: body.leg_length(0),
             at_ease: at_ease(body),
         }
     }

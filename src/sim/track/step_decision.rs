@@ -1,8 +1,6 @@
 //! When a step is made that no plan has, and which: to catch the body, to uncross the feet, to bring them back.
 
-use super::foot_places::{
-    FootPlace, FootPlaces, horizontal, level, limited, outward, stance_points,
-};
+use super::foot_places::{FootPlace, FootPlaces, horizontal, level, outward, stance_points};
 use super::params::common::{SETTLED_OFFSET, SETTLED_SPEED};
 use super::params::recovery::{
     ASTRAY, FOOTHOLD_DISTANCE, HOPELESS_MARGIN, LOST_MARGIN, MISPLACED_BY, MISPLACED_TURN,
@@ -105,7 +103,7 @@ impl StepTracker {
         let over = self.recovery.step.unloaded().map(|k| &now[1 - k]);
         let wanted = over.map(|foot| sole_middle(foot) - tasks.com.now);
         let way = horizontal(wanted.unwrap_or_default() - self.recovery.shift);
-        self.recovery.shift += limited(way, SHIFT_SPEED * dt);
+        self.recovery.shift += way.capped(SHIFT_SPEED * dt);
         tasks.com.now += self.recovery.shift;
         tasks.com.next += self.recovery.shift;
 

@@ -10,9 +10,7 @@
 
 use super::StepTracker;
 use super::capture_point::within_reach;
-use super::foot_places::{
-    FootPlace, FootPlaces, horizontal, level, limited, outward, stance_points, turn,
-};
+use super::foot_places::{FootPlace, FootPlaces, horizontal, level, outward, stance_points, turn};
 use super::params::capture::REACH_ALONG;
 use super::params::common::{SETTLED_OFFSET, SETTLED_SPEED};
 use super::params::recovery::{ASTRAY, SHIFT_DONE, SHIFT_SPEED, STANCE_WIDTH};
@@ -149,7 +147,7 @@ impl SupportRecovery {
         }
         let wanted = self.wanted_shift(omega);
         if self.is_active() {
-            self.shift += limited(wanted - self.shift, SHIFT_SPEED * dt);
+            self.shift += (wanted - self.shift).capped(SHIFT_SPEED * dt);
         } else {
             self.shift = wanted;
         }

@@ -19,6 +19,7 @@ use crate::sim::figure::{
     Perturbation, PlanRequest, Planning, Slot, StrengthScale, TickContext,
 };
 use crate::sim::math::hash::Fnv;
+use crate::sim::motion::GRAVITY;
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 
@@ -44,7 +45,7 @@ impl Default for WorldParams {
         Self {
             rate_hz: 60.0,
             substeps: 2,
-            gravity: 9.81,
+            gravity: GRAVITY,
             friction: 0.9,
             threads: 1,
             collisions: true,
@@ -164,9 +165,10 @@ impl World {
             self.params.collisions,
         );
         let (near, alone) = self.figures.split_at_mut(gathered);
-        let mut slots = SLOTS.take();
-        if slots.len() < threads.max(near.len()) {
-            slots.resize_with(threads.max(near.len()), Slot::default);
+        let Slots { mut slots, unused } = SLOTS.take();
+        let needed = threads.max(near.len());
+        if slots.len() < needed {
+            slots.resize_with(needed, Slot::default);
         }
         each_with(alone, &mut slots[..threads], |f, slot| {
             if !f.is_frozen() {
@@ -191,7 +193,7 @@ impl World {
             self.figures.sort_unstable_by_key(|(k, _)| *k);
             self.obstacles.sort_unstable_by_key(|(k, _)| *k);
         }
-        SLOTS.set(slots);
+        SLOTS.set(Slots { slots, unused }.kept(needed));
         collisions::lead(&mut self.obstacles, context.dt);
         self.tick += 1;
     }
@@ -444,7 +446,34 @@ impl World {
 thread_local! {
     /// Workspaces of the worlds that this thread steps. A tick takes them and puts them back: one that panics loses
     /// them, and the next makes new ones.
-    static SLOTS: RefCell<Vec<Slot>> = const { RefCell::new(Vec::new()) };
+    static SLOTS: RefCell<Slots> = const { RefCell::new(Slots { slots: Vec::new(), unused: 0 }) };
+}
+
+/// Ticks after which workspaces that none of them needed are given back: each is several hundred kB, and a crowd that
+/// has gone apart may not come again.
+const UNUSED_TICKS: u32 = 10_000;
+
+#[derive(Default)]
+struct Slots {
+    slots: Vec<Slot>,
+    /// Ticks in a row that did not need all of them.
+    unused: u32,
+}
+
+impl Slots {
+    /// After a tick that needed so many.
+    fn kept(mut self, needed: usize) -> Self {
+        if self.slots.len() <= needed {
+            self.unused = 0;
+        } else if self.unused < UNUSED_TICKS {
+            self.unused += 1;
+        } else {
+            self.slots.truncate(needed);
+            self.slots.shrink_to_fit();
+            self.unused = 0;
+        }
+        self
+    }
 }
 
 /// Does `work` for every figure, on so many threads.

@@ -24,8 +24,8 @@ use std::time::Duration;
 pub const MAX_BATCH_FRAMES: usize = 64;
 /// Most figures one driver can drive.
 pub const MAX_DRIVEN_FIGURES: usize = 64;
-/// Most frames of a clip given as frames: 20 minutes at 120 Hz.
-pub const MAX_CLIP_FRAMES: usize = 144_000;
+/// Most frames of a clip given as frames.
+pub const MAX_CLIP_FRAMES: usize = crate::sim::motion::clip::MAX_SAMPLES;
 
 fn optional(field: &str, value: Option<f64>, least: f64, most: f64) -> Result<Option<f64>, Fault> {
     value.map(|v| within(field, v, least, most)).transpose()

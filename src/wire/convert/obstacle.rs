@@ -6,11 +6,9 @@ use super::super::types::{FREE_PLANE, ObstacleInfo, ObstacleMobility, ObstacleUp
 use super::masks::Fields;
 use super::names::OBSTACLE;
 use super::{WORLD_EXTENT, etags, rotation, vector, vector_out, within};
-use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
+use crate::sim::collide::{Mobility, OBSTACLE_FRICTION, ObstacleSetup, Shape};
 use crate::sim::math::{Quat, Vec3};
 
-/// Friction of an obstacle that says nothing about it.
-const FRICTION: f64 = 0.6;
 /// Largest radius or half length, and largest half edge of a box, m.
 const ROUND: f64 = 100.0;
 const EDGE: f64 = 1000.0;
@@ -79,7 +77,7 @@ fn mass(field: &str, value: f64) -> Result<f64, Fault> {
 }
 
 fn friction(field: &str, o: &pb::Obstacle) -> Result<f64, Fault> {
-    let value = o.friction.unwrap_or(FRICTION);
+    let value = o.friction.unwrap_or(OBSTACLE_FRICTION);
     within(&format!("{field}.friction"), value, 0.05, 2.0)
 }
 

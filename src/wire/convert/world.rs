@@ -6,6 +6,7 @@ use super::super::types::{Overrun, Pace, WorldCondition, WorldInfo, WorldSetting
 use super::masks::Fields;
 use super::names::WORLD;
 use super::{count, display_name, etags, or_default, timestamp, within};
+use crate::sim::world::WorldParams;
 use std::time::Duration;
 
 /// Least and largest tick rate, Hz.
@@ -55,16 +56,22 @@ fn catch_up(w: &pb::World) -> Result<u32, Fault> {
 pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
     let w = w.unwrap_or_default();
     let catch_up_limit = catch_up(&w)?;
+    let default = WorldParams::default();
     Ok(WorldSettings {
         rate_hz: rate("world.rate_hz", w.rate_hz)?,
         substeps: substeps("world.substep_count", w.substep_count)?,
         gravity: within(
             "world.gravity_mps2",
-            w.gravity_mps2.unwrap_or(9.81),
+            w.gravity_mps2.unwrap_or(default.gravity),
             0.0,
             30.0,
         )?,
-        friction: within("world.friction", w.friction.unwrap_or(0.9), 0.05, 2.0)?,
+        friction: within(
+            "world.friction",
+            w.friction.unwrap_or(default.friction),
+            0.05,
+            2.0,
+        )?,
         collisions: w.collisions.unwrap_or(true),
         pace: Pace {
             display_name: display_name("world.display_name", &w.display_name)?,

@@ -1,7 +1,7 @@
 //! What the plan may push against: the points of planted feet, of a body that works on the floor, and of what rests on
 //! seats and tables, each with the acceleration that keeps it where it is.
 
-use super::{Hold, MEANT_FADE, Modern, POINTS, blend, soft, weight};
+use super::{Hold, MEANT_FADE, Modern, POINTS, blend, weight};
 use crate::sim::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
 use crate::sim::contact::rows::PointRow;
 use crate::sim::control::ControlInput;
@@ -168,7 +168,7 @@ fn stop((z, v): (f64, Vec3), spin: f64, dt: f64) -> Vec3 {
         y: -v.y * along,
         z: (rise - v.z) * pace,
     };
-    soft(to_rest, STOP)
+    to_rest.capped(STOP)
 }
 
 /// How easily a segment bears weight on the floor.

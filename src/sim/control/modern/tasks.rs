@@ -2,7 +2,7 @@
 
 use super::{
     Law, MEANT_FADE, Modern, POINTS, ROTATION_FEEDBACK, Seat, TaskRow, danger, gives_way,
-    law_feedback, rotation_error, soft, weight,
+    law_feedback, rotation_error, weight,
 };
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, L_THIGH, L_TOES, PELVIS, R_FOOT, R_THIGH, R_TOES};
@@ -124,7 +124,7 @@ impl Modern {
             let feedback = law_feedback(law, error, rotation.now_velocity - w);
             let ff = (rotation.next_velocity - rotation.now_velocity) * (1.0 / input.dt);
             let (bias, _) = t.segment_bias(foot);
-            let a = ff + soft(feedback, ROTATION_FEEDBACK) - bias;
+            let a = ff + feedback.capped(ROTATION_FEEDBACK) - bias;
             let mut j = [[0.0; WIDTH]; 6];
             t.segment_jacobian(foot, &mut j);
             for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
@@ -246,7 +246,7 @@ impl Modern {
         let (x, v) = (t.point_world(s, point), t.point_velocity(s, point));
         let ff = (target.next_velocity - target.now_velocity) * (1.0 / law.step());
         let feedback = law_feedback(law, target.now - x, target.now_velocity - v);
-        let a = ff + soft(feedback, most) - t.point_bias(s, point);
+        let a = ff + feedback.capped(most) - t.point_bias(s, point);
         let mut j = [[0.0; WIDTH]; 3];
         t.point_jacobian(s, point, &mut j);
         for (row, value) in j.into_iter().zip([a.x, a.y, a.z]) {

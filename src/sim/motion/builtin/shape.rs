@@ -79,7 +79,7 @@ impl Measures {
     pub fn of(body: &Body) -> Self {
         let [_, shank, foot, toes] = leg_segments(true).map(|s| s.index());
         debug_assert_eq!((shank, foot), (L_SHANK.index(), L_FOOT.index()));
-        let leg = body.joint_offset[shank].norm() + body.joint_offset[foot].norm();
+        let leg = body.leg_length(0);
         let sole = &body.segments[foot].contact_points;
         let least = |f: fn(&Vec3) -> f64| sole.iter().map(f).fold(0.0, f64::min);
         Self {

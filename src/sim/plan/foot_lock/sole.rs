@@ -270,10 +270,10 @@ impl Sole {
 /// Heading and pitch (toe-up positive) of a foot of a recording, rad: `world_from_foot` without roll.
 pub fn yaw_pitch(rotation: Quat) -> (f64, f64) {
     let x = rotation.rotate(Vec3::X);
-    (x.y.atan2(x.x), x.z.clamp(-1.0, 1.0).asin())
+    (trig::atan2(x.y, x.x), trig::asin(x.z))
 }
 
 /// Difference of two headings of a recording in −π…π, rad.
 pub fn turn(from: f64, to: f64) -> f64 {
-    (to - from).sin().atan2((to - from).cos())
+    trig::wrapped(to - from)
 }

@@ -3,7 +3,7 @@
 
 use super::sole::{Sole, turn, yaw_pitch};
 use super::{RecordedFoot, median};
-use crate::sim::math::{Quat, Vec3};
+use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::plan::contact_labels::runs;
 use crate::sim::plan::params::{contact, stance};
 
@@ -44,7 +44,7 @@ impl Track {
             let before = t.yaw.last().copied().unwrap_or(yaw);
             t.yaw.push(before + turn(before, yaw));
             t.pitch.push(pitch);
-            t.roll.push(q.rotate(Vec3::Y).z.clamp(-1.0, 1.0).asin());
+            t.roll.push(trig::asin(q.rotate(Vec3::Y).z));
             let lift = sole.stand(Vec3::zero(), yaw, pitch).ankle;
             t.point.push(Vec3 {
                 x: a.x - lift.x,

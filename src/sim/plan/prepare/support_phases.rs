@@ -127,7 +127,7 @@ pub(in crate::sim::plan) fn limit_ankle_torques(
         let way = track.com[after] - track.com[before];
         let over = Over {
             height: track.com[i].z,
-            speed: way.x.hypot(way.y) * rate_hz / (after - before).max(1) as f64,
+            speed: way.level() * rate_hz / (after - before).max(1) as f64,
             lean: [lean[0][i], lean[1][i]],
             load: runs.then(|| track.load[i]),
         };

@@ -10,6 +10,7 @@ use crate::sim::math::curve::smoothstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::{low_pass, low_pass_points, low_pass_rotations};
 use crate::sim::motion::leg_ik::solve_leg_in_plane;
+use crate::sim::plan::THIGHS;
 use crate::sim::plan::contact_labels::runs;
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::flight_phases::FlightPhases;
@@ -18,12 +19,9 @@ use crate::sim::plan::params::{leg, swing};
 
 /// Hip joint of each side in the pelvis frame, m, and length of the leg from hip to ankle, m.
 pub(in crate::sim::plan) fn leg_geometry(body: &Body) -> [(Vec3, f64); 2] {
-    [L_THIGH, R_THIGH].map(|thigh| {
-        let t = thigh.index();
-        (
-            body.joint_offset[t],
-            body.joint_offset[t + 1].norm() + body.joint_offset[t + 2].norm(),
-        )
+    [0, 1].map(|side| {
+        let thigh = THIGHS[side].index();
+        (body.joint_offset[thigh], body.leg_length(side))
     })
 }
 
@@ -48,7 +46,7 @@ pub(super) fn assemble(
         for ((hip, length), foot) in legs.iter().zip(locked) {
             let d = out[i].root_position + out[i].root_rotation.rotate(*hip) - foot.poses[i].ankle;
             let most = leg::REACH * length;
-            let level = d.x.hypot(d.y);
+            let level = d.level();
             let height = (most * most - level * level)
                 .max(leg::LEAST_HEIGHT2 * most * most)
                 .sqrt();

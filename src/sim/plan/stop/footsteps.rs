@@ -6,9 +6,10 @@
 use super::initial_state::InitialState;
 use super::{flat, ground, level, turned};
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::Vec3;
 use crate::sim::math::curve::rise;
+use crate::sim::math::exp::exp;
 use crate::sim::math::polygon::{Region, hull, margin};
+use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::plan::FEET;
@@ -204,7 +205,7 @@ pub(super) fn footsteps(
         found.min_by(|a, b| a.price().total_cmp(&b.price()))
     };
     // A body that falls to a side which its feet cannot reach turns there.
-    let aside = turn(from.heading, from.velocity.y.atan2(from.velocity.x));
+    let aside = turn(from.heading, trig::atan2(from.velocity.y, from.velocity.x));
     let turns = if aside.abs() < stop::MOST_ASIDE {
         stop::TURNS
     } else {
@@ -257,7 +258,7 @@ impl PendulumPlan<'_> {
 
     /// Moves on by one sample with the zero-moment point at `p`: ξ̇ = ω (ξ − p), ċ = ω (ξ − c).
     fn advance(&mut self, p: [f64; 2]) {
-        let grows = (self.omega * self.dt).exp();
+        let grows = exp(self.omega * self.dt);
         let p = level(p);
         self.capture = p + (self.capture - p) * grows;
         let c = self.mass();
@@ -320,7 +321,7 @@ impl PendulumPlan<'_> {
             let p = match goal {
                 Some(goal) => {
                     // ξ(t) = p + (ξ − p) e^{ωt}, solved for p.
-                    let grows = (self.omega * self.dt * left as f64).exp();
+                    let grows = exp(self.omega * self.dt * left as f64);
                     let p = (self.capture * grows - goal) * (1.0 / (grows - 1.0));
                     support.pressure.nearest(flat(p))
                 }
@@ -348,7 +349,7 @@ impl PendulumPlan<'_> {
         down[side] = false;
         let p = level(self.hold(&Support::of(&self.feet, down)));
         let away = self.capture - p;
-        let landing = |time: f64| p + away * (self.omega * time).exp();
+        let landing = |time: f64| p + away * exp(self.omega * time);
         // Where it moves, more than it needs: a body stops less well than a pendulum.
         let moves = (self.capture - self.mass()) * self.omega;
         let beyond = moves * (self.way.beyond / moves.norm().max(1.0));
@@ -357,7 +358,7 @@ impl PendulumPlan<'_> {
         while time <= stop::LONGEST_SWING.max(least) {
             let place = self.reachable(side, landing(time) + beyond);
             let far = place - ankle;
-            let speed = far.x.hypot(far.y) / time;
+            let speed = far.level() / time;
             if speed < best.0 {
                 best = (speed, time, place);
             }
@@ -450,7 +451,7 @@ impl PendulumPlan<'_> {
 
     fn is_caught(&self) -> bool {
         let away = self.capture - self.mass();
-        let speed = self.omega * away.x.hypot(away.y);
+        let speed = self.omega * away.level();
         margin(&self.feet.support([true; 2]), flat(self.capture))
             > stop::CAUGHT_INSET + self.way.spare * speed
     }

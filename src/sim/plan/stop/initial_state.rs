@@ -118,7 +118,7 @@ impl InitialState {
     /// True if it is not at rest: what ends here would end in motion.
     pub(super) fn moves(&self) -> bool {
         let v = self.pelvis_velocity;
-        v.x.hypot(v.y) > stop::MOVING_SPEED
+        v.level() > stop::MOVING_SPEED
     }
 
     /// True if a body could stop here without a step.
@@ -129,7 +129,7 @@ impl InitialState {
             soles,
         };
         let capture = self.com + self.velocity * (1.0 / omega);
-        self.velocity.x.hypot(self.velocity.y) < stop::STANDING_SPEED
+        self.velocity.level() < stop::STANDING_SPEED
             && self.down() == [true; 2]
             && margin(&feet.support(self.down()), flat(capture)) > stop::STANDING_MARGIN
     }

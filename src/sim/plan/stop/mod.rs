@@ -1,9 +1,9 @@
 //! From standing into a motion and out of it again: what comes before the first and after the last recorded sample.
 //!
 //! A recording that ends in full stride has no last posture that a body could hold. Here it gets the steps that bring
-//! it to a stand: planned on a pendulum that starts where the recording stops ([`pendulum`]), walked by feet that roll
-//! and swing ([`feet`]), while trunk and arms come to ease. The beginning is the same thing backwards. What comes out
-//! is a draft like any other; [`super::prepare`] locks its feet and makes the whole body keep its balance.
+//! it to a stand: planned on a pendulum that starts where the recording stops (`footsteps`), walked by feet that roll
+//! and swing (`foot_curves`), while trunk and arms come to ease. The beginning is the same thing backwards. What comes
+//! out is a draft like any other; [`super::prepare`] locks its feet and makes the whole body keep its balance.
 
 mod foot_curves;
 mod footsteps;
@@ -14,6 +14,7 @@ use super::prepare::Draft;
 use crate::sim::body::topology::NV;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::{min_jerk, smootherstep};
+use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::filter::low_pass_points;
@@ -89,7 +90,7 @@ fn steps_to_stand(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Opt
     if is_there && stands {
         return None;
     }
-    let how = (leg_length(body), draft.rate_hz, spare);
+    let how = (body.leg_length(0), draft.rate_hz, spare);
     let found = footsteps(&from, &stand, &soles, how)?;
     let axis = [0, 1].map(|s: usize| draft.knee_axis[s].last().copied().unwrap_or(Vec3::Y));
     let lands = !matches!(goal, Goal::Origin);
@@ -125,7 +126,7 @@ fn along_footsteps(
         rates[3..6].fill(0.0);
         p.integrate(
             &rates,
-            stop::RATE_DECAY * (1.0 - (-t / stop::RATE_DECAY).exp()),
+            stop::RATE_DECAY * (1.0 - exp(-t / stop::RATE_DECAY)),
         );
         let mut way = [0.0; NV];
         let spin = (upright * p.root_rotation.conjugate()).log() * s;
@@ -160,11 +161,6 @@ fn along_footsteps(
         out.postures.push(p);
     }
     out
-}
-
-/// Length of a leg from hip to ankle, m.
-fn leg_length(body: &Body) -> f64 {
-    body.joint_offset[FEET[0].index()].norm() + body.joint_offset[FEET[0].index() - 1].norm()
 }
 
 /// True if nothing worth a movement is between two postures.

@@ -81,7 +81,7 @@ pub struct Foot {
 
 /// How steep or rolled a foot is; beyond 1 it does not stand on its sole.
 pub fn steepness(rotation: Quat, pitch: f64) -> f64 {
-    let roll = rotation.rotate(Vec3::Y).z.abs() / contact::MOST_ROLL_SINE;
+    let roll = rotation.rotate(Vec3::Y).z.abs() / trig::sin_cos(contact::MOST_TILT).0;
     roll.max(pitch / contact::LEAST_PITCH)
         .max(pitch / contact::MOST_TILT)
 }

@@ -347,7 +347,7 @@ impl StreamPlan {
     ///
     /// * `planted`: feet on the floor (left, right), if the sender knows.
     ///
-    /// A sample that is not finite is taken for a repetition of the last one.
+    /// A sample that is not finite is left out.
     pub fn push(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
         if posture.is_finite() {
             self.input.newest.take(posture);

@@ -103,7 +103,7 @@ impl StreamPlan {
         (balanced, load.clamp(0.0, 1.0))
     }
 
-    /// Puts sample `i` together as it is going to be, and heading at the balance of that.
+    /// Puts sample `i` together as it is going to be, and looks at the balance of that.
     pub(super) fn build(&mut self, i: i64) {
         let shift = self.planned(i);
         let posture = self.posture(i, shift);

@@ -22,7 +22,7 @@ pub struct Balanced {
     pub weight: f64,
     /// Square of the pendulum frequency, 1/s².
     pub omega2: f64,
-    /// Which way the body heading, rad.
+    /// Which way the body faces, rad.
     pub heading: f64,
     /// Zero-moment point that the supports ask for, and what it still owes them, m: kept from sample to sample.
     goal: [f64; 2],
@@ -120,7 +120,7 @@ impl Lacking {
         }
     }
 
-    /// What is expected of a body that heading along `heading` (rad), m, world axes.
+    /// What is expected of a body that faces along `heading` (rad), m, world axes.
     fn expected(&self, heading: f64) -> [f64; 2] {
         let mean = self.lately.map(|l| l / self.weight.max(1.0));
         let expected =
@@ -171,7 +171,7 @@ impl Balance {
         }
     }
 
-    /// The shift that sample `i` is going to have, as it heading now, m.
+    /// The shift that sample `i` is going to have, as far as is known now, m.
     pub fn planned(&self, i: i64) -> [f64; 2] {
         let k = (i - self.first.0).max(0) as usize + self.first.1;
         let last = self.solved.checked_sub(1);

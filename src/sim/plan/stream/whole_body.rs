@@ -11,8 +11,8 @@ use crate::sim::motion::leg_ik::{knee_axis, solve_leg_in_plane};
 use crate::sim::plan::params::{balance, leg};
 use serde::{Deserialize, Serialize};
 
-/// PelvisLowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs
-/// of the gait.
+/// Lowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of
+/// the gait.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct PelvisLowering {
     /// What is needed, forgotten slowly, m.
@@ -74,7 +74,7 @@ impl StreamPlan {
     fn hip(&self, i: i64, side: usize) -> (Vec3, f64) {
         let s = self.at(i);
         let t = [L_THIGH, R_THIGH][side].index();
-        let length = self.body.joint_offset[t + 1].norm() + self.body.joint_offset[t + 2].norm();
+        let length = self.body.leg_length(side);
         let [x, y] = self.planned(i).map(|d| balance::PELVIS_LEAD * d);
         let shift = Vec3 { x, y, z: 0.0 };
         let offset = s.smooth.root_rotation.rotate(self.body.joint_offset[t]);

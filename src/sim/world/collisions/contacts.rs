@@ -3,6 +3,7 @@
 use super::cast::{Cast, Posed, PosedShape, posed};
 use super::{Candidate, Cluster, Participant};
 use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES, SEGMENT_COUNT};
+use crate::sim::collide::OBSTACLE_FRICTION;
 use crate::sim::collide::narrow::{self, Near};
 use crate::sim::collide::shape::Capsule;
 use crate::sim::figure::Figure;
@@ -10,8 +11,6 @@ use crate::sim::math::Vec3;
 
 /// Parts nearer than this take part in the solve even if they move apart, m.
 const NEARBY: f64 = 0.02;
-/// Friction between two figures: skin and cloth.
-const FIGURE_FRICTION: f64 = 0.6;
 /// Most points between two figures' segments, and between a segment and a flat thing.
 const POINTS_ROUND: usize = 3;
 const POINTS_FLAT: usize = 8;
@@ -190,7 +189,7 @@ impl Cluster {
                         narrow::capsule_points(&c, &e, |near| best.push(near));
                     }
                 }
-                self.keep(&best, FIGURE_FRICTION);
+                self.keep(&best, OBSTACLE_FRICTION);
             }
         }
     }
