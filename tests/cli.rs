@@ -251,6 +251,9 @@ fn the_exit_code_tells_error_usage_and_fall_apart() {
         .split_once("Paper's controller:")
         .expect("a heading of its own");
     assert!(options.contains("--fail-on-fall") && options.contains("--duration"));
+    for part in ["[,yaw°]", "capsule:R,L", "plane:nx,ny,nz", "-CLIP is added"] {
+        assert!(options.contains(part), "{part}: {options}");
+    }
     assert!(paper.contains("--metric") && !paper.contains("--duration"));
     for help in [&["--help"][..], &["run", "--help"]] {
         let text = succeed(help);
@@ -258,6 +261,166 @@ fn the_exit_code_tells_error_usage_and_fall_apart() {
             assert!(text.contains(line), "sinew {help:?}: {text}");
         }
     }
+}
+
+#[test]
+fn wrong_arguments_are_refused_by_their_names_before_anything_is_done() {
+    let dir = Scratch::new("usage");
+    let bvh = dir.file("idle.bvh", &standing(0.01, false, "0.033333", 30));
+    let (folder, out) = (dir.path(""), dir.path("out.csv"));
+    let (survey, missing) = (dir.path("survey.json"), dir.path("none.bvh"));
+    let nobody = "127.0.0.1:1";
+    let two_hands = "a load held in two hands cannot be rehearsed";
+    let refused: [(&[&str], &str); 25] = [
+        (
+            &["run", "builtin:lif"],
+            "there is no built-in motion \"lif\"",
+        ),
+        (&["run", &folder], "is a folder; name its files"),
+        (
+            &["run", "builtin:idle", &bvh, "--out", &out],
+            "two clips are called idle",
+        ),
+        (
+            &["run", "builtin:idle", "--report", "no/such/r.json"],
+            "there is no folder no/such",
+        ),
+        (
+            &["run", "builtin:idle", "--substeps", "0"],
+            "--substeps 0: outside 1…16",
+        ),
+        (
+            &["run", "builtin:idle", "--age", "3"],
+            "--age 3: outside 6…90",
+        ),
+        (
+            &["run", "builtin:idle", "--tempo", "0"],
+            "--tempo 0: outside 0.5…2",
+        ),
+        (&["run", &bvh, "--tempo", "3"], "--tempo 3: outside 0.5…2"),
+        (
+            &["lint", "builtin:idle", "--tempo", "-1"],
+            "--tempo -1: outside 0.5…2",
+        ),
+        (
+            &["run", "builtin:idle", "--load", "-3@r_hand"],
+            "mass (kg): -3 is outside 0…500",
+        ),
+        (
+            &["run", "builtin:idle", "--grip", "-1"],
+            "--grip -1: outside 0…",
+        ),
+        (
+            &["rehearse", "builtin:wave", "--out", "no/such/o.bvh"],
+            "there is no folder no/such",
+        ),
+        (
+            &["rehearse", "builtin:wave", "--load", "3@r_hand+auto"],
+            two_hands,
+        ),
+        (
+            &["rehearse", "builtin:wave", "--load", "3@r_hand+l_hand"],
+            two_hands,
+        ),
+        (
+            &["rehearse", "builtin:wave", "--load", "3@r_hand@1..2"],
+            "--load 3@r_hand@1..2: ",
+        ),
+        (
+            &["survey", &missing, "--out", &survey],
+            "there is no such file or folder",
+        ),
+        (
+            &["survey", "builtin:lif", "--out", &survey],
+            "there is no built-in motion",
+        ),
+        (
+            &[
+                "survey",
+                "builtin:idle",
+                "--out",
+                &survey,
+                "--noise",
+                "-1mm,1deg",
+            ],
+            "noise -1 mm",
+        ),
+        (
+            &[
+                "survey",
+                "builtin:idle",
+                "--out",
+                &survey,
+                "--follow",
+                "assisted",
+                "--load",
+                "3@r_hand+always",
+            ],
+            two_hands,
+        ),
+        (&["push", nobody, "builtin:walk"], "push takes BVH files"),
+        (&["push", nobody, &folder], "is a folder"),
+        (
+            &["push", nobody, &bvh, "--playout-delay-ms", "-5"],
+            "--playout-delay-ms -5: outside",
+        ),
+        (
+            &["push", nobody, &bvh, "--duration", "-1"],
+            "--duration -1 s: must be positive",
+        ),
+        (
+            &["watch", nobody, "demo", "--count", "0"],
+            "--count 0: must be at least 1",
+        ),
+        (
+            &["watch", nobody, "demo", "--every", "0"],
+            "--every 0: outside 1…1000",
+        ),
+    ];
+    for (args, says) in refused {
+        let done = sinew(args);
+        let said = stderr(&done);
+        assert_eq!(done.status.code(), Some(USAGE), "sinew {args:?}: {said}");
+        assert!(said.contains(says), "sinew {args:?}: {said}");
+    }
+    let files = std::fs::read_dir(&dir.0).expect("the directory");
+    assert_eq!(files.count(), 1, "nothing was written");
+    // Plain tracking may have any load.
+    let strict = [
+        "rehearse",
+        "builtin:idle",
+        "--follow",
+        "strict",
+        "--load",
+        "1@r_hand+auto",
+    ];
+    succeed(&strict);
+}
+
+#[test]
+fn a_secret_that_is_not_there_can_be_made() {
+    let dir = Scratch::new("token");
+    let key = dir.path("t.key");
+    let token = ["token", "--key", &key, "--for", "ada"];
+    let out = sinew(&token);
+    assert_eq!(out.status.code(), Some(1));
+    let said = stderr(&out);
+    assert!(said.contains("`--new-key` makes one"), "{said}");
+    assert!(succeed(&[&token[..], &["--new-key"]].concat()).contains('.'));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_survey_of_one_clip_that_cannot_be_read_says_so_once() {
+    let dir = Scratch::new("unreadable");
+    let out = dir.path("survey.json");
+    // There is nothing at the beginning of the memory of a process.
+    let text = succeed(&["survey", "/proc/self/mem", "--out", &out]);
+    assert!(
+        text.contains("1 clip, 1 of them could not be read"),
+        "{text}"
+    );
+    assert_eq!(text.matches("cannot be read").count(), 1, "{text}");
 }
 
 #[test]
@@ -412,6 +575,10 @@ fn files_and_pipes_get_no_escape_codes() {
     let mut log = String::new();
     lines.read_to_string(&mut log).expect("the log");
     assert!(log.contains("setting listen"), "{log}");
+    assert!(
+        !log.contains("setting max_worlds"),
+        "defaults are not logged: {log}"
+    );
     assert!(!log.contains('\x1b'), "{log:?}");
 }
 

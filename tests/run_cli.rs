@@ -190,6 +190,48 @@ fn another_clip_follows_when_it_is_asked_for() {
 }
 
 #[test]
+fn every_clip_is_followed_by_its_own_forecast_whatever_runs_beside_it() {
+    let clips = ["builtin:idle"; 8];
+    let options = ["--duration", "0.1", "--threads", "8"];
+    let text = succeed(&[&["run"][..], &clips, &options].concat());
+    let rows: Vec<&str> = text.lines().skip(2).take(2 * clips.len()).collect();
+    for two in rows.chunks(2) {
+        let in_order = two[0].starts_with("idle") && two[1].contains("forecast: ");
+        assert!(in_order, "{text}");
+    }
+}
+
+#[test]
+fn what_has_no_effect_is_said() {
+    let run = |options: &[&str]| {
+        let out = sinew(
+            &[
+                &["run", "builtin:idle", "--duration", "0.1", "--json"],
+                options,
+            ]
+            .concat(),
+        );
+        assert!(out.status.success(), "{options:?}");
+        String::from_utf8(out.stderr).expect("UTF-8")
+    };
+    assert_eq!(run(&["--push", "1@chest@0.05:1,0,0"]), "");
+    let said = run(&[
+        "--controller",
+        "paper",
+        "--max-help",
+        "0.1",
+        "--push",
+        "1@chest@99:1,0,0",
+    ]);
+    for says in [
+        "warning: --max-help has no effect",
+        "warning: idle: --push at 99 s has no effect: the run ends at 0.10 s",
+    ] {
+        assert!(said.contains(says), "{said}");
+    }
+}
+
+#[test]
 fn files_have_the_promised_content() {
     let dir = Scratch::new("files");
     let (csv, bvh) = (dir.file("out.csv"), dir.file("out.bvh"));
@@ -368,12 +410,12 @@ fn wrong_arguments_are_told_apart() {
         ),
         (
             &["run", "builtin:idle", "--rate", "5"],
-            "rate_hz is 5, expected 10…1000",
+            "--rate 5: outside 10…1000",
         ),
         (&["run", "builtin:idle", "--height", "9"], "height"),
         (
             &["run", "builtin:idle", "--duration", "-1"],
-            "unexpected argument '-1'",
+            "--duration -1 s: outside 0…86400",
         ),
         (
             &["run", "builtin:idle", "--duration", "nan"],

@@ -1,6 +1,6 @@
 //! The `sinew` command: parses arguments and calls the library.
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 use sinew::cli::{self, exit};
 use std::process::ExitCode;
 
@@ -57,8 +57,18 @@ enum Command {
     Completions(cli::completions::CompletionsArgs),
 }
 
+/// A negative number after an option is its value, not an option that there is not: what has a range then says it.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let allow = |arg: Arg| match arg.is_positional() || !arg.get_action().takes_values() {
+        true => arg,
+        false => arg.allow_negative_numbers(true),
+    };
+    command.mut_subcommands(|c| c.mut_args(allow))
+}
+
 fn main() -> ExitCode {
-    let arguments = match Arguments::parse() {
+    let given = with_negative_numbers(Arguments::command()).get_matches();
+    let arguments = match Arguments::from_arg_matches(&given).unwrap_or_else(|e| e.exit()) {
         // Settings from the environment count as well.
         Arguments { command: None } => Arguments::parse_from(["sinew", "serve"]),
         given => given,

@@ -22,7 +22,7 @@ pub use credentials::CredentialArgs;
 pub use load::LoadSpec;
 pub use obstacle::ObstacleSpec;
 pub use push::PushSpec;
-pub use recording::{FileArgs, RecordingArgs, UpArg};
+pub use recording::{FileArgs, RecordingArgs, UpArg, check_tempo};
 pub use spec::SpecError;
 pub use strength_file::StrengthFile;
 pub use then::ThenSpec;

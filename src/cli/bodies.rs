@@ -1,7 +1,7 @@
 //! `sinew bodies`: the named bodies, or degrees of freedom, limits and strength of one.
 
 use super::args::{BodyArgs, describe};
-use super::exit::Usage;
+use super::exit::within;
 use super::terminal::print;
 use crate::sim::body::names::{NAMED_BODIES, sex_name};
 use crate::sim::body::topology::{DOF_NAMES, SEGMENT_NAMES};
@@ -41,9 +41,7 @@ pub fn run(args: &BodiesArgs) -> Result<()> {
     }
     let body = args.body.build()?;
     let percentile = args.percentile.unwrap_or(50.0);
-    if !(5.0..=95.0).contains(&percentile) {
-        return Err(Usage(format!("--percentile {percentile}: outside 5…95")).into());
-    }
+    within("--percentile", percentile, [5.0, 95.0])?;
     let strength = Strength::at_percentile(&body, percentile);
     if args.json {
         print_json(&as_json(&body, &strength))

@@ -1,6 +1,7 @@
 //! `sinew config`: whether a server could start with its settings, and what they are.
 
 use super::exit::usage;
+use super::number::counted;
 use super::serve;
 use super::terminal::{note, print, print_line};
 use crate::server::config::check::problems;
@@ -44,8 +45,7 @@ fn check(args: &serve::Args) -> anyhow::Result<()> {
     }
     match problems.len() {
         0 => print_line("the settings can be used"),
-        1 => Err(anyhow::anyhow!("1 problem")),
-        n => Err(anyhow::anyhow!("{n} problems")),
+        n => Err(anyhow::anyhow!(counted(n, "problem"))),
     }
 }
 

@@ -1,8 +1,8 @@
 //! `sinew convert`: writes the prepared motion, the reference that the figure tracks.
 
-use super::args::{BodyArgs, RecordingArgs};
-use super::number::hertz;
-use super::output::{extension, write};
+use super::args::{BodyArgs, RecordingArgs, check_tempo};
+use super::number::{counted, hertz};
+use super::output::{check_folder, extension, write};
 use super::source::{Source, load, warn};
 use super::terminal::print_line;
 use crate::evaluate::table::{header, row};
@@ -41,6 +41,8 @@ pub struct ConvertArgs {
 /// Bad names, unreadable or malformed files, skeletons that cannot be mapped.
 pub fn run(args: &ConvertArgs) -> Result<()> {
     let format = extension("convert", &args.to, &["bvh", "csv", "json"])?;
+    check_folder("convert", Some(&args.to))?;
+    check_tempo(args.recording.tempo)?;
     let body = args.body.build()?;
     let ordinary = args.recording.options();
     let options = RetargetOptions {
@@ -59,9 +61,9 @@ pub fn run(args: &ConvertArgs) -> Result<()> {
     write(&args.to, text)?;
     warn(&source);
     print_line(&format!(
-        "{}: {} samples at {}, written to {}",
+        "{}: {} at {}, written to {}",
         source.name,
-        source.clip.len(),
+        counted(source.clip.len(), "sample"),
         hertz(source.clip.rate_hz()),
         args.to.display()
     ))

@@ -56,6 +56,18 @@ pub fn usage(error: impl Into<anyhow::Error>) -> anyhow::Error {
     Usage(format!("{:#}", error.into())).into()
 }
 
+/// Checks the value of a flag; NaN is outside.
+///
+/// # Errors
+/// [`Usage`]: it is outside; names the flag.
+pub fn within(flag: &str, value: f64, [low, high]: [f64; 2]) -> anyhow::Result<()> {
+    if (low..=high).contains(&value) {
+        Ok(())
+    } else {
+        Err(Usage(format!("{flag} {value}: outside {low}…{high}")).into())
+    }
+}
+
 /// The exit code of a finished command; an error is written to standard error.
 pub fn code(done: anyhow::Result<Outcome>) -> Code {
     match done {

@@ -150,6 +150,11 @@ async fn revoke(client: &Client, world: &str, who: &str) -> anyhow::Result<()> {
 }
 
 fn show(grant: &pb::Grant) -> anyhow::Result<()> {
+    print_line(&line(grant))
+}
+
+/// A grant in a line.
+fn line(grant: &pb::Grant) -> String {
     let roles: Vec<String> = grant
         .roles()
         .map(|r| r.as_str_name().trim_start_matches("ROLE_").to_lowercase())
@@ -163,5 +168,39 @@ fn show(grant: &pb::Grant) -> anyhow::Result<()> {
     if !grant.figure_ids.is_empty() {
         line += &format!(" of {}", grant.figure_ids.join(", "));
     }
-    print_line(&line)
+    let bounds = grant.bounds.unwrap_or_default();
+    for (what, most, unit) in [
+        ("forces", bounds.max_force_newtons, "N"),
+        ("loads", bounds.max_mass_kg, "kg"),
+        ("perturbations", bounds.max_rate_hz, "per s"),
+    ] {
+        if let Some(most) = most {
+            line += &format!(", {what} up to {most} {unit}");
+        }
+    }
+    line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grants_are_shown_with_their_bounds() {
+        let mut grant = pb::Grant {
+            name: "worlds/stage/grants/1".into(),
+            principal: "user:ada".into(),
+            roles: vec![pb::Role::Perturber.into()],
+            ..Default::default()
+        };
+        let plain = "worlds/stage/grants/1: user:ada is perturber";
+        assert_eq!(line(&grant), plain);
+        grant.bounds = Some(pb::PerturbationBounds {
+            max_force_newtons: Some(50.0),
+            max_rate_hz: Some(0.5),
+            max_mass_kg: None,
+        });
+        let bounded = format!("{plain}, forces up to 50 N, perturbations up to 0.5 per s");
+        assert_eq!(line(&grant), bounded);
+    }
 }

@@ -1,7 +1,7 @@
 //! `sinew lint`: what retargeting finds in a recording, estimates and changes.
 
-use super::args::{BodyArgs, RecordingArgs};
-use super::number::{fixed, hertz, metres, rounded, seconds};
+use super::args::{BodyArgs, RecordingArgs, check_tempo};
+use super::number::{counted, fixed, hertz, metres, rounded, seconds};
 use super::source::{Source, load};
 use super::terminal::{print, print_line};
 use crate::sim::body::Body;
@@ -34,6 +34,7 @@ pub struct LintArgs {
 /// # Errors
 /// Unreadable or malformed files, and skeletons that cannot be mapped.
 pub fn run(args: &LintArgs) -> Result<()> {
+    check_tempo(args.recording.tempo)?;
     let body = args.body.build()?;
     let options = args.recording.options();
     let mut all = Vec::new();
@@ -55,10 +56,10 @@ pub fn run(args: &LintArgs) -> Result<()> {
             }));
         } else {
             let mut text = format!(
-                "{}: {}, {} samples at {}\n",
+                "{}: {}, {} at {}\n",
                 source.name,
                 seconds(clip.duration()),
-                clip.len(),
+                counted(clip.len(), "sample"),
                 hertz(clip.rate_hz())
             );
             text += &match &source.retarget {
@@ -267,8 +268,9 @@ fn reading(r: &RetargetReport) -> Vec<Line> {
     let mut lines = vec![(
         "skeleton",
         format!(
-            "{bones} bones mapped {how} to {} segments{swapped}",
-            r.skeleton.mapped.len()
+            "{} mapped {how} to {}{swapped}",
+            counted(bones, "bone"),
+            counted(r.skeleton.mapped.len(), "segment")
         ),
     )];
     if !r.skeleton.missing.is_empty() {
@@ -292,10 +294,10 @@ fn reading(r: &RetargetReport) -> Vec<Line> {
     lines.push((
         "rate",
         format!(
-            "recorded at {}, resampled to {}, {} frames skipped",
+            "recorded at {}, resampled to {}, {} skipped",
             hertz(r.frames.source_rate_hz),
             hertz(r.frames.rate_hz),
-            r.frames.skipped_frames
+            counted(r.frames.skipped_frames, "frame")
         ),
     ));
     lines.push((
@@ -380,8 +382,10 @@ fn oddities(r: &RetargetReport) -> Vec<Line> {
         lines.push((
             "bridged",
             format!(
-                "{}: {} frames interpolated from frame {}",
-                b.bone, b.count, b.first
+                "{}: {} interpolated from frame {}",
+                b.bone,
+                counted(b.count, "frame"),
+                b.first
             ),
         ));
     }

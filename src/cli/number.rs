@@ -1,6 +1,8 @@
 //! Numbers as people read them: `120 Hz`, not `119.99999 Hz`; `0.0564 m`, not `0.056444444 m`. JSON and CSV keep every
 //! digit.
 
+use std::fmt::Display;
+
 /// Significant digits of measured quantities: lengths, times, masses.
 const MEASURED: usize = 3;
 /// Significant digits of rates: 59.94 and 29.97 Hz differ from 60 and 30 Hz.
@@ -32,6 +34,12 @@ pub fn fixed(value: f64, decimals: usize) -> String {
         Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_owned(),
         _ => text,
     }
+}
+
+/// A number of things: `1 frame`, `2 frames`.
+pub fn counted<N: Display + PartialEq + From<u8>>(n: N, thing: &str) -> String {
+    let plural = if n == N::from(1) { "" } else { "s" };
+    format!("{n} {thing}{plural}")
 }
 
 /// A rate with its unit.
@@ -81,5 +89,7 @@ mod tests {
         assert_eq!(metres(0.056_444_444), "0.0564 m");
         assert_eq!(kilograms(75.0), "75 kg");
         assert_eq!(seconds(2.349_9), "2.35 s");
+        let frames = [0, 1, 2].map(|n| counted(n, "frame"));
+        assert_eq!(frames, ["0 frames", "1 frame", "2 frames"]);
     }
 }

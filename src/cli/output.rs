@@ -30,6 +30,43 @@ pub fn extension(flag: &str, path: &Path, accepted: &[&'static str]) -> Result<&
     }
 }
 
+/// Checks that the folder of a file that is to be written is there, before work whose result would be lost.
+///
+/// # Errors
+/// It is not; names the flag and the folder.
+pub fn check_folder(flag: &str, path: Option<&Path>) -> Result<()> {
+    let Some(path) = path else { return Ok(()) };
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
+            let text = format!(
+                "{flag} {}: there is no folder {}; make it first",
+                path.display(),
+                folder.display()
+            );
+            Err(Usage(text).into())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Checks that the files of several clips get names of their own ([`for_clip`]).
+///
+/// # Errors
+/// Two of these clips have one name.
+pub fn check_names(mut clips: Vec<String>) -> Result<()> {
+    clips.sort_unstable();
+    match clips.windows(2).find(|two| two[0] == two[1]) {
+        Some(two) => {
+            let text = format!(
+                "two clips are called {}: their files would have one name; rename one, or run them one by one",
+                two[0]
+            );
+            Err(Usage(text).into())
+        }
+        None => Ok(()),
+    }
+}
+
 /// `path` itself for one clip; with the clip's name before the extension (`out-walk.csv`) for several.
 pub fn for_clip(path: &Path, clip: &str, several: bool) -> PathBuf {
     if !several {
@@ -67,6 +104,31 @@ mod tests {
         assert_eq!(
             for_clip(Path::new("a/out.csv"), "walk", false),
             Path::new("a/out.csv")
+        );
+    }
+
+    #[test]
+    fn files_that_would_replace_each_other_are_refused() {
+        let names = |all: &[&str]| check_names(all.iter().map(ToString::to_string).collect());
+        names(&["walk", "idle"]).expect("two names");
+        let error = names(&["walk", "idle", "walk"]).expect_err("one name");
+        assert!(error.is::<Usage>());
+        assert!(
+            error.to_string().contains("two clips are called walk"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_folder_that_is_not_there_is_named() {
+        let check = |path: &str| check_folder("--out", Some(Path::new(path)));
+        check("out.csv").expect("this folder");
+        check_folder("--out", None).expect("no file");
+        let error = check("no/such/out.csv").expect_err("no folder");
+        assert!(error.is::<Usage>());
+        assert_eq!(
+            error.to_string(),
+            "--out no/such/out.csv: there is no folder no/such; make it first"
         );
     }
 

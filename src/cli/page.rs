@@ -1,5 +1,6 @@
 //! A page of results in Markdown, with its tables, plots and strips.
 
+use super::number::counted;
 use super::output::write;
 use super::terminal::print_line;
 use crate::evaluate::experiments::Record;
@@ -139,10 +140,10 @@ impl Page {
 /// What the folder holds in all.
 fn size(folder: &Path) -> Result<String> {
     let mut bytes = 0;
-    let mut files = 0;
+    let mut files = 0u64;
     for entry in std::fs::read_dir(folder).context("the folder cannot be listed")? {
         bytes += entry?.metadata()?.len();
         files += 1;
     }
-    Ok(format!("{files} files, {} kB", bytes / 1000))
+    Ok(format!("{}, {} kB", counted(files, "file"), bytes / 1000))
 }

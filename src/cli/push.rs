@@ -1,8 +1,9 @@
 //! `sinew push`: streams a motion capture file to a server as live motion for a figure.
 
 use super::args::{BodyNameParser, CredentialArgs, FileArgs, UpArg};
-use super::exit::Usage;
-use super::number::hertz;
+use super::exit::{Usage, within};
+use super::number::{counted, hertz};
+use super::source::BUILTIN;
 use super::terminal::{note, print_line};
 use super::{explain, world_resource};
 use crate::client::{Client, Driver};
@@ -12,6 +13,7 @@ use crate::sim::body::{Body, Profile};
 use crate::sim::math::Quat;
 use crate::sim::motion::{Bvh, Clip, PlanarTransform};
 use crate::sim::plan::cycle;
+use crate::sim::plan::stream::WINDOW;
 use crate::sim::retarget::{Preparation, RetargetOptions};
 use crate::wire::convert::{self, motion::figure_motion};
 use crate::wire::frame::values;
@@ -132,10 +134,29 @@ fn check(args: &Args) -> anyhow::Result<()> {
     for (name, value, high) in [
         ("--loss", args.loss, 0.9),
         ("--jitter-ms", args.jitter_ms, 2000.0),
+        (
+            "--playout-delay-ms",
+            args.playout_delay_ms.unwrap_or(0.0),
+            2000.0,
+        ),
+        ("--max-help", args.max_help, 2.0),
     ] {
-        if !(0.0..=high).contains(&value) {
-            return Err(Usage(format!("{name} {value}: outside 0…{high}")).into());
-        }
+        within(name, value, [0.0, high])?;
+    }
+    let (window, least, most) = (args.window_ms, 1e3 * WINDOW.0, 1e3 * WINDOW.1);
+    if window != 0.0 && !(least..=most).contains(&window) {
+        let text = format!("--window-ms {window}: must be 0 or within {least}…{most}");
+        return Err(Usage(text).into());
+    }
+    let clip = args.clip.to_string_lossy();
+    if let Some(name) = clip.strip_prefix(BUILTIN) {
+        let text = format!(
+            "push takes BVH files, not {clip}: `sinew convert {clip} {name}.bvh` writes one"
+        );
+        return Err(Usage(text).into());
+    }
+    if args.clip.is_dir() {
+        return Err(Usage(format!("{clip} is a folder; name one of its files")).into());
     }
     match args.duration {
         Some(d) if !(d > 0.0 && d.is_finite()) => {
@@ -208,8 +229,8 @@ async fn push(args: &Args) -> anyhow::Result<()> {
         .await
         .map_err(|e| explain(&e))?;
     print_line(&format!(
-        "streaming {path} ({} frames at {}, {:.1} s) to {name}",
-        clip.len(),
+        "streaming {path} ({} at {}, {:.1} s) to {name}",
+        counted(clip.len(), "frame"),
         hertz(clip.rate_hz()),
         clip.duration()
     ))?;
@@ -383,12 +404,12 @@ fn describe(f: &pb::DriveFeedback) -> String {
     let used = g.present_count + g.interpolated_count;
     format!(
         "playout delay {:.0} ms (window {:.0} ms), jitter {:.0} ms; ticks: {used} with motion, {} extrapolated, {} \
-         held; {} late frames",
+         held; {}",
         g.playout_delay_ms,
         g.preparation_window_ms,
         g.jitter_ms,
         g.extrapolated_count,
         g.held_count,
-        g.late_count
+        counted(g.late_count, "late frame")
     )
 }

@@ -1,9 +1,9 @@
 //! `sinew rehearse`: finds out what has to be added to a recording, or how much help it takes, so that a body does it.
 
 use super::args::{BodyArgs, FileArgs, LoadSpec};
-use super::exit::usage;
-use super::number::seconds;
-use super::output::{extension, write};
+use super::exit::{usage, within};
+use super::number::{counted, seconds};
+use super::output::{check_folder, extension, write};
 use super::run::ViewArg;
 use super::source::{load, warn};
 use super::terminal::print;
@@ -21,7 +21,7 @@ use crate::sim::rehearsal::Progress;
 use crate::sim::retarget::{Preparation, RetargetOptions};
 use crate::sim::strength::Strength;
 use crate::sim::world::WorldParams;
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -67,12 +67,7 @@ impl HelpArgs {
     /// # Errors
     /// A share out of range.
     pub fn check(&self) -> Result<()> {
-        let share = self.max_help;
-        ensure!(
-            (0.0..=2.0).contains(&share),
-            "--max-help {share}: outside 0…2"
-        );
-        Ok(())
+        within("--max-help", self.max_help, [0.0, 2.0])
     }
 }
 
@@ -102,7 +97,7 @@ pub struct RehearseArgs {
     #[arg(long, value_name = "P", default_value_t = 50.0)]
     pub percentile: f64,
     /// Load held all the time by one segment, for example 3@r_hand (repeatable).
-    #[arg(long, value_name = "KG@SEGMENT")]
+    #[arg(long, value_name = "KG@SEGMENT", allow_hyphen_values = true)]
     pub load: Vec<LoadSpec>,
     /// Most time for the search, s: the best that was found until then is the result, which depends on the machine
     /// then. Otherwise the search ends by itself, and the result is the same everywhere.
@@ -205,7 +200,7 @@ pub fn run(args: &RehearseArgs) -> Result<()> {
 
 fn check(args: &RehearseArgs) -> Result<()> {
     args.help.check()?;
-    for (name, value, [low, high]) in [
+    for (name, value, range) in [
         ("--strength", args.strength, [0.01, 100.0]),
         ("--percentile", args.percentile, [5.0, 95.0]),
         ("--budget-s", args.budget_s.unwrap_or(1.0), [0.0, 1e6]),
@@ -213,10 +208,7 @@ fn check(args: &RehearseArgs) -> Result<()> {
         ("--threads", args.threads.unwrap_or(1) as f64, [1.0, 64.0]),
         ("--strip-frames", args.strip_frames as f64, [1.0, 64.0]),
     ] {
-        ensure!(
-            (low..=high).contains(&value),
-            "{name} {value}: outside {low}…{high}"
-        );
+        within(name, value, range)?;
     }
     if let Some(path) = &args.strip {
         extension("--strip", path, &["png"])?;
@@ -224,7 +216,12 @@ fn check(args: &RehearseArgs) -> Result<()> {
     if let Some(path) = &args.out {
         extension("--out", path, &["bvh"])?;
     }
-    Ok(())
+    check_folder("--strip", args.strip.as_deref())?;
+    check_folder("--out", args.out.as_deref())?;
+    if args.follow == FollowArg::Strict {
+        return Ok(());
+    }
+    args.load.iter().try_for_each(LoadSpec::check_rehearsable)
 }
 
 fn cores() -> usize {
@@ -322,7 +319,7 @@ fn show(bar: &ProgressBar, p: &Progress) {
     let helps = if p.helps { ", with help" } else { "" };
     let polished = match p.polished {
         0 => String::new(),
-        n => format!(", polished {n} times"),
+        n => format!(", polished {}", counted(n, "time")),
     };
     bar.set_message(format!(
         "round {}{polished}{helps}, {} ticks",
@@ -442,7 +439,9 @@ fn describe(r: &RehearsalReport, took: Option<f64>) -> String {
         )
     });
     format!(
-        "  {:<14} {end}; {} rounds, {} ticks{cost}\n",
-        "rehearsal", r.rounds, r.ticks
+        "  {:<14} {end}; {}, {}{cost}\n",
+        "rehearsal",
+        counted(r.rounds, "round"),
+        counted(r.ticks, "tick")
     )
 }

@@ -5,14 +5,15 @@ mod document;
 mod forecast;
 mod strip;
 mod summary;
+mod unused;
 
 use super::args::{
     BodyArgs, ConstraintSpec, ControllerArg, FileArgs, LoadSpec, ObstacleSpec, PaperOptions,
-    PresetArg, PushSpec, StepperArg, StrengthFile, ThenSpec,
+    PresetArg, PushSpec, StepperArg, StrengthFile, ThenSpec, check_tempo,
 };
-use super::exit::{Outcome, Usage, usage};
-use super::output::{extension, for_clip, write};
-use super::source::{Source, load, warn};
+use super::exit::{Outcome, Usage, usage, within};
+use super::output::{check_folder, check_names, extension, for_clip, write};
+use super::source::{self, Source, load, warn};
 use super::terminal::print;
 use crate::evaluate::strip::{Frame, Thing, evenly_spaced};
 use crate::evaluate::{Metrics, RunEvent, RunReport, Tick};
@@ -24,7 +25,8 @@ use crate::sim::plan::cycle;
 use crate::sim::retarget::{Preparation, RetargetOptions};
 use crate::sim::strength::fatigue::MAX_TIME_SCALE;
 use crate::sim::world::{
-    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, World, WorldParams,
+    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, World, WorldError,
+    WorldParams,
 };
 use anyhow::{Context, Result};
 use csv::Csv;
@@ -84,7 +86,11 @@ pub struct RunArgs {
     pub max_help: f64,
     /// Load held by one or two segments; for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable). With
     /// 3@r_hand+auto the other hand helps while one arm is too weak for it; with 3@r_hand+always as long as it is free.
-    #[arg(long, value_name = "KG@SEGMENT[+SEGMENT|+auto|+always][@T0..T1]")]
+    #[arg(
+        long,
+        value_name = "KG@SEGMENT[+SEGMENT|+auto|+always][@T0..T1]",
+        allow_hyphen_values = true
+    )]
     pub load: Vec<LoadSpec>,
     /// Grip strength of one hand, N: a load that needs more slips; unlimited unless given.
     #[arg(long, value_name = "N", default_value_t = f64::INFINITY)]
@@ -102,10 +108,11 @@ pub struct RunArgs {
     )]
     pub constrain: Vec<ConstraintSpec>,
     /// Obstacle in contact with the figure (repeatable): a seat box:0.4,0.5,0.45@-0.3,0,0.225, a thrown ball
-    /// sphere:0.11@2,0,1.2:5kg:-5,0,1, a wall plane:-1,0,0@0.6,0,0.
+    /// sphere:0.11@2,0,1.2:5kg:-5,0,1, a wall plane:-1,0,0@0.6,0,0. SHAPE:SIZE is box:LX,LY,LZ (edges, m), sphere:R,
+    /// capsule:R,L (upright; L between the centres of its ends) or plane:nx,ny,nz (normal).
     #[arg(
         long,
-        value_name = "SHAPE:SIZE@x,y,z[:KGkg][:vx,vy,vz]",
+        value_name = "SHAPE:SIZE@x,y,z[,yaw°][:KGkg][:vx,vy,vz]",
         allow_hyphen_values = true
     )]
     pub obstacle: Vec<ObstacleSpec>,
@@ -163,10 +170,11 @@ pub struct RunArgs {
     /// Writes the report as JSON (a list for several clips).
     #[arg(long, value_name = "FILE.json")]
     pub report: Option<PathBuf>,
-    /// Writes the simulated motion: BVH, or CSV with angles, torques and torque limits.
+    /// Writes the simulated motion: BVH, or CSV with angles, torques and torque limits. With several clips, -CLIP is
+    /// added to the name: out-walk.bvh.
     #[arg(long, value_name = "FILE.bvh|.csv")]
     pub out: Option<PathBuf>,
-    /// Draws evenly spaced frames side by side.
+    /// Draws evenly spaced frames side by side. With several clips, -CLIP is added to the name: strip-walk.png.
     #[arg(long, value_name = "FILE.svg|.png")]
     pub strip: Option<PathBuf>,
     /// Number of frames in the strip.
@@ -209,6 +217,16 @@ impl RunArgs {
     /// Time of the clip at which the run begins, s.
     fn first(&self, clip: &Clip) -> f64 {
         if self.standing { -clip.lead_in() } else { 0.0 }
+    }
+
+    /// Duration of the run of a clip, s.
+    fn seconds(&self, clip: &Clip) -> f64 {
+        let ends = if self.standing {
+            clip.lead_in() + clip.lead_out()
+        } else {
+            0.0
+        };
+        self.duration.unwrap_or_else(|| clip.duration() + ends)
     }
 
     /// Strength by the options, or by the file.
@@ -263,7 +281,7 @@ pub fn run(args: &RunArgs) -> Result<Outcome> {
         args,
     };
     // Bad parameters are worth knowing before clips are read.
-    World::new(scenario.params).map_err(usage)?;
+    World::new(scenario.params).map_err(refused)?;
     let options = args.file.apply(RetargetOptions {
         tempo: args.tempo,
         preparation: Preparation::walking(!args.keep_runs),
@@ -280,6 +298,7 @@ pub fn run(args: &RunArgs) -> Result<Outcome> {
         .map(|spec| load(spec, &scenario.body, &options))
         .collect::<Result<Vec<_>>>()?;
     sources.iter().for_each(warn);
+    unused::warn(args, &sources);
     let documents = run_all(&scenario, &sources)?;
     let text = match documents.as_slice() {
         [one] => serde_json::to_string_pretty(one),
@@ -307,10 +326,31 @@ pub fn run(args: &RunArgs) -> Result<Outcome> {
     Ok(outcome)
 }
 
+/// What is wrong with the parameters of the world, by the flag that is to be changed.
+fn refused(error: WorldError) -> anyhow::Error {
+    match error {
+        WorldError::Range {
+            field: field @ ("rate_hz" | "substeps"),
+            value,
+            lower,
+            upper,
+        } => {
+            let flag = if field == "substeps" {
+                "--substeps"
+            } else {
+                "--rate"
+            };
+            Usage(format!("{flag} {value}: outside {lower}…{upper}")).into()
+        }
+        other => usage(other),
+    }
+}
+
 /// Checks what clap cannot.
 fn check(args: &RunArgs) -> Result<()> {
     args.paper.params().map_err(usage)?;
-    for (name, value, [low, high]) in [
+    check_tempo(args.tempo)?;
+    for (name, value, range) in [
         ("--strength", args.strength, [0.01, 100.0]),
         ("--percentile", args.percentile, [5.0, 95.0]),
         ("--effort", args.effort, [0.0, 1.0]),
@@ -320,9 +360,7 @@ fn check(args: &RunArgs) -> Result<()> {
         ("--max-help", args.max_help, [0.0, 2.0]),
         ("--push-duration", args.push_duration, [1e-3, 10.0]),
     ] {
-        if !(low..=high).contains(&value) {
-            return Err(Usage(format!("{name} {value}: outside {low}…{high}")).into());
-        }
+        within(name, value, range)?;
     }
     if let Some(duration) = args.duration
         && !(duration > 0.0 && duration <= MAX_DURATION)
@@ -343,6 +381,16 @@ fn check(args: &RunArgs) -> Result<()> {
     }
     if let Some(path) = &args.strip {
         extension("--strip", path, &["svg", "png"])?;
+    }
+    for (flag, path) in [
+        ("--report", &args.report),
+        ("--out", &args.out),
+        ("--strip", &args.strip),
+    ] {
+        check_folder(flag, path.as_deref())?;
+    }
+    if args.out.is_some() || args.strip.is_some() {
+        check_names(args.clips.iter().map(|c| source::name(c)).collect())?;
     }
     Ok(())
 }
@@ -394,13 +442,7 @@ fn run_one(
 ) -> Result<serde_json::Value> {
     let args = scenario.args;
     let clip = &source.clip;
-    let ends = if args.standing {
-        clip.lead_in() + clip.lead_out()
-    } else {
-        0.0
-    };
-    let duration = args.duration.unwrap_or_else(|| clip.duration() + ends);
-    let ticks = ((duration * args.rate_hz()).round() as u64).max(1);
+    let ticks = ((args.seconds(clip) * args.rate_hz()).round() as u64).max(1);
     let mut csv = None;
     let mut postures = None;
     if let Some(path) = &args.out {
@@ -430,9 +472,8 @@ fn run_one(
         Ok(())
     })?;
     bar.finish_and_clear();
-    table.line(&source.name, &report)?;
     let forecast = forecast::of(scenario, played);
-    table.print(&forecast::line(&forecast))?;
+    table.rows(&source.name, &report, &forecast)?;
     if let Some(csv) = csv {
         csv.finish()?;
     }

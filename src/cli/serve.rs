@@ -146,13 +146,22 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
     if let Some(log) = log {
         log();
     }
-    for (name, _, value) in config.shown() {
+    for (name, value) in changed(&config) {
         tracing::info!("setting {name} = {value}");
     }
     if !figures.is_empty() {
         tracing::info!("world `demo` created with figures {}", figures.join(", "));
     }
     serving.await?.map_err(|e| anyhow::anyhow!(e))
+}
+
+/// Settings that differ from their defaults. `sinew config show` lists all: here they would take the address off the
+/// terminal.
+fn changed(config: &Config) -> impl Iterator<Item = (&'static str, String)> {
+    let defaults = Config::default().shown();
+    let both = config.shown().into_iter().zip(defaults);
+    both.filter(|(given, default)| given != default)
+        .map(|((name, _, value), _)| (name, value))
 }
 
 /// A socket that has the address and does not accept yet.
@@ -197,6 +206,17 @@ mod tests {
     use super::*;
     use std::io::ErrorKind;
     use tokio::net::TcpStream;
+
+    #[test]
+    fn only_settings_that_differ_from_their_defaults_are_logged() {
+        assert_eq!(changed(&Config::default()).count(), 0);
+        let config = Config {
+            max_worlds: 4,
+            ..Config::default()
+        };
+        let all: Vec<_> = changed(&config).collect();
+        assert_eq!(all, [("max_worlds", "4".to_owned())]);
+    }
 
     #[tokio::test]
     async fn the_port_is_taken_at_once_and_accepts_when_somebody_answers() {

@@ -1,5 +1,6 @@
 //! Sources of motion: a BVH file or one of the built-in motions.
 
+use super::exit::Usage;
 use crate::sim::body::Body;
 use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
 use crate::sim::motion::{Bvh, Clip};
@@ -27,19 +28,35 @@ pub fn warn(source: &Source) {
 }
 
 /// Prefix of built-in motions.
-const BUILTIN: &str = "builtin:";
+pub const BUILTIN: &str = "builtin:";
+
+/// There is no built-in motion of this name.
+pub fn no_builtin(name: &str) -> Usage {
+    Usage(format!(
+        "there is no built-in motion {name:?}; the built-in motions are {}",
+        BUILTIN_NAMES.join(", ")
+    ))
+}
+
+/// Name of the clip that `spec` stands for: file stem or built-in name.
+pub fn name(spec: &str) -> String {
+    match spec.strip_prefix(BUILTIN) {
+        Some(name) => name.to_owned(),
+        None => Path::new(spec)
+            .file_stem()
+            .map_or_else(|| spec.to_owned(), |s| s.to_string_lossy().into_owned()),
+    }
+}
 
 /// Loads `spec`, `builtin:NAME` or the path of a BVH file, and fits it to `body`.
 ///
 /// # Errors
-/// Unknown name, unreadable or malformed file, or a skeleton that cannot be mapped; names the file and the place in it.
+/// Unknown name, a folder, unreadable or malformed file, or a skeleton that cannot be mapped; names the file and the
+/// place in it.
 pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source> {
     if let Some(name) = spec.strip_prefix(BUILTIN) {
         let Some(clip) = builtin(body, name) else {
-            bail!(
-                "there is no built-in motion {name:?}; the built-in motions are {}",
-                BUILTIN_NAMES.join(", ")
-            );
+            bail!(no_builtin(name));
         };
         return Ok(Source {
             name: name.to_owned(),
@@ -48,8 +65,13 @@ pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source
             retarget: None,
         });
     }
-    let path = Path::new(spec);
-    let bytes = match std::fs::read(path) {
+    if Path::new(spec).is_dir() {
+        let folder = spec.trim_end_matches('/');
+        bail!(Usage(format!(
+            "{spec} is a folder; name its files ({folder}/*.bvh) or use `sinew survey`"
+        )));
+    }
+    let bytes = match std::fs::read(spec) {
         Err(e) if e.kind() == std::io::ErrorKind::NotFound && BUILTIN_NAMES.contains(&spec) => {
             return Err(e).context(format!("cannot read {spec}; did you mean {BUILTIN}{spec}?"));
         }
@@ -58,11 +80,8 @@ pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source
     let bvh = Bvh::parse(&bytes).with_context(|| format!("{spec} is not a BVH file"))?;
     let fitted =
         retarget(&bvh, body, options).with_context(|| format!("{spec} does not fit the body"))?;
-    let name = path
-        .file_stem()
-        .map_or_else(|| spec.to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(Source {
-        name,
+        name: name(spec),
         spec: spec.to_owned(),
         clip: fitted.clip,
         retarget: Some(fitted.report),

@@ -1,8 +1,8 @@
 //! `sinew strength`: the strength that recordings need, as a file for `sinew run --strength-file` and the API.
 
 use super::args::{BodyArgs, FileArgs, LoadSpec, StrengthFile};
-use super::exit::Usage;
-use super::output::write;
+use super::exit::within;
+use super::output::{check_folder, write};
 use super::source::{load, warn};
 use super::terminal::print;
 use crate::evaluate::envelope::{Envelope, Speed};
@@ -29,7 +29,7 @@ pub struct StrengthArgs {
     #[command(flatten)]
     pub file: FileArgs,
     /// Load held throughout; for example 3@r_hand or 8@l_hand+r_hand (repeatable).
-    #[arg(long, value_name = "KG@SEGMENT[+SEGMENT]")]
+    #[arg(long, value_name = "KG@SEGMENT[+SEGMENT]", allow_hyphen_values = true)]
     pub load: Vec<LoadSpec>,
     /// Percentile of strength whose curves are scaled, 5 to 95.
     #[arg(long, value_name = "P", default_value_t = 50.0)]
@@ -57,15 +57,15 @@ pub struct StrengthArgs {
 /// # Errors
 /// Bad arguments, unreadable clips, files that cannot be written.
 pub fn run(args: &StrengthArgs) -> Result<()> {
-    for (name, value, [low, high]) in [
+    for (name, value, range) in [
         ("--percentile", args.percentile, [5.0, 95.0]),
         ("--quantile", args.quantile, [0.5, 1.0]),
         ("--margin", args.margin, [1.0, 2.0]),
     ] {
-        if !(low..=high).contains(&value) {
-            return Err(Usage(format!("{name} {value}: outside {low}…{high}")).into());
-        }
+        within(name, value, range)?;
     }
+    check_folder("--out", args.out.as_deref())?;
+    check_folder("--envelope", args.envelope.as_deref())?;
     let body = args.body.build()?;
     let options = args.file.apply(RetargetOptions {
         preparation: Preparation::walking(!args.keep_runs),

@@ -7,14 +7,16 @@ mod page;
 mod push;
 
 use super::args::{BodyArgs, LoadSpec};
-use super::output::write;
+use super::exit::within;
+use super::number::counted;
+use super::output::{check_folder, write};
 use super::rehearse::{FollowArg, HelpArgs};
 use crate::evaluate::follow::Follow;
 use crate::evaluate::survey::compare::compare;
 use crate::evaluate::survey::tables;
 use crate::sim::body::Body;
 use crate::sim::world::WorldParams;
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 use page::PageSpec;
 use push::SurveyPush;
 use std::io::Write;
@@ -29,7 +31,8 @@ const MAX_COPIES: u32 = 1000;
 /// it is run.
 ///
 /// Exit code 0: the survey is written; clips that cannot be read are rows with their error. 1: it could not be made,
-/// or `--compare` found regressions beyond noise. 2: bad arguments. docs/survey.md defines every column.
+/// or `--compare` found regressions beyond noise. 2: bad arguments, or a motion that is not there. docs/survey.md
+/// defines every column.
 #[derive(Clone, Debug, clap::Args)]
 pub struct SurveyArgs {
     /// Motions: BVH files, folders (all *.bvh in them) or builtin:NAME.
@@ -42,7 +45,12 @@ pub struct SurveyArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub copies: u32,
     /// Noise of the copies, evenly distributed up to: positions, then angles.
-    #[arg(long, value_name = "MM,DEG", default_value = "1mm,0.2deg")]
+    #[arg(
+        long,
+        value_name = "MM,DEG",
+        default_value = "1mm,0.2deg",
+        allow_hyphen_values = true
+    )]
     pub noise: NoiseSpec,
     /// Compares with an earlier survey of the same clips under the same settings.
     #[arg(long, value_name = "OLD.json")]
@@ -63,7 +71,11 @@ pub struct SurveyArgs {
     #[arg(long, value_name = "A", default_value_t = 0.0)]
     pub assist: f64,
     /// Load held by one or two segments, for example 3@r_hand or 8@l_hand+r_hand (repeatable).
-    #[arg(long, value_name = "KG@SEGMENT[+SEGMENT][@T0..T1]")]
+    #[arg(
+        long,
+        value_name = "KG@SEGMENT[+SEGMENT][@T0..T1]",
+        allow_hyphen_values = true
+    )]
     pub load: Vec<LoadSpec>,
     /// Push on a segment: 20@chest@1.5:1,0,0 (N·s, start in s from the beginning of the run, world direction), or
     /// 10@random, 10@pelvis@random at a time and in a level direction that follow from the clip and the copy
@@ -167,8 +179,8 @@ pub fn run(args: &SurveyArgs) -> Result<()> {
     say(&tables::text(&rows));
     let failed = rows.iter().filter(|r| r.error.is_some()).count();
     say(&format!(
-        "{} clips, {failed} of them could not be read; {}\n",
-        rows.len(),
+        "{}, {failed} of them could not be read; {}\n",
+        counted(rows.len(), "clip"),
         args.out.display()
     ));
     if let Some(path) = &args.markdown {
@@ -184,7 +196,7 @@ pub fn run(args: &SurveyArgs) -> Result<()> {
     say(&found.text());
     match found.regressions() {
         0 => Ok(()),
-        n => bail!("{n} regressions beyond noise"),
+        n => bail!("{} beyond noise", counted(n, "regression")),
     }
 }
 
@@ -195,7 +207,7 @@ fn say(text: &str) {
 
 fn check(args: &SurveyArgs) -> Result<()> {
     args.help.check()?;
-    for (name, value, [low, high]) in [
+    for (name, value, range) in [
         ("--strength", args.strength, [0.01, 100.0]),
         ("--percentile", args.percentile, [5.0, 95.0]),
         ("--assist", args.assist, [0.0, 1.0]),
@@ -210,12 +222,15 @@ fn check(args: &SurveyArgs) -> Result<()> {
         ),
         ("--jobs", args.jobs.unwrap_or(1) as f64, [1.0, 256.0]),
     ] {
-        ensure!(
-            (low..=high).contains(&value),
-            "{name} {value}: outside {low}…{high}"
-        );
+        within(name, value, range)?;
     }
-    Ok(())
+    check_folder("--out", Some(&args.out))?;
+    check_folder("--markdown", args.markdown.as_deref())?;
+    // Streams are not rehearsed.
+    if args.follow == FollowArg::Strict || args.live_window.is_some() {
+        return Ok(());
+    }
+    args.load.iter().try_for_each(LoadSpec::check_rehearsable)
 }
 
 /// Everything that the numbers depend on besides clips and build, by name.
@@ -223,14 +238,12 @@ fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_jso
     let p = &body.profile;
     let loads: Vec<String> = (args.load.iter())
         .map(|l| {
-            let second = l.second.map_or(String::new(), |s| format!("+{}", s.name()));
-            format!(
-                "{}@{}{second}@{}..{}",
-                l.mass_kg,
-                l.segment.name(),
-                l.from_s,
-                l.to_s
-            )
+            let all_the_time = LoadSpec {
+                from_s: 0.0,
+                to_s: f64::INFINITY,
+                ..*l
+            };
+            format!("{all_the_time}@{}..{}", l.from_s, l.to_s)
         })
         .collect();
     let pushes: Vec<String> = args.push.iter().map(ToString::to_string).collect();

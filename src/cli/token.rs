@@ -67,7 +67,14 @@ pub fn run(args: &TokenArgs) -> anyhow::Result<()> {
     let Some(subject) = &args.subject else {
         return Ok(());
     };
-    let secret = read_secret(&args.key).map_err(anyhow::Error::msg)?;
+    let secret = read_secret(&args.key).map_err(|e| {
+        let help = if args.key.exists() {
+            ""
+        } else {
+            "; `--new-key` makes one"
+        };
+        anyhow::anyhow!("{e}{help}")
+    })?;
     let token = NewToken {
         subject: subject.clone(),
         roles: args.roles.clone(),

@@ -1,6 +1,7 @@
 //! `sinew watch`: prints the frames of a world.
 
 use super::args::CredentialArgs;
+use super::exit::{Usage, within};
 use super::terminal::print_line;
 use super::{explain, world_resource};
 use crate::wire::frame::values;
@@ -26,7 +27,7 @@ pub struct Args {
     /// Ask for double precision
     #[arg(long)]
     double: bool,
-    /// Print one frame every N ticks
+    /// Print one frame every N ticks, 1 to 1000
     #[arg(long, default_value_t = 1, value_name = "N")]
     every: i32,
     /// End after N frames
@@ -36,11 +37,24 @@ pub struct Args {
     credentials: CredentialArgs,
 }
 
+/// Most ticks from one frame to the next.
+const MOST_EVERY: f64 = 1000.0;
+
+/// Checks what clap cannot.
+fn check(args: &Args) -> anyhow::Result<()> {
+    within("--every", f64::from(args.every), [1.0, MOST_EVERY])?;
+    match args.count {
+        Some(0) => Err(Usage("--count 0: must be at least 1".to_owned()).into()),
+        _ => Ok(()),
+    }
+}
+
 /// Prints until the stream ends.
 ///
 /// # Errors
 /// No server, no such world, or the stream breaks.
 pub fn run(args: &Args) -> anyhow::Result<()> {
+    check(args)?;
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .build()?;

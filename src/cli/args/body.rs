@@ -2,6 +2,7 @@
 
 use crate::cli::exit::{Usage, usage};
 use crate::cli::number::kilograms;
+use crate::sim::body::model::BodyError;
 use crate::sim::body::names::{DEFAULT_BODY, NAMED_BODIES, body_name_forms, sex_name};
 use crate::sim::body::{Body, Profile};
 use anyhow::Result;
@@ -71,8 +72,40 @@ impl BodyArgs {
     /// When the tables do not cover the profile; names the value and its range.
     pub fn build(&self) -> Result<Body> {
         let profile = self.profile()?;
-        Body::humanoid(profile)
-            .map_err(|e| usage(anyhow::Error::from(e).context("the body tables do not cover this")))
+        Body::humanoid(profile).map_err(|e| self.refused(&profile, e))
+    }
+
+    /// What is wrong with a profile, by the option that is to be changed.
+    fn refused(&self, profile: &Profile, error: BodyError) -> anyhow::Error {
+        let BodyError::Profile {
+            field,
+            value,
+            lower,
+            upper,
+        } = error
+        else {
+            return usage(error);
+        };
+        let flag = match field {
+            "age_years" if self.age.is_some() => "--age",
+            "height_m" if self.height.is_some() => "--height",
+            "mass_kg" if self.mass.is_some() => "--mass",
+            _ => {
+                let context = format!(
+                    "--body {}: the body tables do not cover this",
+                    profile.name()
+                );
+                return usage(anyhow::Error::from(error).context(context));
+            }
+        };
+        // Ranges of height and mass depend on the age.
+        let of_age = match flag {
+            "--age" => String::new(),
+            _ => format!(" at {} years", profile.age),
+        };
+        let text =
+            format!("{flag} {value}: outside {lower}…{upper}, what the body tables cover{of_age}");
+        Usage(text).into()
     }
 }
 
@@ -139,6 +172,39 @@ mod tests {
         let plain = BodyArgs::default();
         assert!(plain.is_default());
         assert_eq!(plain.profile().expect("a profile").name(), "adult-man");
+    }
+
+    #[test]
+    fn the_option_that_is_to_be_changed_is_named() {
+        let refused = |args: &BodyArgs| {
+            let error = args.build().expect_err("outside the tables");
+            assert!(error.is::<Usage>());
+            error.to_string()
+        };
+        let age = BodyArgs {
+            age: Some(3.0),
+            ..BodyArgs::default()
+        };
+        let says = "--age 3: outside 6…90, what the body tables cover";
+        assert_eq!(refused(&age), says);
+        let mass = BodyArgs {
+            mass: Some(-1.0),
+            ..BodyArgs::default()
+        };
+        let text = refused(&mass);
+        assert!(
+            text.starts_with("--mass -1: outside 35…180") && text.ends_with("at 30 years"),
+            "{text}"
+        );
+        let by_value = BodyArgs {
+            body: Profile::from_name("female-3y-1680mm-61500g"),
+            ..BodyArgs::default()
+        };
+        let text = refused(&by_value);
+        assert!(
+            text.starts_with("--body female-3y-1680mm-61500g: "),
+            "{text}"
+        );
     }
 
     #[test]

@@ -91,8 +91,8 @@ pub enum ShareArg {
     Balanced,
 }
 
-/// Options of the paper's controller; other controllers ignore them. Options that are not given have the value of the
-/// preset, or their default without one.
+/// Options of the paper's controller; others read some of them, too ([`Self::of_paper_only`]). Options that are not
+/// given have the value of the preset, or their default without one.
 #[derive(Clone, Debug, Default, clap::Args)]
 #[command(next_help_heading = "Paper's controller")]
 pub struct PaperOptions {
@@ -187,6 +187,22 @@ impl PaperOptions {
             *to = from.unwrap_or(*to);
         }
         Ok(out)
+    }
+
+    /// Names of the options that were given and that other controllers do not read.
+    pub fn of_paper_only(&self) -> impl Iterator<Item = &'static str> {
+        let given = [
+            ("--metric", self.metric.is_some()),
+            ("--priority", self.priority.is_some()),
+            ("--share", self.share.is_some()),
+            ("--to-limit", self.to_limit.is_some()),
+            ("--tilt", self.tilt.is_some()),
+            ("--zmp-feasible", self.zmp_feasible.is_some()),
+        ];
+        given
+            .into_iter()
+            .filter(|(_, is)| *is)
+            .map(|(name, _)| name)
     }
 }
 

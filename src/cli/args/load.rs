@@ -1,11 +1,14 @@
 //! `--load`: loads that the figure holds.
 
 use super::spec::{SpecError, interval, number, segment};
+use crate::cli::exit::usage;
+use crate::evaluate::follow::FollowError;
 use crate::sim::body::palm::load_point;
 use crate::sim::body::topology::{L_HAND, R_HAND};
 use crate::sim::body::{Body, SegmentId};
 use crate::sim::figure::{HeldLoad, Perturbation, SecondHand};
 use crate::sim::math::Vec3;
+use std::fmt;
 use std::str::FromStr;
 
 /// `KG@SEGMENT[+SEGMENT|+auto|+always][@T0..T1]`: a load held by one or two segments, from T0 to T1 seconds; either end
@@ -48,6 +51,40 @@ impl LoadSpec {
         match self.help {
             None => Perturbation::Held(load),
             Some(when) => Perturbation::Helped { load, when },
+        }
+    }
+
+    /// Checks that a rehearsal can have the load, which is otherwise found out only where plain tracking fails.
+    ///
+    /// # Errors
+    /// A load of two hands, or one that comes or goes.
+    pub fn check_rehearsable(&self) -> anyhow::Result<()> {
+        let error = if self.second.is_some() || self.help.is_some() {
+            FollowError::TwoHands
+        } else if self.from_s > 0.0 || self.to_s.is_finite() {
+            FollowError::ChangingLoad
+        } else {
+            return Ok(());
+        };
+        let context = format!("--load {self}");
+        Err(usage(anyhow::Error::from(error).context(context)))
+    }
+}
+
+/// As it can be given.
+impl fmt::Display for LoadSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}@{}", self.mass_kg, self.segment.name())?;
+        match (self.second, self.help) {
+            (Some(second), _) => write!(f, "+{}", second.name())?,
+            (None, Some(SecondHand::Auto)) => f.write_str("+auto")?,
+            (None, Some(SecondHand::Always)) => f.write_str("+always")?,
+            (None, None) => {}
+        }
+        match (self.from_s > 0.0, self.to_s.is_finite()) {
+            (false, false) => Ok(()),
+            (_, false) => write!(f, "@{}..", self.from_s),
+            (_, true) => write!(f, "@{}..{}", self.from_s, self.to_s),
         }
     }
 }
@@ -110,6 +147,45 @@ mod tests {
         assert_eq!(helped("2@l_hand+auto@1.."), Some(SecondHand::Auto));
         assert_eq!(helped("2@r_hand+always"), Some(SecondHand::Always));
         assert_eq!(helped("2@r_hand+l_hand"), None);
+    }
+
+    #[test]
+    fn loads_are_written_as_they_are_read() {
+        for text in [
+            "3.5@r_hand",
+            "8@l_hand+r_hand",
+            "2@l_hand+auto@1..",
+            "2@r_hand+always@0..2.5",
+            "0@chest@1..2",
+        ] {
+            let load: LoadSpec = text.parse().expect("a load");
+            assert_eq!(load.to_string(), text);
+        }
+    }
+
+    #[test]
+    fn loads_that_cannot_be_rehearsed_are_named() {
+        let check = |text: &str| {
+            text.parse::<LoadSpec>()
+                .expect("a load")
+                .check_rehearsable()
+        };
+        check("3@r_hand").expect("one hand, all the time");
+        for (text, says) in [
+            ("3@r_hand+auto", "two hands"),
+            ("3@r_hand+always", "two hands"),
+            ("3@r_hand+l_hand", "two hands"),
+            ("3@r_hand@1..2", "taken up or let go"),
+            ("3@r_hand@0..2", "taken up or let go"),
+        ] {
+            let error = check(text).expect_err(text);
+            assert!(error.is::<crate::cli::exit::Usage>(), "{text}");
+            let error = error.to_string();
+            assert!(
+                error.starts_with(&format!("--load {text}: ")) && error.contains(says),
+                "{error}"
+            );
+        }
     }
 
     #[test]

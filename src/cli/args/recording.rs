@@ -1,6 +1,7 @@
 //! How a recording is read.
 
-use crate::sim::retarget::{FileFacts, Preparation, RetargetOptions, UpAxis};
+use crate::cli::exit::within;
+use crate::sim::retarget::{FileFacts, Preparation, RetargetOptions, TEMPI, UpAxis};
 use clap::ValueEnum;
 
 /// Which axis of the file points up.
@@ -79,6 +80,14 @@ pub struct RecordingArgs {
     /// Playback speed relative to the recording, 0.5 to 2; steps and balance are prepared for it.
     #[arg(long, value_name = "F", default_value_t = 1.0)]
     pub tempo: f64,
+}
+
+/// Checks a tempo. Retargeting checks it as well, but not for motions that are built in, nor by the name of the flag.
+///
+/// # Errors
+/// It is outside its range.
+pub fn check_tempo(tempo: f64) -> anyhow::Result<()> {
+    within("--tempo", tempo, [TEMPI.0, TEMPI.1])
 }
 
 impl RecordingArgs {

@@ -3,6 +3,7 @@
 use super::Args;
 use super::load::Load;
 use super::page::{Page, quantile};
+use crate::cli::number;
 use hdrhistogram::Histogram;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -243,7 +244,7 @@ impl Report {
             );
         }
         let errors: u64 = clients.errors.values().sum();
-        let _ = write!(out, "{errors} errors");
+        let _ = write!(out, "{}", number::counted(errors, "error"));
         for (what, count) in &clients.errors {
             let _ = write!(out, "\n  {count} × {what}");
         }

@@ -1,9 +1,10 @@
 //! What is printed while clips run and when they are done.
 
-use super::RunArgs;
+use super::{RunArgs, forecast};
 use crate::cli::number::{fixed, seconds};
 use crate::cli::terminal::{OutputClosed, print_line};
 use crate::evaluate::RunReport;
+use crate::evaluate::forecast::Forecast;
 use anyhow::Result;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -62,9 +63,10 @@ impl<'a> Table<'a> {
         self.print(&format!("{above}\n{below}"))
     }
 
-    /// The line of one clip.
-    pub(super) fn line(&self, name: &str, report: &RunReport) -> Result<()> {
-        self.print(&format!("{name:<0$} {1}", self.width, line(report)))
+    /// The line of one clip and that of its forecast, at once: other threads print, too.
+    pub(super) fn rows(&self, name: &str, report: &RunReport, told: &Forecast) -> Result<()> {
+        let (width, line, forecast) = (self.width, line(report), forecast::line(told));
+        self.print(&format!("{name:<width$} {line}\n{forecast}"))
     }
 
     /// What the columns mean.
@@ -72,8 +74,8 @@ impl<'a> Table<'a> {
         self.print(LEGEND)
     }
 
-    /// Any further text between the lines.
-    pub(super) fn print(&self, text: &str) -> Result<()> {
+    /// Any text between the bars.
+    fn print(&self, text: &str) -> Result<()> {
         if self.silent.load(Ordering::Relaxed) {
             return Ok(());
         }

@@ -1,5 +1,8 @@
 //! Which clips a survey is about.
 
+use crate::cli::exit::Usage;
+use crate::cli::source::{BUILTIN, no_builtin};
+use crate::sim::motion::builtin::BUILTIN_NAMES;
 use anyhow::{Context, Result, ensure};
 use std::path::{Path, PathBuf};
 
@@ -26,11 +29,13 @@ pub(super) enum Source {
 /// The clips of files, folders and `builtin:NAME`, in the order given; those of a folder by name.
 ///
 /// # Errors
-/// A folder that cannot be listed or holds none, two clips of one name, too many.
+/// A path or a built-in motion that is not there, a folder that cannot be listed or holds none, two clips of one name,
+/// too many.
 pub(super) fn gather(corpus: &[String]) -> Result<Vec<Entry>> {
     let mut out: Vec<Entry> = Vec::new();
     for spec in corpus {
-        if let Some(name) = spec.strip_prefix("builtin:") {
+        if let Some(name) = spec.strip_prefix(BUILTIN) {
+            ensure!(BUILTIN_NAMES.contains(&name), no_builtin(name));
             out.push(Entry {
                 name: spec.clone(),
                 source: Source::Builtin(name.to_owned()),
@@ -40,21 +45,28 @@ pub(super) fn gather(corpus: &[String]) -> Result<Vec<Entry>> {
         let path = Path::new(spec);
         if path.is_dir() {
             let found = folder(path)?;
-            ensure!(!found.is_empty(), "{spec} holds no .bvh file");
+            ensure!(
+                !found.is_empty(),
+                Usage(format!("{spec} holds no .bvh file"))
+            );
             out.extend(found.iter().map(|p| Entry::file(p)));
         } else {
+            ensure!(
+                path.exists(),
+                Usage(format!("{spec}: there is no such file or folder"))
+            );
             out.push(Entry::file(path));
         }
     }
     ensure!(
         out.len() <= MAX_CLIPS,
-        "{} clips: at most {MAX_CLIPS}",
-        out.len()
+        Usage(format!("{} clips: at most {MAX_CLIPS}", out.len()))
     );
     let mut names: Vec<&str> = out.iter().map(|e| e.name.as_str()).collect();
     names.sort_unstable();
     if let Some(twice) = names.windows(2).find(|w| w[0] == w[1]) {
-        anyhow::bail!("two clips of the corpus are called {}", twice[0]);
+        let text = format!("two clips of the corpus are called {}", twice[0]);
+        return Err(Usage(text).into());
     }
     Ok(out)
 }
@@ -120,6 +132,15 @@ mod tests {
             error.contains("two clips") && error.contains("b.bvh"),
             "{error}"
         );
+        let missing = folder.join("d.bvh").display().to_string();
+        for (wrong, says) in [
+            (missing.as_str(), "d.bvh: there is no such file or folder"),
+            ("builtin:fly", "there is no built-in motion \"fly\""),
+        ] {
+            let error = gather(&[wrong.to_owned()]).unwrap_err();
+            assert!(error.is::<Usage>(), "{wrong}");
+            assert!(error.to_string().contains(says), "{error}");
+        }
         std::fs::remove_dir_all(&folder).unwrap();
     }
 }

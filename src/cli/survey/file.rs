@@ -1,5 +1,6 @@
 //! The file of a survey.
 
+use crate::cli::exit::Usage;
 use crate::cli::output::write;
 use crate::evaluate::survey::Row;
 use crate::evaluate::survey::tables::{self, Table};
@@ -86,10 +87,10 @@ pub(super) fn check_settings(
 ) -> Result<()> {
     if let Some(unknown) = across.iter().find(|a| !new.contains_key(*a)) {
         let names: Vec<&str> = new.keys().map(String::as_str).collect();
-        bail!(
+        bail!(Usage(format!(
             "--across {unknown}: no such setting; there are {}",
             names.join(", ")
-        );
+        )));
     }
     let mut names: Vec<&String> = old.keys().chain(new.keys()).collect();
     names.sort();
@@ -130,9 +131,9 @@ mod tests {
             "{error}"
         );
         check_settings(&old, &new, &["strength".into()]).unwrap();
-        let error = check_settings(&old, &new, &["stength".into()])
-            .unwrap_err()
-            .to_string();
+        let error = check_settings(&old, &new, &["stength".into()]).unwrap_err();
+        assert!(error.is::<Usage>());
+        let error = error.to_string();
         assert!(error.contains("stength: no such setting"), "{error}");
     }
 }

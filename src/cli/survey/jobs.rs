@@ -89,9 +89,8 @@ pub(super) fn run_all(
             entry: entry.clone(),
             bytes: match &entry.source {
                 Source::Builtin(name) => Ok(name.clone().into_bytes()),
-                Source::File(path) => {
-                    std::fs::read(path).map_err(|e| format!("cannot be read: {e}"))
-                }
+                // The tables say that it cannot be read.
+                Source::File(path) => std::fs::read(path).map_err(|e| e.to_string()),
             },
             plan: OnceLock::new(),
         })
