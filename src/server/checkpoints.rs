@@ -128,12 +128,18 @@ impl Checkpoints {
         self.all.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Keeps one, under a name that is free if `id` is empty.
+    /// Keeps one, under a name that is free if `id` is empty, unless `there` says that its world is not there any more:
+    /// a world leaves before its checkpoints are forgotten, so none comes after that.
     ///
     /// # Errors
-    /// The name is taken; there are too many, or too many bytes, of all or of this client.
-    pub fn keep(&self, mut new: Kept) -> Result<Arc<Kept>, Fault> {
+    /// The name is taken; there are too many, or too many bytes, of all or of this client; those of `there`.
+    pub fn keep(
+        &self,
+        mut new: Kept,
+        there: impl FnOnce() -> Result<(), Fault>,
+    ) -> Result<Arc<Kept>, Fault> {
         let mut all = self.all();
+        there()?;
         if new.id.is_empty() {
             let free = |id: &String| !all.contains_key(&(new.world.clone(), id.clone()));
             let mut names = (new.tick..).map(|n| format!("tick-{n}"));

@@ -4,6 +4,7 @@ use super::BoxError;
 use super::api::App;
 use super::library::Manner;
 use super::tick::command::Origin;
+use super::worlds::Stored;
 use crate::wire::convert;
 use crate::wire::pb;
 use crate::wire::types::{ControlKey, Place, Playback};
@@ -33,6 +34,8 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
         false,
         ("demo".into(), Vec::new()),
     )?;
+    // Each start makes it anew.
+    world.stored.send_replace(Stored::Never);
     let mut present = Vec::new();
     for (name, body, y) in PEOPLE {
         if convert::body::by_id(body).is_none() {
@@ -91,7 +94,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
             .call(origin, move |s| {
                 s.create_figure(Some(name.to_owned()), settings, built)?;
                 s.play(name, MOTION, (clip, &[]), playback, &who)?;
-                s.perturb(&crate_in_hands)
+                s.perturb(&crate_in_hands, None)
             })
             .await?;
         present.push(name);

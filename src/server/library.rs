@@ -7,7 +7,7 @@ use super::shares::check_part;
 use super::workers::Turn;
 use crate::sim::body::{Body, Posture};
 use crate::sim::plan::cycle;
-use crate::sim::retarget::TEMPI;
+use crate::sim::retarget::{SAMPLE_BYTES, TEMPI};
 use crate::wire::convert::body::{NAMED, by_id};
 use crate::wire::pb;
 use crate::wire::status::Fault;
@@ -326,9 +326,11 @@ impl Clips {
     }
 
     /// Stores a motion, prepared for one body. Slow: not on an async thread. It is given up once `stop` says so.
+    /// `stored` learns of it before anybody can see it.
     ///
     /// # Errors
-    /// The file is bad, the name is taken, there is no room, or it was given up. Nothing is stored then.
+    /// The file is bad, the name is taken, there is no room, or it was given up; those of `stored`. Nothing is stored
+    /// then.
     pub fn create(
         &self,
         new: NewClip,
@@ -336,6 +338,7 @@ impl Clips {
         body: &Body,
         source: MotionSource,
         stop: &dyn Fn() -> bool,
+        stored: &mut dyn FnMut(&ClipInfo) -> Result<(), Fault>,
     ) -> Result<ClipInfo, Fault> {
         let (info, clip) = self.converted(&new, reference, body, &source, stop)?;
         let bytes = source_bytes(&source);
@@ -351,6 +354,7 @@ impl Clips {
             id: id.clone(),
             ..info
         };
+        stored(&info)?;
         let stored = Stored {
             number: self.number(),
             info: info.clone(),
@@ -469,11 +473,15 @@ impl Clips {
             .collect()
     }
 
-    /// Forgets a clip.
+    /// Forgets a clip. `gone` learns of it before its name is free.
     ///
     /// # Errors
-    /// There is none of that name, or it comes with the server.
-    pub fn delete(&self, id: &str) -> Result<(), Fault> {
+    /// There is none of that name, or it comes with the server; those of `gone`, and then it stays.
+    pub fn delete(
+        &self,
+        id: &str,
+        gone: impl FnOnce(&ClipInfo) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
         let mut held = locked(&self.held);
         match held.get(id) {
             None => Err(Fault::not_found("clip", format!("clips/{id}"))),
@@ -482,7 +490,8 @@ impl Clips {
                 message: format!("clip {id:?} comes with the server"),
                 facts: vec![],
             }),
-            Some(_) => {
+            Some(s) => {
+                gone(&s.info)?;
                 held.remove(id);
                 metrics::gauge!("sinew_clips").set(held.len() as f64);
                 Ok(())
@@ -557,6 +566,17 @@ impl Clips {
             prepared.retain(|_, c| Arc::strong_count(c) > 1);
         }
         Ok(prepared.entry(key).or_insert(clip).clone())
+    }
+
+    /// Bytes that preparing a clip takes meanwhile, near enough.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn memory(&self, id: &str) -> Result<u64, Fault> {
+        let stored = self.stored(id)?;
+        let file = stored.source.as_ref().map_or(0, source_bytes);
+        // A number takes at least two bytes in a file, and eight when it is read.
+        Ok(4 * file + SAMPLE_BYTES * stored.info.frames as u64)
     }
 
     /// What a clip is rehearsed from.
@@ -690,6 +710,7 @@ mod tests {
                 &body,
                 source,
                 &|| false,
+                &mut |_| Ok(()),
             )
             .unwrap();
 

@@ -9,6 +9,7 @@ pub mod checkpoints;
 pub mod config;
 pub mod demo;
 pub mod durable;
+pub mod encoded;
 pub mod engine;
 pub mod export;
 pub mod fanout;
@@ -118,6 +119,7 @@ pub async fn serve(
         .into_axum_router()
         .reset_fallback()
         .layer(from_fn_with_state(edge.clone(), edge::sizes))
+        .layer(from_fn_with_state(edge.clone(), edge::answers))
         .layer(from_fn_with_state(edge.clone(), edge::reasons))
         .layer(from_fn_with_state(app.access.clone(), access::identify))
         .layer(from_fn(telemetry::calls::observe))

@@ -217,9 +217,12 @@ impl<T: Send + Sync + 'static> Operations<T> {
         } else {
             outcome
         };
-        let bytes = if outcome.is_ok() { bytes } else { 0 };
         let mut held = self.lock();
-        held.free(self.limits.bytes.saturating_sub(bytes));
+        let outcome = outcome.and_then(|done| {
+            held.free(&operation.principal, bytes, self.limits.bytes)?;
+            Ok(done)
+        });
+        let bytes = if outcome.is_ok() { bytes } else { 0 };
         operation.end(Some(outcome), bytes);
     }
 
@@ -283,21 +286,36 @@ impl<T> Held<T> {
         Ok(())
     }
 
-    /// Forgets the oldest results until those that are left take no more than so many bytes.
-    fn free(&mut self, most: u64) {
-        let mut used: u64 = self.all.values().map(|o| o.bytes()).sum();
-        while used > most {
-            let Some((n, bytes)) = self
-                .all
-                .iter()
-                .map(|(n, o)| (*n, o.bytes()))
-                .find(|(_, bytes)| *bytes > 0)
-            else {
-                return;
-            };
-            self.all.remove(&n);
-            used -= bytes;
+    /// Makes room for so many bytes of a principal: always the oldest result is forgotten of whoever has the most, the
+    /// new one included. So nobody loses what is within an equal share of all.
+    fn free(&mut self, principal: &Arc<str>, bytes: u64, most: u64) -> Result<(), Fault> {
+        let mut used = BTreeMap::from([(principal.clone(), bytes)]);
+        for o in self.all.values() {
+            *used.entry(o.principal.clone()).or_default() += o.bytes();
         }
+        while used.values().sum::<u64>() > most {
+            // Of those with as much, the one that the room is for.
+            let all = used.iter_mut();
+            let largest = all.max_by_key(|(p, used)| (**used, *p == principal));
+            let oldest = largest.and_then(|(whose, used)| {
+                let theirs = |o: &Operation<T>| o.principal == *whose && o.bytes() > 0;
+                let (n, o) = self.all.iter().find(|(_, o)| theirs(o))?;
+                *used -= o.bytes();
+                Some(*n)
+            });
+            let Some(oldest) = oldest else {
+                return Err(Fault::Exhausted {
+                    limit: "max_operation_bytes",
+                    value: most,
+                    message: format!(
+                        "a result of {bytes} bytes; others have as much as their share"
+                    ),
+                    retry: Some(Duration::from_secs(1)),
+                });
+            };
+            self.all.remove(&oldest);
+        }
+        Ok(())
     }
 }
 
@@ -408,6 +426,36 @@ mod tests {
         }
         assert_eq!(all.list("bob").len(), 4);
         assert!(all.get("bob", &bobs.id).is_err());
+    }
+
+    #[tokio::test]
+    async fn who_has_the_most_makes_room() {
+        let all = all(64, 100);
+        let text = |n: usize| move |_: Progress| async move { Ok("x".repeat(n)) };
+        let start = async |who: &str, n: usize| {
+            let o = all.start(who.into(), text(n), size).unwrap();
+            o.ended().await;
+            o
+        };
+        let bobs = start("bob", 10).await;
+        // However much one has made, those of another are kept.
+        for _ in 0..20 {
+            start("ann", 30).await;
+        }
+        assert!(all.get("bob", &bobs.id).is_ok());
+        assert_eq!(all.list("ann").len(), 3);
+        // Beyond a fair share it is displaced: bob's are more than half of all in the end.
+        for _ in 0..4 {
+            start("bob", 15).await;
+        }
+        assert_eq!((all.list("ann").len(), all.list("bob").len()), (1, 5));
+        // What has room neither in its own share nor in what others have beyond theirs is refused.
+        let large = start("ann", 71).await;
+        assert_eq!(
+            outcome(&large).unwrap().unwrap_err().reason(),
+            "LIMIT_REACHED"
+        );
+        assert_eq!(all.list("bob").len(), 5);
     }
 
     #[tokio::test]

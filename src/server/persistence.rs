@@ -7,7 +7,7 @@
 use super::api::{App, access};
 use super::checkpoints;
 use super::config::Config;
-use super::durable::keeper::{Keeper, Sizes};
+use super::durable::keeper::{HandedIn, Keeper, Sizes};
 use super::durable::local::LocalStore;
 use super::durable::marks::Marks;
 use super::durable::recovery::{Recovered, recover};
@@ -18,16 +18,18 @@ use super::durable::store::{
 use super::library::NewClip;
 use super::recordings::{Recordings, StoredRecording};
 use super::rehearsals::Rehearsed;
+use super::shares::comes_back;
 use super::tick::command::Origin;
 use super::tick::journal::{self, Logged, Segment};
 use super::tick::replay::Replay;
 use super::tick::scene::Scene;
 use super::tick::shard::Shard;
-use super::worlds::WorldHandle;
+use super::worlds::{Stored, WorldHandle};
 use crate::wire::convert::{body, figure, motion, new_id, obstacle, world};
 use crate::wire::pb;
 use crate::wire::status::Fault;
-use crate::wire::types::{ControlInfo, FollowSettings, KeptLease, WorldUpdate};
+use crate::wire::types::{ClipInfo, ControlInfo, FollowSettings, KeptLease, WorldUpdate};
+use bytes::Bytes;
 use prost::Message;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -55,6 +57,9 @@ struct Described {
     recordings: Vec<StoredRecording>,
     #[prost(message, repeated, tag = "6")]
     controls: Vec<StoredControl>,
+    /// Whose share of the worlds it is; empty: nobody's who can come back.
+    #[prost(string, tag = "7")]
+    owner: String,
 }
 
 /// What is stored of who controls a figure.
@@ -120,6 +125,55 @@ fn storage(error: StoreError) -> Fault {
     }
 }
 
+/// Something that is being written, in its place in the order of all.
+pub struct Writing(HandedIn<()>);
+
+impl Writing {
+    /// Waits until it is on disk.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub async fn done(self) -> Result<(), Fault> {
+        self.0.done().await.map_err(storage)
+    }
+
+    /// The same. Blocks: not on an async thread.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub fn wait(self) -> Result<(), Fault> {
+        self.0.wait().map_err(storage)
+    }
+}
+
+/// Worlds by name: of several the latest. Those that stay out for it, by name as well.
+type ByName = (
+    BTreeMap<String, WorldRecord>,
+    BTreeMap<String, Vec<WorldKey>>,
+);
+
+fn by_name(recovered: &Recovered) -> ByName {
+    let mut all: Vec<_> = recovered.worlds.iter().map(|(w, _)| w).collect();
+    all.extend(&recovered.quarantined);
+    all.sort_unstable_by_key(|w| w.key);
+    let (mut latest, mut older) = (
+        BTreeMap::<_, WorldRecord>::new(),
+        BTreeMap::<_, Vec<_>>::new(),
+    );
+    for world in all {
+        if let Some(out) = latest.insert(world.name.clone(), world.clone()) {
+            let (name, number) = (&*world.name, out.key.to_string());
+            tracing::error!(
+                world = name,
+                number,
+                "a world stays out: a later one has its name"
+            );
+            older.entry(world.name.clone()).or_default().push(out.key);
+        }
+    }
+    (latest, older)
+}
+
 /// The data directory of a server.
 pub struct Persistence {
     keeper: Arc<Keeper>,
@@ -128,6 +182,8 @@ pub struct Persistence {
     crashed: bool,
     durability: Durability,
     worlds: Mutex<BTreeMap<String, WorldRecord>>,
+    /// Worlds that stay out because a later one has their name. They are deleted with that.
+    older: Mutex<BTreeMap<String, Vec<WorldKey>>>,
     recovered: Mutex<Option<Recovered>>,
     /// Parts of the past that are kept, of which the log has the content.
     recordings: Arc<Recordings>,
@@ -147,7 +203,7 @@ impl Persistence {
         let begun = Instant::now();
         let mut store = LocalStore::open(Path::new(&config.data_dir))?;
         let release: Vec<&str> = config.release_worlds.split(',').map(str::trim).collect();
-        let recovered = recover(&mut store, &release)?;
+        let mut recovered = recover(&mut store, &release)?;
         let (marks, crashed) = (store.marks(), !store.last_end().orderly);
         let sizes = Sizes {
             queue_bytes: config.max_store_queue_bytes as usize,
@@ -157,9 +213,10 @@ impl Persistence {
                 total_bytes: config.max_history_bytes,
             },
         };
-        let worlds = recovered.worlds.iter().map(|(w, _)| w);
-        let worlds = worlds.chain(&recovered.quarantined);
-        let worlds = worlds.map(|w| (w.name.clone(), w.clone())).collect();
+        let (worlds, older) = by_name(&recovered);
+        recovered
+            .worlds
+            .retain(|(w, _)| worlds[&w.name].key == w.key);
         for why in &recovered.damaged {
             tracing::error!(why, "a part of the data directory is damaged");
         }
@@ -179,10 +236,16 @@ impl Persistence {
             crashed,
             durability: Durability::by_name(&config.durability).unwrap_or_default(),
             worlds: Mutex::new(worlds),
+            older: Mutex::new(older),
             recovered: Mutex::new(Some(recovered)),
             recordings: Arc::clone(recordings),
             writing: tokio::sync::Mutex::default(),
         }))
+    }
+
+    fn older(&self) -> MutexGuard<'_, BTreeMap<String, Vec<WorldKey>>> {
+        // Entries are inserted whole.
+        self.older.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn worlds(&self) -> MutexGuard<'_, BTreeMap<String, WorldRecord>> {
@@ -266,8 +329,6 @@ impl Persistence {
                 Err((record, why)) => {
                     let world = &*record.name;
                     tracing::error!(world, %why, "world is not brought back");
-                    // It may be there in part; most often it is not there at all.
-                    let _ = app.worlds.delete(world, "it came back in part").await;
                     if let Some(w) = self.worlds().get_mut(&record.name) {
                         // Not written: the next start tries again, perhaps with other limits.
                         w.quarantined = Some(format!("it could not be brought back: {why}"));
@@ -290,35 +351,61 @@ impl Persistence {
             tracing::error!(world = record.name, %loss, "a part of a world is lost");
         }
         let described = Described::decode(record.settings.clone());
-        let described = described.map_err(|e| Fault::Internal(e.to_string()))?;
+        let mut described = described.map_err(|e| Fault::Internal(e.to_string()))?;
         let paused = described
             .world
             .as_ref()
             .is_some_and(|w| w.state == i32::from(pb::WorldState::Paused));
-        let settings = world::settings(described.world)?;
+        let settings = world::settings(described.world.take())?;
         let grants = described.grants.iter().map(access::grant_in);
         let grants = grants.collect::<Result<Vec<_>, _>>()?;
         let pace = settings.pace.clone();
-        // Worlds of before belong to nobody who is connected.
-        let owner = (format!("stored {}", record.name).into(), grants);
-        let id = Some(record.name.clone());
-        let handle = match replayed(record, history).await {
-            Some(state) => {
-                let handle = app.worlds.fork(id, state, paused, owner)?;
-                let update = WorldUpdate {
-                    display_name: Some(pace.display_name),
-                    overrun: Some(pace.overrun),
-                    catch_up_limit: Some(pace.catch_up_limit),
-                    speed: Some(pace.speed),
-                    idle_ttl: Some(pace.idle_ttl),
-                };
-                handle.call(origin(), move |s| s.update(update)).await?;
-                handle
-            }
-            None => app.worlds.create(id, settings, paused, owner)?,
+        let owner = match described.owner.as_str() {
+            // It belongs to nobody who is connected.
+            "" => format!("stored {}", record.name),
+            owner => owner.to_owned(),
         };
+        let state = replayed(record, history).await;
+        let has_state = state.is_some();
+        let handle = app.worlds.bring_back(
+            record.name.clone(),
+            (settings, state),
+            paused,
+            (owner.into(), grants),
+        )?;
+        handle.stored.send_replace(Stored::At(record.key));
+        let update = has_state.then_some(WorldUpdate {
+            display_name: Some(pace.display_name),
+            overrun: Some(pace.overrun),
+            catch_up_limit: Some(pace.catch_up_limit),
+            speed: Some(pace.speed),
+            idle_ttl: Some(pace.idle_ttl),
+        });
+        let done = self.complete_world(app, &handle, (described, update)).await;
+        if done.is_err() {
+            // What is there in part is not left for others to find, and stays on disk as it was.
+            let same = |there: &Arc<WorldHandle>| Arc::ptr_eq(there, &handle);
+            let by = "it came back in part";
+            let _ = app.worlds.delete_if(&record.name, by, same).await; // the error is told already
+        }
+        done
+    }
+
+    /// Does in a world that was brought back what its last state does not know of.
+    async fn complete_world(
+        self: &Arc<Self>,
+        app: &Arc<App>,
+        handle: &Arc<WorldHandle>,
+        (described, update): (Described, Option<WorldUpdate>),
+    ) -> Result<(), Fault> {
+        let Stored::At(key) = handle.place().await? else {
+            return Ok(()); // it was not brought back
+        };
+        if let Some(update) = update {
+            handle.call(origin(), move |s| s.update(update)).await?;
+        }
         if self.crashed
-            && let Some(mark) = self.marks.place(record.key)
+            && let Some(mark) = self.marks.place(key)
         {
             let until = Instant::now() + NOTE_STEPS;
             handle.send(origin(), move |s| s.note_steps(mark, until))?;
@@ -371,9 +458,9 @@ impl Persistence {
             })
             .await?;
         for stored in described.recordings {
-            self.bring_recording_back(&handle, record.key, stored).await;
+            self.bring_recording_back(handle, key, stored).await;
         }
-        self.follow(&handle);
+        self.follow(handle);
         Ok(())
     }
 
@@ -464,14 +551,34 @@ impl Persistence {
                 .filter(|c| c.epoch > 0 || c.kept.is_some())
                 .map(StoredControl::of)
                 .collect(),
+            owner: match handle.owner() {
+                owner if comes_back(owner) => owner.to_string(),
+                _ => String::new(),
+            },
         }
     }
 
-    /// Writes a new world down.
+    /// Writes a new world down. Who changes or deletes it meanwhile waits for that.
     ///
     /// # Errors
     /// It could not be written.
     pub async fn created(self: &Arc<Self>, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
+        let written = self.write_new(handle).await;
+        let place = written
+            .as_ref()
+            .map_or(Stored::Never, |key| Stored::At(*key));
+        handle.stored.send_replace(place);
+        written?;
+        self.follow(handle);
+        // What is done to it from now on follows this state.
+        if self.durability != Durability::None {
+            write_state(handle, None).await?;
+        }
+        Ok(())
+    }
+
+    /// Writes down that there is a new world; its number.
+    async fn write_new(&self, handle: &WorldHandle) -> Result<WorldKey, Fault> {
         let mut record = WorldRecord {
             key: WorldKey(0),
             name: handle.id.to_string(),
@@ -488,25 +595,27 @@ impl Persistence {
             })
             .await
             .map_err(storage)?;
+        let key = record.key;
         self.worlds().insert(record.name.clone(), record);
-        self.follow(handle);
-        // What is done to it from now on follows this state.
-        if self.durability != Durability::None {
-            write_state(handle, None).await?;
-        }
-        Ok(())
+        Ok(key)
     }
 
     /// Writes down what has changed of a world.
     ///
     /// # Errors
-    /// It could not be written; it is tried again.
+    /// It could not be written; it is tried again. The world has ended.
     pub async fn changed(&self, handle: &WorldHandle) -> Result<(), Fault> {
+        let Stored::At(key) = handle.place().await? else {
+            return Ok(()); // it is not to be stored
+        };
         // One after the other, so that what is described last is written last.
         let _turn = self.writing.lock().await;
         let settings = self.describe(handle).encode_to_vec();
-        let Some(record) = self.worlds().get(&*handle.id).cloned() else {
-            return Ok(()); // deleted meanwhile
+        let record = self.worlds().get(&*handle.id).cloned();
+        // There may be another one of its name. One whose deletion has failed is not there either.
+        let record = record.filter(|w| w.key == key && w.quarantined.is_none());
+        let Some(record) = record else {
+            return Err(handle.ended());
         };
         if record.settings == settings || at_rest(&record.settings) == at_rest(&settings) {
             return Ok(());
@@ -521,9 +630,7 @@ impl Persistence {
             .call(move |store| store.put_world(&written))
             .await;
         done.map_err(storage)?;
-        if let Some(record) = self.worlds().get_mut(&*handle.id) {
-            *record = changed;
-        }
+        self.worlds().insert(changed.name.clone(), changed); // its turn: nobody else has removed it
         Ok(())
     }
 
@@ -531,11 +638,12 @@ impl Persistence {
     fn follow(self: &Arc<Self>, handle: &Arc<WorldHandle>) {
         let mut changes = handle.outlet.described.subscribe();
         let mut closed = handle.closed.clone();
-        let recorder = self
-            .worlds()
-            .get(&*handle.id)
-            .map(|w| self.keeper.recorder(w));
-        let Some(recorder) = recorder else { return };
+        let place = *handle.stored.borrow();
+        let record = self.worlds().get(&*handle.id).cloned();
+        let record = record.filter(|w| Stored::At(w.key) == place);
+        let Some(recorder) = record.map(|w| self.keeper.recorder(&w)) else {
+            return;
+        };
         let writes = recorder.durability() != Durability::None;
         if let Some(journal) = &handle.journal {
             journal.write_to(recorder);
@@ -563,7 +671,7 @@ impl Persistence {
                 }
                 match this.changed(&handle).await {
                     Ok(()) => {}
-                    Err(Fault::Draining) => break,
+                    Err(Fault::Draining | Fault::Aborted { .. }) => break, // it has ended
                     Err(error) => {
                         tracing::warn!(world = &*handle.id, %error, "a change is not written");
                         tokio::time::sleep(LOOK_EVERY).await;
@@ -573,62 +681,92 @@ impl Persistence {
         });
     }
 
-    /// Forgets a world. False: there is none of that name.
+    /// Forgets a world that has ended.
     ///
     /// # Errors
-    /// It could not be done.
-    pub async fn deleted(&self, name: &str) -> Result<bool, Fault> {
-        // A change of it that is being written would bring it back.
-        let _turn = self.writing.lock().await;
-        let Some(key) = self.worlds().get(name).map(|w| w.key) else {
-            return Ok(false);
-        };
-        let done = self.keeper.call(move |store| store.delete_world(key)).await;
-        done.map_err(storage)?;
-        self.worlds().remove(name);
-        Ok(true)
+    /// It could not be done. Its name is taken by a world in quarantine then, which can be deleted again.
+    pub async fn deleted(&self, handle: &WorldHandle) -> Result<(), Fault> {
+        let mut stored = handle.stored.subscribe();
+        // One that is being created is written first.
+        let place = stored.wait_for(|s| *s != Stored::Coming).await.map(|s| *s);
+        match place {
+            Ok(Stored::At(key)) => self.forget(&handle.id, key).await,
+            _ => Ok(()),
+        }
     }
 
-    /// Writes a clip down: the request that made it and what it became.
+    /// Forgets a world in quarantine.
     ///
     /// # Errors
-    /// It could not be written.
-    pub async fn clip_created(
-        &self,
-        clip: &pb::Clip,
-        owner: Option<&str>,
-        request: pb::CreateClipRequest,
-    ) -> Result<(), Fault> {
-        let short = pb::Clip {
-            report: None,
-            forecast: None,
-            ..clip.clone()
+    /// There is none of that name; it could not be done.
+    pub async fn deleted_in_quarantine(&self, name: &str) -> Result<(), Fault> {
+        let record = self.worlds().get(name).cloned();
+        let record = record.filter(|w| w.quarantined.is_some());
+        let record = record.ok_or_else(|| Fault::not_found("world", format!("worlds/{name}")))?;
+        self.forget(name, record.key).await
+    }
+
+    /// Forgets the world of this number, and those that it has kept out.
+    async fn forget(&self, name: &str, key: WorldKey) -> Result<(), Fault> {
+        // A change of it that is being written would bring it back.
+        let _turn = self.writing.lock().await;
+        let older = self.older().get(name).cloned().unwrap_or_default();
+        let delete = move |store: &mut dyn store::CheckpointStore| {
+            older.iter().try_for_each(|key| store.delete_world(*key))?;
+            store.delete_world(key)
         };
-        let record = ClipRecord {
-            name: clip.name.rsplit('/').next().unwrap_or_default().to_owned(),
+        let done = self.keeper.call(delete).await;
+        let mut worlds = self.worlds();
+        match done {
+            Ok(()) => {
+                worlds.remove(name);
+                self.older().remove(name);
+                Ok(())
+            }
+            Err(error) => {
+                if let Some(w) = worlds.get_mut(name).filter(|w| w.key == key) {
+                    w.quarantined = Some(format!("its deletion could not be stored: {error}"));
+                }
+                Err(storage(error))
+            }
+        }
+    }
+
+    /// Begins to write a clip down: the request that made it and what it became. What becomes of its name afterwards is
+    /// written afterwards.
+    ///
+    /// # Errors
+    /// It cannot be written now.
+    pub fn clip_created(
+        &self,
+        clip: &ClipInfo,
+        request: pb::CreateClipRequest,
+    ) -> Result<Writing, Fault> {
+        let mut record = ClipRecord {
+            name: clip.id.clone(),
             description: DescribedClip {
-                clip: Some(short),
-                owner: owner.map(str::to_owned),
+                clip: Some(motion::clip_out(clip, false)),
+                owner: clip.owner.as_deref().map(str::to_owned),
             }
             .encode_to_vec()
             .into(),
-            content: request.encode_to_vec().into(),
+            content: Bytes::new(),
         };
-        let written = self.keeper.call(move |store| store.put_clip(&record)).await;
-        written.map_err(storage)
+        let written = self.keeper.hand_in(move |store| {
+            record.content = request.encode_to_vec().into(); // large: nobody holds a lock here
+            store.put_clip(&record)
+        });
+        written.map(Writing).map_err(storage)
     }
 
-    /// Forgets a clip.
+    /// Begins to forget a clip; likewise.
     ///
     /// # Errors
-    /// It could not be done.
-    pub async fn clip_deleted(&self, name: &str) -> Result<(), Fault> {
+    /// It cannot be written now.
+    pub fn clip_deleted(&self, name: &str) -> Result<Writing, Fault> {
         let name = name.to_owned();
-        let done = self
-            .keeper
-            .call(move |store| store.delete_clip(&name))
-            .await;
-        done.map_err(storage)
+        let done = self.keeper.hand_in(move |store| store.delete_clip(&name));
+        done.map(Writing).map_err(storage)
     }
 
     /// Writes a rehearsal of a clip down, in the place of others.

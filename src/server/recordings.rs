@@ -151,12 +151,19 @@ impl Recordings {
         self.all.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Begins one.
+    /// Begins one, unless `there` says that its world is not there any more: a world leaves before its recordings are
+    /// forgotten, so none comes after that.
     ///
     /// # Errors
-    /// The name is taken, there are too many, of all or of this client, or the tick is not held.
-    pub fn start(&self, journal: Arc<Journal>, new: NewRecording) -> Result<Arc<Recording>, Fault> {
+    /// The name is taken, there are too many, of all or of this client, or the tick is not held; those of `there`.
+    pub fn start(
+        &self,
+        journal: Arc<Journal>,
+        new: NewRecording,
+        there: impl FnOnce() -> Result<(), Fault>,
+    ) -> Result<Arc<Recording>, Fault> {
         let mut all = self.all();
+        there()?;
         let key = |id: &str| (new.world.clone(), id.to_owned());
         let id = match new.id {
             Some(id) if all.contains_key(&key(&id)) => {

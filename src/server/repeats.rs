@@ -285,6 +285,17 @@ impl Repeats {
     }
 }
 
+/// Does work in a task of its own, so that what has begun is done to its end whether or not its client waits for it.
+///
+/// # Errors
+/// Those of the work; it ended abnormally.
+pub async fn to_the_end<T: Send + 'static>(
+    work: impl Future<Output = Result<T, Fault>> + Send + 'static,
+) -> Result<T, Fault> {
+    let done = tokio::spawn(work).await;
+    done.unwrap_or_else(|_| Err(Fault::Internal("the request ended abnormally".into())))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -384,6 +395,26 @@ mod tests {
         go.notify_one();
         assert_eq!(repeat.await.unwrap().unwrap(), "a");
         assert_eq!(count.load(Ordering::SeqCst), 1);
+    }
+
+    #[tokio::test]
+    async fn what_has_begun_is_done_without_its_client() {
+        let (go, count) = (Arc::new(Notify::new()), Arc::<AtomicU32>::default());
+        let (waits, inner) = (go.clone(), work(&count, Ok("a")));
+        let client = tokio::spawn(to_the_end(async move {
+            waits.notified().await;
+            inner.await
+        }));
+        tokio::task::yield_now().await;
+        client.abort();
+        assert!(client.await.unwrap_err().is_cancelled());
+        go.notify_one();
+        while count.load(Ordering::SeqCst) == 0 {
+            tokio::task::yield_now().await;
+        }
+        let broken = to_the_end(async { panic!("on purpose") });
+        let broken: Result<(), Fault> = broken.await;
+        assert_eq!(broken.unwrap_err().reason(), "INTERNAL");
     }
 
     #[tokio::test]

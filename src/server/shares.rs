@@ -27,6 +27,11 @@ pub fn client_at(peer: Option<SocketAddr>) -> Client {
     }
 }
 
+/// Whether a client can come back under the same name when the server has ended: who is a connection cannot.
+pub fn comes_back(client: &str) -> bool {
+    client.parse::<SocketAddr>().is_err()
+}
+
 /// How many of `most` one client may have.
 pub fn part(most: u64, share: f64) -> u64 {
     ((most as f64 * share).ceil() as u64).max(1)

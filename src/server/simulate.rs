@@ -1,11 +1,14 @@
 //! One clip tracked by one figure, without clock and world: as fast as it computes.
 
+use super::encoded::{Encoded, List};
 use super::engine::{self, Clip, Drive, FigureKey, World};
 use super::progress::Progress;
 use super::tick::stage_times::percentiles;
 use super::workers::Turn;
 use crate::sim::body::{Body, DOF_COUNT};
 use crate::sim::figure::{Flags, TickReport};
+use crate::sim::motion::GRAVITY;
+use crate::sim::world::WorldParams;
 use crate::wire::frame::world_frame;
 use crate::wire::pb;
 use crate::wire::status::Fault;
@@ -13,7 +16,6 @@ use crate::wire::types::{
     Overrun, Pace, RosterEntry, SimulationSettings, SimulationSummary, Snapshot, ViewSpec,
     WorldEvent, WorldSettings,
 };
-use prost::Message as _;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -22,8 +24,8 @@ use std::time::Instant;
 pub struct Outcome {
     /// Figures of merit.
     pub summary: SimulationSummary,
-    /// Frames of the view.
-    pub frames: Vec<pb::WorldFrame>,
+    /// Frames of the view: field [`FRAMES`] of the answer.
+    pub frames: Encoded,
     /// Events in order.
     pub events: Vec<WorldEvent>,
 }
@@ -37,11 +39,11 @@ pub struct Limits {
     pub bytes: u64,
 }
 
+/// The field of `SimulateClipResponse` that holds the frames.
+pub const FRAMES: u32 = 2;
+
 /// Most events that are kept: a figure in trouble changes support and saturation at every tick.
 const MAX_EVENTS: usize = 20_000;
-
-/// Gravity, m/s².
-const GRAVITY: f64 = 9.81;
 
 /// Name of the only figure.
 const FIGURE: &str = "figure";
@@ -183,7 +185,7 @@ pub fn run(
         let frame = view.map(|view| frames.frame(&world, key, before, view));
         match (&mut sink.parts, frame) {
             (Some(parts), frame) => parts.take(frame, tick as f64 / ticks as f64)?,
-            (None, Some(frame)) => frames.keep(frame)?,
+            (None, Some(frame)) => frames.keep(&frame)?,
             (None, None) => {}
         }
         sink.progress.tell(tick as f64, ticks as f64);
@@ -193,7 +195,7 @@ pub fn run(
     }
     Ok(Outcome {
         summary: merit.summary(ticks, s.rate_hz, world.state_hash()),
-        frames: frames.taken,
+        frames: frames.taken.into_encoded(),
         events,
     })
 }
@@ -208,7 +210,7 @@ fn scene(
         rate_hz: s.rate_hz,
         substeps: s.substeps,
         gravity: GRAVITY,
-        friction: 0.9,
+        friction: WorldParams::default().friction,
         collisions: false,
         pace: Pace {
             display_name: String::new(),
@@ -237,10 +239,10 @@ fn scene(
     Ok((world, key))
 }
 
-/// Frames of the view, as long as they fit into the response.
+/// Frames of the view, as long as they fit into the response. They are kept encoded: a small frame takes a hundred
+/// times as much memory as bytes on the wire.
 struct Frames {
-    taken: Vec<pb::WorldFrame>,
-    bytes: u64,
+    taken: List,
     most: u64,
     roster: Arc<[RosterEntry]>,
 }
@@ -248,8 +250,7 @@ struct Frames {
 impl Frames {
     fn new(s: &SimulationSettings, most: u64) -> Self {
         Self {
-            taken: Vec::new(),
-            bytes: 0,
+            taken: List::new(FRAMES),
             most,
             roster: Arc::new([RosterEntry {
                 index: 0,
@@ -280,9 +281,9 @@ impl Frames {
     }
 
     /// Keeps a frame for the outcome.
-    fn keep(&mut self, frame: pb::WorldFrame) -> Result<(), Fault> {
-        self.bytes += frame.encoded_len() as u64;
-        if self.bytes > self.most {
+    fn keep(&mut self, frame: &pb::WorldFrame) -> Result<(), Fault> {
+        self.taken.push(frame);
+        if self.taken.len() as u64 > self.most {
             return Err(Fault::Exhausted {
                 limit: "max_response_bytes",
                 value: self.most,
@@ -291,7 +292,6 @@ impl Frames {
                 retry: None,
             });
         }
-        self.taken.push(frame);
         Ok(())
     }
 }

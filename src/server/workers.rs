@@ -4,6 +4,8 @@
 //! Clients share the workers of a pool: the one with the least at work is next, and work that a client has more of than
 //! another one that waits makes room at its next [`Turn::stop`] and goes on later. So nobody waits for the end of what
 //! somebody else has asked for.
+//!
+//! Work that takes much memory says so before. It begins when there is room for it beside other such work.
 
 use crate::server::shares::Client;
 use crate::wire::status::Fault;
@@ -21,6 +23,10 @@ const SLICE: Duration = Duration::from_millis(100);
 /// Pieces of work per worker that may have begun: each holds a thread and what it has so far, also while others have
 /// their turns.
 const BEGUN: usize = 8;
+/// Bytes of all work that has begun, by its own account. More than that has one piece of work only, alone.
+const MEMORY: u64 = 512 * 1024 * 1024;
+/// Work that takes no more is not counted: little of it has begun at a time.
+const LITTLE: u64 = 8 * 1024 * 1024;
 /// Weight of the latest piece of work in the mean time that one takes.
 const RECENT: f64 = 0.2;
 /// Least and most time after which a client is told to try again, s.
@@ -47,6 +53,8 @@ struct State {
     running: usize,
     /// Pieces of work that have begun and are not done.
     begun: usize,
+    /// Bytes that they take.
+    memory: u64,
     clients: BTreeMap<Client, Use>,
     waiting: Vec<Waiter>,
     turns: u64,
@@ -71,6 +79,8 @@ struct Waiter {
     cancelled: Cancelled,
     /// It had a turn before, so its place in the queue is not counted.
     begun: bool,
+    /// Bytes that it takes, if they are many.
+    memory: u64,
     grant: oneshot::Sender<Turn>,
 }
 
@@ -101,6 +111,7 @@ pub struct Turn {
     since: Cell<Instant>,
     /// It occupies a worker.
     works: Cell<bool>,
+    memory: u64,
     /// Another turn of the same work stands for this one, or it never came to its work.
     replaced: Cell<bool>,
 }
@@ -113,6 +124,7 @@ impl Drop for Turn {
         // The work is done, or given up while others had their turns.
         let mut state = self.pool.state();
         state.begun -= 1;
+        state.memory -= self.memory;
         if self.works.get() {
             state.leave(&self.client);
         }
@@ -142,6 +154,14 @@ impl Turn {
         self.cancelled.is_set()
     }
 
+    /// True while somebody else's work does not begin because so much has.
+    pub fn is_wanted(&self) -> bool {
+        let state = self.pool.state();
+        let mut new = state.waiting.iter().filter(|w| !w.begun);
+        state.begun >= BEGUN * self.pool.0.most
+            && new.any(|w| w.client != self.client && !w.cancelled.is_set())
+    }
+
     /// Gives the worker to another client who has fewer, if one waits; then the next turn of this work will come.
     fn make_room(&self) -> Option<oneshot::Receiver<Turn>> {
         let mut state = self.pool.state();
@@ -156,7 +176,7 @@ impl Turn {
             return None;
         }
         self.works.set(false);
-        let next = state.wait(&self.client, &self.cancelled, true);
+        let next = state.wait(&self.client, &self.cancelled, (true, self.memory));
         state.leave(&self.client);
         state.grant(&self.pool);
         Some(next)
@@ -180,7 +200,7 @@ impl State {
         &mut self,
         client: &Client,
         cancelled: &Cancelled,
-        begun: bool,
+        (begun, memory): (bool, u64),
     ) -> oneshot::Receiver<Turn> {
         let (grant, granted) = oneshot::channel();
         self.clients.entry(client.clone()).or_default().waiting += 1;
@@ -188,6 +208,7 @@ impl State {
             client: client.clone(),
             cancelled: cancelled.clone(),
             begun,
+            memory,
             grant,
         });
         granted
@@ -200,9 +221,24 @@ impl State {
         }
     }
 
-    /// False for work that must not begin, because too much of it has.
+    /// False for work that must not begin, because too much of it has, in number or in bytes.
     fn may_go_on(&self, waiter: &Waiter, pool: &Pool) -> bool {
-        waiter.begun || self.begun < BEGUN * pool.0.most
+        let fits = waiter.memory == 0
+            || self.memory == 0
+            || self.memory.saturating_add(waiter.memory) <= MEMORY;
+        waiter.begun || self.begun < BEGUN * pool.0.most && fits
+    }
+
+    /// Of the work that takes much memory, the next to begin: no other of it goes before.
+    fn next_large(&self) -> Option<usize> {
+        let all = self.waiting.iter().enumerate();
+        let large = all.filter(|(_, w)| !w.begun && w.memory > 0);
+        let next = large.min_by_key(|(_, w)| (self.running_of(&w.client), self.turn_of(&w.client)));
+        next.map(|(i, _)| i)
+    }
+
+    fn turn_of(&self, client: &Client) -> u64 {
+        self.clients.get(client).map_or(0, |u| u.turn)
     }
 
     /// Gives free workers to those who wait: to the client with the least at work, then to the one whose last turn is
@@ -214,9 +250,11 @@ impl State {
             }
         }
         while self.running < pool.0.most {
+            let large = self.next_large();
             let all = self.waiting.iter().enumerate();
             let next = all
                 .filter(|(_, w)| self.may_go_on(w, pool))
+                .filter(|(i, w)| w.begun || w.memory == 0 || large == Some(*i))
                 .min_by_key(|(_, w)| {
                     let used = &self.clients[&w.client];
                     (used.running, used.turn, !w.begun)
@@ -231,6 +269,7 @@ impl State {
                 cancelled: waiter.cancelled,
                 since: Cell::new(Instant::now()),
                 works: Cell::new(true),
+                memory: waiter.memory,
                 replaced: Cell::new(false),
             };
             match waiter.grant.send(turn) {
@@ -239,7 +278,10 @@ impl State {
                     used.running += 1;
                     used.turn = self.turns;
                     self.running += 1;
-                    self.begun += usize::from(!waiter.begun);
+                    if !waiter.begun {
+                        self.begun += 1;
+                        self.memory += waiter.memory;
+                    }
                 }
                 // Nobody waits for it; it must not give back what it has not got.
                 Err(turn) => turn.replaced.set(true),
@@ -277,6 +319,7 @@ impl Pool {
         &self,
         client: &Client,
         cancelled: &Cancelled,
+        memory: u64,
     ) -> Result<oneshot::Receiver<Turn>, Fault> {
         let mut state = self.state();
         if state.closed {
@@ -285,7 +328,7 @@ impl Pool {
         let new = state.waiting.iter().filter(|w| !w.begun);
         let own = new.clone().filter(|w| w.client == *client).count() as u64;
         let all = new.count() as u64;
-        let busy = state.running >= self.0.most;
+        let busy = state.running >= self.0.most || all > 0;
         if busy && (all >= self.0.most_waiting || own >= self.0.most_waiting.div_ceil(2)) {
             let turns = (all + 1) as f64 / self.0.most as f64;
             let retry = (state.mean * turns).clamp(RETRY.0, RETRY.1);
@@ -296,7 +339,8 @@ impl Pool {
                 retry: Some(Duration::from_secs_f64(retry)),
             });
         }
-        let granted = state.wait(client, cancelled, false);
+        let memory = if memory > LITTLE { memory } else { 0 };
+        let granted = state.wait(client, cancelled, (false, memory));
         state.grant(self);
         Ok(granted)
     }
@@ -310,8 +354,21 @@ impl Pool {
         client: &Client,
         work: impl FnOnce(&Turn) -> Result<T, Fault> + Send + 'static,
     ) -> Result<T, Fault> {
+        self.run_large(client, 0, work).await
+    }
+
+    /// The same for work that takes so many bytes of memory.
+    ///
+    /// # Errors
+    /// Those of [`Self::run`].
+    pub async fn run_large<T: Send + 'static>(
+        &self,
+        client: &Client,
+        memory: u64,
+        work: impl FnOnce(&Turn) -> Result<T, Fault> + Send + 'static,
+    ) -> Result<T, Fault> {
         let cancelled = Cancelled::default();
-        let granted = self.queue(client, &cancelled)?;
+        let granted = self.queue(client, &cancelled, memory)?;
         let _cancel = CancelOnDrop(self.clone(), cancelled);
         let turn = granted.await.map_err(|_| Fault::Draining)?;
         let (done, result) = oneshot::channel();
@@ -512,6 +569,39 @@ mod tests {
             assert_eq!(work.await.unwrap().unwrap(), 0);
         }
         assert_eq!(begun.load(Ordering::Relaxed), 60);
+    }
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn what_takes_much_memory_waits_for_room_and_the_rest_does_not() {
+        let pool = pool(4, 64);
+        let ended = Arc::new(AtomicBool::new(false));
+        let large = |name: &'static str, memory: u64| {
+            let (pool, ended) = (pool.clone(), ended.clone());
+            tokio::spawn(async move { pool.run_large(&client(name), memory, until(ended)).await })
+        };
+        // However large, one has room alone.
+        let first = large("a", 2 * MEMORY);
+        while pool.running() < 1 {
+            tokio::task::yield_now().await;
+        }
+        let second = large("b", MEMORY / 2);
+        let third = large("c", MEMORY / 2);
+        while pool.state().waiting.len() < 2 {
+            tokio::task::yield_now().await;
+        }
+        assert_eq!(
+            pool.run_large(&client("d"), LITTLE, |_| Ok(1))
+                .await
+                .unwrap(),
+            1
+        );
+        assert_eq!(pool.run(&client("e"), |_| Ok(2)).await.unwrap(), 2);
+        assert_eq!((pool.running(), pool.state().memory), (1, 2 * MEMORY));
+        ended.store(true, Ordering::Relaxed);
+        for work in [first, second, third] {
+            assert_eq!(work.await.unwrap().unwrap(), 0);
+        }
+        assert_eq!(pool.state().memory, 0);
     }
 
     #[tokio::test(flavor = "multi_thread")]

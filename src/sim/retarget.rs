@@ -25,16 +25,16 @@ pub use report::{
     SkeletonReport,
 };
 
-use super::motion::bvh::Bvh;
-use super::motion::clip::Clip;
+use super::motion::bvh::{Bvh, BvhHead};
+use super::motion::clip::{Clip, ClipError, MAX_SAMPLES};
 use super::motion::filter::renormalised;
 use super::motion::skeleton_map::map_skeleton;
 use super::plan::contact_labels::{label_feet, phases};
 use super::plan::flight_phases;
 use super::plan::foot_lock::Sole;
 use super::plan::params::leg;
-use super::plan::prepare::{Draft, PrepareOptions, Prepared, prepare};
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_SHANK};
+use super::plan::prepare::{Draft, PrepareOptions, prepare};
+use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
 use feet::{Ground, fit_floor};
@@ -47,6 +47,12 @@ use size::{guess_up, measure, unit};
 
 /// Most frames of a clip: bounds time and memory (8 min at 120 Hz).
 pub const MAX_FRAMES: usize = 60_000;
+/// Most frames times joints that matter, 60 joints in the longest file: bounds memory.
+pub const MAX_POINTS: usize = 60 * MAX_FRAMES;
+/// Bytes for each joint that matters in a frame.
+const POINT_BYTES: u64 = 80;
+/// Bytes for each sample of a clip while it is prepared.
+pub const SAMPLE_BYTES: u64 = 4096;
 /// Least and largest [`RetargetOptions::tempo`].
 pub const TEMPI: (f64, f64) = (0.5, 2.0);
 /// Rates that are believed, Hz.
@@ -164,6 +170,50 @@ impl Default for RetargetOptions {
     }
 }
 
+/// Bytes that reading a file and retargeting it take meanwhile, near enough; they are known from the head of the file.
+/// `rate_hz`: as [`FileFacts::rate_hz`].
+pub fn memory(file: &[u8], rate_hz: Option<f64>) -> u64 {
+    let Ok(head) = BvhHead::parse(file) else {
+        return 0; // nothing more is read of it
+    };
+    let frames = head.frame_count.min(file.len() as u64 / 2);
+    let values = frames.saturating_mul(head.channel_count as u64);
+    let values = 8 * values.min(file.len() as u64 / 2);
+    let kept = map_skeleton(&head.joints).map_or(0, |map| {
+        let kept = Recording::kept(&head.joints, &map);
+        kept.into_iter().filter(|k| *k).count()
+    });
+    let points = (frames as usize).saturating_mul(kept).min(MAX_POINTS) as u64;
+    let source_rate = rate_hz.unwrap_or(1.0 / head.frame_time);
+    let rate = output_rate(source_rate, &RetargetOptions::default());
+    let samples = match kept {
+        0 => 0,
+        _ => sample_count(frames as usize, source_rate, rate).min(MAX_SAMPLES) as u64,
+    };
+    values + POINT_BYTES * points + SAMPLE_BYTES * samples
+}
+
+/// Samples per second of the clip at tempo 1.
+fn output_rate(source_rate: f64, options: &RetargetOptions) -> f64 {
+    let kept = (59.0..=240.5).contains(&source_rate);
+    let usual = if kept { source_rate } else { 120.0 };
+    options.output_rate_hz.unwrap_or(usual)
+}
+
+/// Samples of a clip of so many frames.
+fn sample_count(frames: usize, source_rate: f64, rate: f64) -> usize {
+    let last = (frames.max(1) - 1) as f64 * rate / source_rate;
+    ((last + 1e-6).floor() as usize).saturating_add(1)
+}
+
+/// Refuses more samples than a clip may have, before anything is made for them.
+fn check_samples(count: usize) -> Result<(), ClipError> {
+    match count > MAX_SAMPLES {
+        true => Err(ClipError::TooLong { count }),
+        false => Ok(()),
+    }
+}
+
 /// Retargets a recording onto `body`.
 ///
 /// Offline: time and memory are linear in frames × joints, about 0.2 s for 10 s at 120 Hz.
@@ -222,16 +272,18 @@ pub fn retarget_unless(
             warnings.push(warning.into());
         }
     }
+    let rest = take.rest(bvh);
+    take.forget_frames();
     let recorded = RecordedPaths {
         places,
         turns,
-        rest: take.rest(bvh),
+        rest,
         up,
         unit_m,
         source_rate,
     };
     go_on()?;
-    let (mut scene, seen) = Scene::new(&take, &map, recorded, options);
+    let (mut scene, seen) = Scene::new(&take, &map, recorded, options)?;
     go_on()?;
     let keeps_run = seen.keeps_run();
     let fastest_run = seen.fastest_run();
@@ -246,7 +298,7 @@ pub fn retarget_unless(
 
     // Scale, floor, heading.
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
-    let leg = body.joint_offset[L_SHANK.index()].norm() + body.joint_offset[L_FOOT.index()].norm();
+    let leg = body.leg_length(0);
     let scale = options.scale.unwrap_or(leg / (measured.leg * unit_m));
     let calibration = scene.calibrate(&map);
     let mut ankle = [0, 1].map(|s| scene.place(map.sides[s].foot).to_vec());
@@ -327,7 +379,9 @@ pub fn retarget_unless(
         has_hand: [0, 1].map(|s| map.sides[s].hand.is_some()),
     };
     go_on()?;
+    drop(scene);
     let (mut postures, arms) = joints.postures(&pelvis);
+    drop((joints, pelvis));
     go_on()?;
     for p in &mut postures {
         p.root_rotation = renormalised(p.root_rotation);
@@ -364,10 +418,15 @@ pub fn retarget_unless(
     };
     let prepared = prepare(body, &draft, how);
     go_on()?;
+    let mut prepared = prepared;
+    let made = (
+        std::mem::take(&mut prepared.postures),
+        std::mem::take(&mut prepared.planted),
+    );
     let (postures, planted, lead_in, lead_out) = if options.preparation.ends && how.lock_feet {
-        with_ends(body, &draft, &prepared, how)
+        with_ends(body, draft, made, how)
     } else {
-        (prepared.postures, prepared.planted, 0, 0)
+        (made.0, made.1, 0, 0)
     };
 
     let mut report = RetargetReport {
@@ -418,7 +477,11 @@ pub fn retarget_unless(
         },
         balance: BalanceReport {
             zmp_outside: prepared.zmp,
-            carried: prepared.carried,
+            // Without feet that are locked nothing says what carries the body.
+            carried: match how.lock_feet {
+                true => prepared.carried,
+                false => 0.0,
+            },
         },
         pelvis: PelvisReport {
             shift: prepared.shift_max,
@@ -487,29 +550,23 @@ impl Placing {
     }
 }
 
-/// Postures and planted feet with the way into the motion and out of it, and the lengths of both in samples.
+/// Postures and planted feet with the way into the motion and out of it, and the lengths of both in samples. `made`
+/// are those that were prepared of the draft.
 fn with_ends(
     body: &Body,
-    draft: &Draft,
-    prepared: &Prepared,
+    draft: Draft,
+    made: (Vec<Posture>, Vec<[bool; 2]>),
     how: PrepareOptions,
 ) -> (Vec<Posture>, Vec<[bool; 2]>, usize, usize) {
-    let mut whole = Draft::of_postures(
-        body,
-        draft.rate_hz,
-        prepared.postures.clone(),
-        draft.label.clone(),
-    );
+    let (rate_hz, label) = (draft.rate_hz, draft.label.clone());
+    drop(draft); // of a long clip it is large
+    let mut whole = Draft::of_postures(body, rate_hz, made.0.clone(), label.clone());
     let (before, after) = whole.add_ends(body);
     // Where no way is needed at either end a foot may still have been put down.
-    if (before, after) == (0, 0) && whole.label == draft.label {
-        return (
-            prepared.postures.clone(),
-            prepared.planted.clone(),
-            before,
-            after,
-        );
+    if (before, after) == (0, 0) && whole.label == label {
+        return (made.0, made.1, before, after);
     }
+    drop(made);
     let whole = prepare(body, &whole, how);
     (whole.postures, whole.planted, before, after)
 }
@@ -532,6 +589,8 @@ fn check(bvh: &Bvh, options: &RetargetOptions) -> Result<f64, RetargetError> {
             upper: RATES.1,
         });
     }
+    let rate = output_rate(source_rate, options);
+    check_samples(sample_count(frames, source_rate, rate))?;
     Ok(source_rate)
 }
 
@@ -551,4 +610,60 @@ fn check_options(o: &RetargetOptions) -> Result<(), RetargetError> {
     check("scale", o.scale, 0.05, 20.0)?;
     check("tempo", Some(o.tempo), TEMPI.0, TEMPI.1)?;
     check("cutoff_hz", Some(o.cutoff_hz), 0.5, 60.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A recording at 30 Hz of so many frames.
+    fn recording(frames: usize) -> String {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/tests/corpus/walk-normal.vrm.bvh"
+        );
+        let text = std::fs::read_to_string(path).unwrap();
+        let (head, motion) = text.split_once("MOTION").unwrap();
+        let lines = motion.lines().filter(|l| !l.trim().is_empty());
+        let rows: Vec<&str> = lines.skip(2).collect();
+        let rows: Vec<&str> = rows.into_iter().cycle().take(frames).collect();
+        let rows = rows.join("\n");
+        format!("{head}MOTION\nFrames: {frames}\nFrame Time: 0.0333333\n{rows}\n")
+    }
+
+    #[test]
+    fn what_makes_too_many_samples_is_refused_before_any_is_made() {
+        let frames = MAX_SAMPLES / 4 + 100;
+        let bvh = Bvh::parse(recording(frames).as_bytes()).unwrap();
+        let asked = || panic!("it has begun");
+        let refused = retarget_unless(
+            &bvh,
+            &Body::adult_man(),
+            &RetargetOptions::default(),
+            &asked,
+        );
+        assert!(
+            matches!(
+                refused,
+                Err(RetargetError::Clip(ClipError::TooLong { count })) if count > MAX_SAMPLES
+            ),
+            "{refused:?}"
+        );
+    }
+
+    #[test]
+    fn the_head_of_a_file_tells_what_memory_it_takes() {
+        let [short, long] = [100, 1000].map(|frames| recording(frames));
+        let samples = 4 * 1000;
+        let found = memory(long.as_bytes(), None);
+        let least = SAMPLE_BYTES * samples;
+        assert!((least..2 * least).contains(&found), "{found}");
+        assert!(memory(short.as_bytes(), None) < found / 9);
+        // Read as 120 Hz, each frame is one sample.
+        assert!(memory(long.as_bytes(), Some(120.0)) < found / 2);
+        // What is declared and not there takes nothing.
+        let declared = short.replace("Frames: 100", "Frames: 1000000000000");
+        assert!(memory(declared.as_bytes(), None) <= SAMPLE_BYTES * MAX_SAMPLES as u64 * 2);
+        assert_eq!(memory(b"no recording", None), 0);
+    }
 }

@@ -127,6 +127,11 @@ async fn tokens_that_prove_nothing_are_refused() {
             .await
             .is_ok()
     );
+    // The end of time is no end.
+    for end in [1u64 << 40, i64::MAX as u64, u64::MAX - 1, u64::MAX] {
+        let client = server.bearing(with("exp", json!(end))).await;
+        assert!(who(&client).await.is_ok(), "{end}");
+    }
     for (token, reason) in [
         (with("exp", json!(now() - 3600)), "TOKEN_EXPIRED"),
         (with("nbf", json!(now() + 3600)), "TOKEN_NOT_YET_VALID"),

@@ -307,37 +307,52 @@ async fn a_perturber_pushes_as_hard_and_as_often_as_its_grant_says() {
     };
     grant(&owner, &stage, pusher).await;
     let p = server.client("p", &[], None).await;
-    let push = |client: &Client, newtons: f64| {
-        let mut service = client.perturbations();
-        let force = pb::Force {
+    let x = |x| Some(pb::Vector3 { x, y: 0.0, z: 0.0 });
+    let force = |newtons: f64| {
+        pb::perturbation::Kind::Force(pb::Force {
             segment: "chest".into(),
-            force_newtons: Some(pb::Vector3 {
-                x: newtons,
-                y: 0.0,
-                z: 0.0,
-            }),
+            force_newtons: x(newtons),
             duration_s: 0.1,
+            ..Default::default()
+        })
+    };
+    let all = |client: &Client, kinds: Vec<pb::perturbation::Kind>| {
+        let mut service = client.perturbations();
+        let perturbation = |kind| pb::Perturbation {
+            figure_id: "a".into(),
+            kind: Some(kind),
             ..Default::default()
         };
         let request = pb::ApplyPerturbationsRequest {
             world: stage.clone(),
-            perturbations: vec![pb::Perturbation {
-                figure_id: "a".into(),
-                kind: Some(pb::perturbation::Kind::Force(force)),
-                ..Default::default()
-            }],
+            perturbations: kinds.into_iter().map(perturbation).collect(),
             ..Default::default()
         };
         async move { service.apply_perturbations(request).await }
     };
+    let push = |client: &Client, newtons: f64| all(client, vec![force(newtons)]);
+    let bound = (Code::PermissionDenied, "PERTURBATION_BOUND".to_owned());
     let e = push(&p, 101.0).await.unwrap_err();
+    assert_eq!(refusal(&e), bound);
+    // Ten seconds' worth are two.
+    let e = all(&p, vec![force(1.0); 3]).await.unwrap_err();
+    assert_eq!(refusal(&e), bound);
+    let thrown = pb::perturbation::Kind::Load(pb::Load {
+        segment: "chest".into(),
+        mass_kg: 1.0,
+        velocity_mps: x(11.0),
+        ..Default::default()
+    });
+    let e = all(&p, vec![thrown]).await.unwrap_err();
+    assert_eq!(refusal(&e), bound);
+    push(&p, 99.0).await.unwrap();
+    let e = push(&p, 2.0).await.unwrap_err();
     assert_eq!(
         refusal(&e),
-        (Code::PermissionDenied, "PERTURBATION_BOUND".into())
+        bound,
+        "the world stands: they would act together"
     );
-    push(&p, 99.0).await.unwrap();
-    push(&p, 99.0).await.unwrap();
-    let e = push(&p, 99.0).await.unwrap_err();
+    let e = push(&p, 1.0).await.unwrap_err();
     assert_eq!(
         refusal(&e),
         (Code::ResourceExhausted, "LIMIT_REACHED".into())
@@ -355,6 +370,57 @@ async fn a_perturber_pushes_as_hard_and_as_often_as_its_grant_says() {
     );
     // The owner is not bounded.
     push(&owner, 5000.0).await.unwrap();
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn who_may_watch_no_longer_reads_no_more_of_the_past() {
+    let server = Guarded::start(&[]).await;
+    let owner = server.client("owner", &[Role::Creator], None).await;
+    let stage = world(&owner, "w", true).await;
+    figure(&owner, &stage, "a").await;
+    let step = pb::StepWorldRequest {
+        name: stage.clone(),
+        tick_count: 900,
+        ..Default::default()
+    };
+    owner.worlds().step_world(step).await.unwrap();
+    let name = grant(&owner, &stage, role("user:guest", pb::Role::Viewer)).await;
+    let guest = server.client("guest", &[], None).await;
+    // More than waits on the way to somebody who does not read.
+    let request = pb::ReadHistoryRequest {
+        name: stage.clone(),
+        view: Some(pb::View {
+            fields: Some(prost_types::FieldMask {
+                paths: vec!["*".into()],
+            }),
+            encoding: pb::Encoding::Double.into(),
+            ..Default::default()
+        }),
+        ..Default::default()
+    };
+    let mut past = guest
+        .history()
+        .read_history(request)
+        .await
+        .unwrap()
+        .into_inner();
+    past.message().await.unwrap();
+    let delete = pb::DeleteGrantRequest {
+        name,
+        ..Default::default()
+    };
+    owner.access().delete_grant(delete).await.unwrap();
+    let e = loop {
+        match past.message().await {
+            Ok(Some(_)) => {}
+            Ok(None) => panic!("read to the end"),
+            Err(e) => break e,
+        }
+    };
+    assert_eq!(
+        refusal(&e),
+        (Code::PermissionDenied, "ROLE_REQUIRED".into())
+    );
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -1,8 +1,13 @@
 //! Goal: clients see in which way a figure follows its motion, and what help that takes. Method: a figure that waves is
 //! pushed so that it loses its motion, with and without help that is allowed. What rehearsals show is in `rehearsals`.
 
-use crate::support::TestServer;
+use crate::support::{TestServer, header};
+use sinew::sim::body::Body;
+use sinew::sim::motion::builtin::at_ease;
+use sinew::wire::convert::motion::figure_motion;
 use sinew::wire::pb;
+use std::time::Duration;
+use tonic::Code;
 
 const WORLD: &str = "worlds/w";
 const FIGURE: &str = "worlds/w/figures/a";
@@ -108,6 +113,84 @@ async fn clients_see_in_which_way_a_figure_follows_its_clip() {
     assert!(last.help_newton_seconds > 1.0 && last.help_ratio > 0.0);
     assert!(last.help_ratio < 0.3, "{last:?}");
     server.stop().await;
+}
+
+/// What the figure says while a stream asks it to stand, to slide sideways for a second faster than feet can, and to
+/// stand there.
+async fn streamed(most_help: f64) -> Vec<pb::FigureStatus> {
+    let server = TestServer::start().await;
+    server.paused_world("w").await;
+    server.figure(WORLD, "a").await;
+    let request = pb::UpdateFigureRequest {
+        figure: Some(pb::Figure {
+            name: FIGURE.into(),
+            max_help_weights: most_help,
+            ..Default::default()
+        }),
+        update_mask: Some(prost_types::FieldMask {
+            paths: vec!["max_help_weights".into()],
+        }),
+        ..Default::default()
+    };
+    server
+        .client
+        .figures()
+        .update_figure(request)
+        .await
+        .unwrap();
+    let header = pb::DriveHeader {
+        nominal_rate_hz: 60.0,
+        reset: true,
+        ..header(WORLD, "a", "me")
+    };
+    let body = Body::adult_man();
+    let frame = |sequence: i64| {
+        let mut posture = at_ease(&body);
+        posture.root_position.y += (sequence as f64 / 60.0 - 1.0).clamp(0.0, 1.0);
+        let mut motion = figure_motion("a", &posture, &[0.0; 45], None);
+        motion.velocity.clear();
+        pb::MotionFrame {
+            sequence,
+            source_time_ns: sequence * 1_000_000_000 / 60,
+            figures: vec![motion],
+        }
+    };
+    let mut client = server.client.motions();
+    let mut out = Vec::new();
+    for step in 0..100 {
+        let request = pb::PushMotionRequest {
+            header: Some(header.clone()),
+            batch: Some(pb::MotionBatch {
+                frames: (3 * step..3 * (step + 1)).map(frame).collect(),
+            }),
+        };
+        // The test runs faster than real time, the allowance of batches does not.
+        while let Err(e) = client.push_motion(request.clone()).await {
+            assert_eq!(e.code(), Code::ResourceExhausted, "{e:?}");
+            tokio::time::sleep(Duration::from_millis(20)).await;
+        }
+        out.push(status(&server, 3).await);
+    }
+    server.stop().await;
+    out
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_stream_is_helped_where_that_is_allowed_and_clients_see_it() {
+    let ways = |all: &[pb::FigureStatus], way| all.iter().filter(|s| s.following() == way).count();
+
+    let alone = streamed(0.0).await;
+    assert_eq!(ways(&alone, pb::FollowWay::Helped), 0);
+    assert!(alone.iter().all(|s| s.help_newton_seconds == 0.0));
+
+    let helped = streamed(0.3).await;
+    let (before, later) = helped[1..].split_at(18);
+    assert_eq!(ways(before, pb::FollowWay::Tracked), before.len());
+    assert!(ways(later, pb::FollowWay::Helped) > 3);
+    let last = helped.last().unwrap();
+    assert_eq!(last.following(), pb::FollowWay::Tracked, "it is let go");
+    assert_eq!(last.max_help_weights, 0.3);
+    assert!(last.help_newton_seconds > 1.0 && last.help_ratio < 0.3);
 }
 
 #[tokio::test(flavor = "multi_thread")]

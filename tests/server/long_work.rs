@@ -1,6 +1,7 @@
 //! Long work: operations with progress and cancel, and streams that do the same.
 
 use crate::support::{TestServer, arm_frame, refusal, view};
+use sinew::server::workers::Turn;
 use sinew::wire::pb;
 use sinew::wire::pb::operation::Result as Done;
 use sinew::wire::pb::start_operation_request::Work;
@@ -72,6 +73,72 @@ impl TestServer {
         let listed = self.client.operations().list_operations(request).await;
         listed.unwrap().into_inner().operations
     }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_operation_answers_with_the_frames_of_the_call() {
+    let server = TestServer::start().await;
+    let request = pb::SimulateClipRequest {
+        view: Some(pb::View::default()),
+        ..simulation(0.5)
+    };
+    let mut simulations = server.client.simulations();
+    let called = simulations.simulate_clip(request.clone()).await;
+    let called = called.unwrap().into_inner();
+    assert!(called.frames.len() > 10 && called.summary.is_some());
+    let started = server.start_operation(Work::SimulateClip(request)).await;
+    let ended = server.wait_operation(&started.name, 60).await;
+    // Whoever asks gets it, as often as it is asked for.
+    for operation in [ended, server.get_operation(&started.name).await] {
+        let Some(Done::SimulateClip(done)) = operation.result else {
+            panic!("{operation:?}");
+        };
+        assert_eq!(done.frames, called.frames);
+        assert_eq!(done.events, called.events);
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_was_sent_counts_until_the_work_has_used_it() {
+    let settings = [
+        ("max_clip_bytes", "1048576"),
+        ("max_pending_bytes", "1048576"),
+        ("max_conversions", "1"),
+    ];
+    let server = TestServer::with(&settings).await;
+    let (go, wait) = std::sync::mpsc::channel::<()>();
+    let pool = server.app.conversions.clone();
+    let busy = tokio::spawn(async move {
+        let work = move |_: &Turn| {
+            wait.recv().ok();
+            Ok(())
+        };
+        pool.run(&"other".into(), work).await
+    });
+    while server.app.conversions.running() < 1 {
+        tokio::task::yield_now().await;
+    }
+    let upload = || pb::StartOperationRequest {
+        work: Some(Work::CreateClip(pb::CreateClipRequest {
+            source: Some(pb::create_clip_request::Source::Bvh(pb::BvhSource {
+                data: vec![b'x'; 700_000].into(),
+                ..Default::default()
+            })),
+            ..Default::default()
+        })),
+        ..Default::default()
+    };
+    let start = || async { server.client.operations().start_operation(upload()).await };
+    let first = start().await.unwrap().into_inner().operation.unwrap();
+    // The call is answered, and what it has brought waits for its turn.
+    let refused = start().await.unwrap_err();
+    assert_eq!(refused.code(), Code::ResourceExhausted);
+    assert!(refused.message().contains("max_pending_bytes"), "{refused}");
+    go.send(()).unwrap();
+    busy.await.unwrap().unwrap();
+    let first = server.wait_operation(&first.name, 60).await;
+    assert_eq!(first.state(), pb::OperationState::Failed, "it is no file");
+    start().await.unwrap();
 }
 
 #[tokio::test(flavor = "multi_thread")]

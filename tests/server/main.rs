@@ -15,6 +15,7 @@ mod ending;
 mod following;
 mod forecast;
 mod history;
+mod life;
 mod limits;
 mod live;
 mod long_work;

@@ -3,6 +3,8 @@
 use super::caller::{Caller, EVERYONE, Identity};
 use super::limits::Bucket;
 use super::roles::{Role, Roles};
+use crate::server::tick::shard::bounds::Bound;
+use crate::sim::motion::GRAVITY;
 use crate::wire::status::Fault;
 use crate::wire::types::{Disturbance, FigureDisturbance};
 use std::collections::{BTreeMap, HashMap};
@@ -16,8 +18,10 @@ const MOST_GRANTS: usize = 256;
 pub const TOP_PRIORITY: i32 = 100;
 /// Seconds' worth of perturbations that may come at once.
 const PERTURBATION_BURST_S: f64 = 10.0;
-/// Gravity by which the mass of a load is a force, m/s².
-const GRAVITY: f64 = 9.81;
+
+/// Time in which the largest force would stop a load that is thrown, s: as long as an impulse lasts that says nothing
+/// of it.
+const CATCH_TIME: f64 = 0.1;
 
 /// What a perturber may do.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,12 +68,19 @@ impl Bounds {
                 Disturbance::Force { force, .. } => ("force", force.norm(), self.force, "N"),
                 Disturbance::Load { mass, .. } => ("mass", *mass, self.mass, "kg"),
             };
+            let mut all = vec![(what, value, most, unit)];
+            if let Disturbance::Load { mass, velocity, .. } = &d.what {
+                let most = self.force * CATCH_TIME;
+                all.push(("load with a momentum", mass * velocity.norm(), most, "N·s"));
+            }
             // What came over the wire is finite.
-            if value > most {
-                let limit = format!(
-                    "the grant allows a {what} of {most} {unit}, asked for were {value:.3}"
-                );
-                return Err((format!("perturbations[{i}]"), limit));
+            for (what, value, most, unit) in all {
+                if value > most {
+                    let limit = format!(
+                        "the grant allows a {what} of {most} {unit}, asked for were {value:.3}"
+                    );
+                    return Err((format!("perturbations[{i}]"), limit));
+                }
             }
         }
         Ok(())
@@ -261,30 +272,43 @@ impl Grants {
         rights
     }
 
-    /// Checks that a batch of perturbations is within the bounds of a caller, and counts it.
+    /// Checks that each perturbation of a batch is within the bounds of a caller, and counts them. What their sum has
+    /// to keep to is left to who knows what else acts; `None`: nothing.
     ///
     /// # Errors
-    /// One is too strong, or they come too often.
+    /// One is too strong, there are more than may come at once, or they come too often.
     pub fn admit(
         &self,
         caller: &Caller,
         rights: &Rights,
         batch: &[FigureDisturbance],
-    ) -> Result<(), Fault> {
-        rights
-            .bounds
-            .check(batch)
-            .map_err(|(field, message)| Fault::Denied {
-                reason: "PERTURBATION_BOUND",
-                message: format!("{field}: {message}"),
-                facts: vec![("field", field)],
-            })?;
-        let rate = rights.bounds.rate;
+    ) -> Result<Option<Bound>, Fault> {
+        let denied = |(field, message): (String, String)| Fault::Denied {
+            reason: "PERTURBATION_BOUND",
+            message: format!("{field}: {message}"),
+            facts: vec![("field", field)],
+        };
+        rights.bounds.check(batch).map_err(denied)?;
+        let Bounds { force, mass, rate } = rights.bounds;
+        let bound = Bound {
+            principal: caller.principal().clone(),
+            force,
+            mass,
+        };
+        let bound = (force.is_finite() || mass.is_finite()).then_some(bound);
         if rate.is_infinite() {
-            return Ok(());
+            return Ok(bound);
         }
         let now = Instant::now();
         let burst = (rate * PERTURBATION_BURST_S).max(1.0);
+        if batch.len() as f64 > burst {
+            let message = format!(
+                "the grant allows {} at once, got {}",
+                burst.floor(),
+                batch.len()
+            );
+            return Err(denied(("perturbations".to_owned(), message)));
+        }
         let mut rates = self.rates.lock().unwrap_or_else(PoisonError::into_inner);
         if rates.len() >= 4 * MOST_GRANTS {
             rates.clear(); // `*` may stand for any number of principals
@@ -298,7 +322,8 @@ impl Grants {
             value: rate.ceil() as u64,
             message: "perturbations of one principal, as its grant says".into(),
             retry: Some(retry),
-        })
+        })?;
+        Ok(bound)
     }
 
     /// The grant that [`Self::add`] would add.

@@ -242,7 +242,10 @@ fn identity(claims: TokenClaims, leeway: Duration) -> Result<Identity, Fault> {
             roles: roles.chain([Role::Member]).collect::<Roles>(),
             names: claims.worlds,
         }),
-        expires: SystemTime::UNIX_EPOCH.checked_add(Duration::from_secs(claims.exp) + leeway),
+        // One beyond the end of time does not end.
+        expires: Duration::from_secs(claims.exp)
+            .checked_add(leeway)
+            .and_then(|after| SystemTime::UNIX_EPOCH.checked_add(after)),
     })
 }
 

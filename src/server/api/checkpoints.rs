@@ -41,19 +41,27 @@ fn out(kept: &Kept) -> pb::Checkpoint {
 }
 
 impl Api {
+    /// Refuses bytes that no response has room for.
+    fn check_data(&self, bytes: &[u8]) -> Result<(), Fault> {
+        let most = self.config.max_response_bytes;
+        if bytes.len() as u64 <= most {
+            return Ok(());
+        }
+        Err(Fault::Exhausted {
+            limit: "max_response_bytes",
+            value: most,
+            message: format!("a checkpoint of {} bytes", bytes.len()),
+            retry: None,
+        })
+    }
+
     /// The bytes for a response, if they are wanted.
     fn data(&self, kept: &Kept, wanted: bool) -> Result<Vec<u8>, Fault> {
-        let most = self.config.max_response_bytes;
-        match wanted {
-            false => Ok(Vec::new()),
-            true if kept.bytes.len() as u64 <= most => Ok(kept.bytes.clone()),
-            true => Err(Fault::Exhausted {
-                limit: "max_response_bytes",
-                value: most,
-                message: format!("a checkpoint of {} bytes", kept.bytes.len()),
-                retry: None,
-            }),
+        if !wanted {
+            return Ok(Vec::new());
         }
+        self.check_data(&kept.bytes)?;
+        Ok(kept.bytes.clone())
     }
 
     async fn captured(
@@ -98,27 +106,32 @@ impl CheckpointService for Api {
         &self,
         request: Request<pb::CheckpointWorldRequest>,
     ) -> Result<Response<pb::CheckpointWorldResponse>, Status> {
-        self.once(request, |api, request| async move {
+        self.once_if_awaited(request, |api, request| async move {
             let (owner, origin) = (client(&request), origin(&request));
             let caller = caller(&request)?.clone();
             let r = request.into_inner();
             let id = new_id("checkpoint_id", &r.checkpoint_id)?.unwrap_or_default();
             let from = (&caller, origin);
             let (handle, capture) = api.captured(from, ("name", &r.name)).await?;
-            let app = api.0.clone();
+            let (keeper, in_use) = (api.clone(), handle.usage.begin());
             let (created, client) = (SystemTime::now(), owner.clone());
             let work = move || {
+                let _in_use = in_use;
+                let bytes = checkpoints::encode(&capture)?;
+                if r.return_data {
+                    keeper.check_data(&bytes)?; // what is refused is not kept
+                }
                 let new = Kept {
                     world: handle.id.to_string(),
                     id,
                     tick: capture.tick(),
                     time: capture.tick() as f64 / handle.rate_hz,
                     hash: capture.hash(),
-                    bytes: checkpoints::encode(&capture)?,
+                    bytes,
                     created,
                     owner,
                 };
-                app.checkpoints.keep(new)
+                keeper.checkpoints.keep(new, || keeper.still_there(&handle))
             };
             let kept = api.conversions.run(&client, move |_| work()).await?;
             Ok(pb::CheckpointWorldResponse {
@@ -180,7 +193,7 @@ impl CheckpointService for Api {
         &self,
         request: Request<pb::RestoreWorldRequest>,
     ) -> Result<Response<pb::RestoreWorldResponse>, Status> {
-        self.once(request, |api, request| async move {
+        self.once_if_awaited(request, |api, request| async move {
             let (client, origin) = (client(&request), origin(&request));
             let caller = caller(&request)?.clone();
             let handle = api.world(&request, "name", &request.get_ref().name)?;
@@ -192,6 +205,7 @@ impl CheckpointService for Api {
                 Some(restore_world_request::Source::Data(data)) => Source::Data("data", data),
                 None => return Err(Fault::invalid("source", "must be given")),
             };
+            let _in_use = handle.usage.begin();
             let restored = api.restored(&client, source).await?;
             let cleared = handle.clone();
             let info = handle
@@ -213,7 +227,7 @@ impl CheckpointService for Api {
         &self,
         request: Request<pb::ForkWorldRequest>,
     ) -> Result<Response<pb::ForkWorldResponse>, Status> {
-        self.once(request, |api, request| async move {
+        self.once_if_awaited(request, |api, request| async move {
             let (owner, origin) = (client(&request), origin(&request));
             let caller = caller(&request)?.clone();
             let r = request.into_inner();

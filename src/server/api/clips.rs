@@ -1,17 +1,22 @@
 //! `MotionService`: stored clips, playing them, and the unary twin of live driving. The stream itself is in `drive`.
 
-use super::{Api, answer, caller, client, drive, long, origin, refusal};
+use super::{Api, answer, caller, client, drive, long, memory, origin, refusal, upload};
 use crate::server::access::caller::Caller;
 use crate::server::access::roles::{Role, Roles};
+use crate::server::edge::Upload;
 use crate::server::library::NewClip;
+use crate::server::persistence::Writing;
 use crate::server::progress::Progress;
 use crate::server::rehearsals::{self, Rehearsed};
+use crate::server::repeats::to_the_end;
 use crate::server::shares::Client;
 use crate::server::tick::command::Origin;
 use crate::server::workers::Turn;
+use crate::sim::retarget::SAMPLE_BYTES;
 use crate::wire::convert::{
     body, clip_name, control, display_name, figure_name, motion, new_id, page,
 };
+use crate::wire::pb::create_clip_request::Source;
 use crate::wire::pb::{self, motion_service_server::MotionService};
 use crate::wire::status::Fault;
 use crate::wire::types::{ClipInfo, Follow, FollowSettings};
@@ -50,7 +55,7 @@ const STAGES: f64 = 9.0;
 pub(super) async fn create(
     api: &Api,
     (caller, client): (&Caller, Client),
-    r: pb::CreateClipRequest,
+    (r, upload): (pb::CreateClipRequest, Upload),
     progress: Progress,
 ) -> Result<pb::CreateClipResponse, Fault> {
     let id = new_id("clip_id", &r.clip_id)?;
@@ -65,10 +70,18 @@ pub(super) async fn create(
     let reference = body::reference("body", &r.body, "profile", None)?;
     let max_bytes = api.config.max_clip_bytes;
     let app = api.0.clone();
-    let persistence = api.persistence.as_ref();
     let only = r.validate_only;
-    let stored = persistence.filter(|_| !only).map(|_| r.clone());
+    let mut stored = (!only && api.persistence.is_some()).then(|| r.clone());
+    let bytes = match &r.source {
+        Some(Source::Bvh(file)) => {
+            let rate_hz = file.options.as_ref().and_then(|o| o.rate_hz);
+            memory(file.data.clone(), rate_hz).await
+        }
+        Some(Source::Frames(all)) => SAMPLE_BYTES * all.frames.len() as u64,
+        None => 0,
+    };
     let convert = move |turn: &Turn| {
+        let _upload = upload; // the work goes on for a moment when its client is gone
         let stage = Cell::new(0.0);
         let stop = || {
             progress.tell(stage.replace(stage.get() + 1.0), STAGES);
@@ -81,23 +94,35 @@ pub(super) async fn create(
         app.clips.check_room(&new, &source)?;
         let built = app.bodies.get("body", &reference)?;
         if only {
-            app.clips
-                .would_create(&new, &reference, &built, &source, &stop)
-        } else {
-            app.clips.create(new, &reference, &built, source, &stop)
+            return app
+                .clips
+                .would_create(&new, &reference, &built, &source, &stop);
         }
+        // Written in the order in which others see it come and go, whether or not its client waits for it.
+        let mut writing = None;
+        let mut write = |info: &ClipInfo| {
+            if let (Some(persistence), Some(r)) = (&app.persistence, stored.take()) {
+                writing = Some(persistence.clip_created(info, r)?);
+            }
+            Ok(())
+        };
+        let clips = &app.clips;
+        let info = clips.create(new, &reference, &built, source, &stop, &mut write)?;
+        if let Some(Err(fault)) = writing.map(Writing::wait) {
+            // It may be gone already, and another one of its name be there.
+            let same = |there: &ClipInfo| match there.created == info.created {
+                true => Ok(()),
+                false => Err(Fault::not_found("clip", format!("clips/{}", info.id))),
+            };
+            let _ = clips.delete(&info.id, same);
+            return Err(fault);
+        }
+        Ok(info)
     };
-    let info = api.conversions.run(&client, convert).await?;
-    let clip = motion::clip_out(&info, true);
-    if let (Some(persistence), Some(r)) = (persistence, stored)
-        && let Err(fault) = persistence
-            .clip_created(&clip, info.owner.as_deref(), r)
-            .await
-    {
-        api.clips.delete(&info.id)?;
-        return Err(fault);
-    }
-    Ok(pb::CreateClipResponse { clip: Some(clip) })
+    let info = api.conversions.run_large(&client, bytes, convert).await?;
+    Ok(pb::CreateClipResponse {
+        clip: Some(motion::clip_out(&info, true)),
+    })
 }
 
 /// Rehearses a clip for a figure, and keeps what was found.
@@ -124,6 +149,7 @@ pub(super) async fn rehearse(
     };
     let performer = handle.call(who, move |s| s.performer(&figure)).await?;
     let app = api.0.clone();
+    let bytes = 2 * app.clips.memory(&id)?; // three forms of it
     let work = move |turn: &Turn| {
         progress.tell(0.0, 1.0);
         let begun = Instant::now();
@@ -143,17 +169,22 @@ pub(super) async fn rehearse(
         };
         Ok((info, kept))
     };
-    let (info, kept) = api.simulations.run(&client, work).await?;
-    if let (Some(persistence), Some((score, found, gone))) = (&api.persistence, kept) {
-        let written = persistence.rehearsed(&score.id, &found, &gone).await;
-        if let Err(fault) = written {
-            api.clips.forget_rehearsed(&score.id, &found);
-            return Err(fault);
-        }
-        // Deleted meanwhile: another clip of that name is not to have it.
-        if !api.clips.holds(&score) {
-            persistence.forget_rehearsal(&score.id, &found).await?;
-        }
+    let (info, kept) = api.simulations.run_large(&client, bytes, work).await?;
+    if let (Some(persistence), Some((score, found, gone))) = (api.persistence.clone(), kept) {
+        let app = api.0.clone();
+        to_the_end(async move {
+            let written = persistence.rehearsed(&score.id, &found, &gone).await;
+            if let Err(fault) = written {
+                app.clips.forget_rehearsed(&score.id, &found);
+                return Err(fault);
+            }
+            // Deleted meanwhile: another clip of that name is not to have it.
+            if !app.clips.holds(&score) {
+                persistence.forget_rehearsal(&score.id, &found).await?;
+            }
+            Ok(())
+        })
+        .await?;
     }
     Ok(pb::RehearseClipResponse {
         rehearsal: Some(motion::rehearsal_out(&info)),
@@ -176,7 +207,7 @@ impl MotionService for Api {
         &self,
         request: Request<pb::RehearseClipRequest>,
     ) -> Result<Response<pb::RehearseClipResponse>, Status> {
-        self.once(request, |api, request| async move {
+        self.once_if_awaited(request, |api, request| async move {
             let (client, caller) = (client(&request), caller(&request)?.clone());
             let r = request.into_inner();
             rehearse(&api, (&caller, client), r, Progress::default()).await
@@ -188,15 +219,11 @@ impl MotionService for Api {
         &self,
         request: Request<pb::CreateClipRequest>,
     ) -> Result<Response<pb::CreateClipResponse>, Status> {
-        self.once(request, |api, request| async move {
+        self.once_if_awaited(request, |api, request| async move {
             let (client, caller) = (client(&request), caller(&request)?.clone());
-            create(
-                &api,
-                (&caller, client),
-                request.into_inner(),
-                Progress::default(),
-            )
-            .await
+            let upload = upload(&request);
+            let r = (request.into_inner(), upload);
+            create(&api, (&caller, client), r, Progress::default()).await
         })
         .await
     }
@@ -210,13 +237,14 @@ impl MotionService for Api {
         use pb::stream_create_clip_response::Message;
         let start = || {
             let (client, caller) = (client(&request), caller(&request)?.clone());
+            let upload = upload(&request);
             let r = request.into_inner().create_clip;
             let r = r.ok_or_else(|| Fault::invalid("create_clip", "must be given"))?;
             let (api, progress) = (self.clone(), Progress::default());
             let told = progress.watch();
             let who = caller.clone();
             let work = async move {
-                let made = create(&api, (&who, client), r, progress).await;
+                let made = create(&api, (&who, client), (r, upload), progress).await;
                 made.map_err(|fault| fault.within("create_clip"))
             };
             let message = |message| pb::StreamCreateClipResponse {
@@ -224,6 +252,7 @@ impl MotionService for Api {
             };
             Ok(long::Stream {
                 caller,
+                permit: None,
                 told,
                 progress: Some(move |share| message(Message::Progress(share))),
                 last: move |made| message(Message::CreateClip(made)),
@@ -274,14 +303,20 @@ impl MotionService for Api {
         self.once(request, |api, request| async move {
             let id = clip_name("name", &request.get_ref().name)?;
             let caller = caller(&request)?;
-            let info = seen(&api, caller, id)?;
+            seen(&api, caller, id)?;
+            let mut writing = None;
             // Built-in clips say themselves that they stay.
-            if !info.builtin && !may(caller, &info, Role::Owner) {
-                return Err(caller.denied(Role::Owner, &format!("clips/{id}")));
-            }
-            api.clips.delete(id)?;
-            if let Some(persistence) = &api.persistence {
-                persistence.clip_deleted(id).await?;
+            api.clips.delete(id, |info| {
+                if !may(caller, info, Role::Owner) {
+                    return Err(caller.denied(Role::Owner, &format!("clips/{id}")));
+                }
+                if let Some(persistence) = &api.persistence {
+                    writing = Some(persistence.clip_deleted(id)?);
+                }
+                Ok(())
+            })?;
+            if let Some(writing) = writing {
+                writing.done().await?;
             }
             Ok(pb::DeleteClipResponse {})
         })
@@ -292,7 +327,7 @@ impl MotionService for Api {
         &self,
         request: Request<pb::PlayClipRequest>,
     ) -> Result<Response<pb::PlayClipResponse>, Status> {
-        self.once(request, |api, request| async move {
+        self.once_if_awaited(request, |api, request| async move {
             let r = request.get_ref();
             let (handle, figure) = api.figure(&request, "figure", &r.figure)?;
             let figure = figure.to_owned();
@@ -311,12 +346,14 @@ impl MotionService for Api {
                 .manner(&clip_id, playback.looped, playback.speed)?;
             playback.speed = rest;
             let (body_id, body) = handle.body_of(&figure)?;
+            let _in_use = handle.usage.begin();
             let clip = match api.clips.ready(&clip_id, &body_id, manner) {
                 Some(clip) => clip,
                 None => {
                     let (app, id) = (api.0.clone(), clip_id.clone());
+                    let bytes = api.clips.memory(&id)?;
                     api.conversions
-                        .run(&client(&request), move |turn| {
+                        .run_large(&client(&request), bytes, move |turn| {
                             let stop = || turn.stop();
                             app.clips.prepared(&id, &body_id, &body, manner, &stop)
                         })

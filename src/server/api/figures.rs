@@ -3,6 +3,7 @@
 use super::{Api, answer, caller, origin};
 use crate::server::access::roles::Role;
 use crate::server::engine;
+use crate::server::repeats::to_the_end;
 use crate::wire::convert::names::FIGURE;
 use crate::wire::convert::{control, figure, new_id, page, place};
 use crate::wire::pb::{self, figure_service_server::FigureService};
@@ -107,21 +108,25 @@ impl FigureService for Api {
             } else {
                 None
             };
-            let info = handle
-                .call(origin(&request), move |s| {
-                    figure::check_etag(&s.figure(&id)?, &etag)?;
-                    match settings {
-                        Some(settings) => s.would_update_figure(&id, settings, who.as_ref()),
-                        None => s.update_figure(&id, update, who.as_ref()),
-                    }
+            let (api, origin) = (self.clone(), origin(&request));
+            to_the_end(async move {
+                let info = handle
+                    .call(origin, move |s| {
+                        figure::check_etag(&s.figure(&id)?, &etag)?;
+                        match settings {
+                            Some(settings) => s.would_update_figure(&id, settings, who.as_ref()),
+                            None => s.update_figure(&id, update, who.as_ref()),
+                        }
+                    })
+                    .await?;
+                if !only {
+                    api.stored(&handle).await?;
+                }
+                Ok(pb::UpdateFigureResponse {
+                    figure: Some(figure::figure_out(&info)),
                 })
-                .await?;
-            if !only {
-                self.stored(&handle).await?;
-            }
-            Ok(pb::UpdateFigureResponse {
-                figure: Some(figure::figure_out(&info)),
             })
+            .await
         };
         answer(result.await)
     }

@@ -1,6 +1,7 @@
 //! `HistoryService`.
 
 use super::past_frames::{self, Part};
+use super::permit::Permit;
 use super::{Api, answer, caller, client, long, origin, refusal};
 use crate::server::progress::Progress;
 use crate::server::shares::Client;
@@ -16,6 +17,9 @@ use crate::wire::pb::history_service_server::HistoryService;
 use crate::wire::status::Fault;
 use std::sync::Arc;
 use tonic::{Request, Response, Status};
+
+/// How often a state is looked for while others put the world elsewhere.
+const SEEKS: usize = 4;
 
 /// The past of a world, if any is kept.
 pub(super) fn journal(handle: &WorldHandle) -> Result<Arc<Journal>, Fault> {
@@ -64,6 +68,7 @@ impl Api {
         handle: &WorldHandle,
         tick: u64,
     ) -> Result<Scene, Fault> {
+        let _in_use = handle.usage.begin();
         let past = journal(handle)?.past(tick, tick)?;
         let work = move |turn: &Turn| reached(&past, tick, turn);
         self.simulations.run(client, work).await
@@ -117,6 +122,7 @@ impl HistoryService for Api {
             };
             let progress = Progress::default();
             let told = progress.watch();
+            let permit = Permit::new(self, &handle, &caller, &[]);
             let pool = self.simulations.clone();
             let work = |out| async move {
                 let read = move |turn: &Turn| past_frames::read(&part, out, &progress, turn);
@@ -124,6 +130,7 @@ impl HistoryService for Api {
             };
             Ok(long::Stream {
                 caller,
+                permit: Some(permit),
                 told,
                 progress: None::<fn(f64) -> pb::ReadHistoryResponse>,
                 last: |rest| rest,
@@ -137,22 +144,36 @@ impl HistoryService for Api {
         &self,
         request: Request<pb::SeekWorldRequest>,
     ) -> Result<Response<pb::SeekWorldResponse>, Status> {
-        self.once(request, |api, request| async move {
+        self.once_if_awaited(request, |api, request| async move {
             let (client, origin) = (client(&request), origin(&request));
             let handle = api.world(&request, "name", &request.get_ref().name)?;
             let tick = not_negative("tick", request.get_ref().tick)?;
-            let scene = api.at_tick(&client, &handle, tick).await?;
-            let cleared = handle.clone();
-            let info = handle
-                .call(origin, move |s| {
-                    let info = s.restore(scene, Past::OwnPast)?;
-                    // What viewers could resume with is of another time.
-                    cleared.history().go_back(tick);
-                    Ok(info)
-                })
-                .await?;
-            Ok(pb::SeekWorldResponse {
-                world: Some(world::world_out(&info)),
+            for _ in 0..SEEKS {
+                let journal = journal(&handle)?;
+                let begun_anew = journal.begun_anew();
+                let scene = api.at_tick(&client, &handle, tick).await?;
+                let cleared = handle.clone();
+                let found = handle
+                    .call(origin.clone(), move |s| {
+                        // A state of a past that is no longer that of the world is no place to put it.
+                        if journal.begun_anew() != begun_anew {
+                            return Ok(None);
+                        }
+                        let info = s.restore(scene, Past::OwnPast)?;
+                        // What viewers could resume with is of another time.
+                        cleared.history().go_back(tick);
+                        Ok(Some(info))
+                    })
+                    .await?;
+                if let Some(info) = found {
+                    return Ok(pb::SeekWorldResponse {
+                        world: Some(world::world_out(&info)),
+                    });
+                }
+            }
+            Err(Fault::Aborted {
+                reason: "WORLD_RESTORED",
+                message: "others put the world elsewhere again and again meanwhile".to_owned(),
             })
         })
         .await
@@ -175,6 +196,7 @@ impl HistoryService for Api {
                     return Err(Fault::invalid("thread_count", why));
                 }
             };
+            let _in_use = handle.usage.begin();
             let journal = journal(&handle)?;
             let (first, last) = span(&journal, r.first_tick, r.last_tick)?;
             let past = journal.past(first, last)?;

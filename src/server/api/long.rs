@@ -1,9 +1,12 @@
 //! Streams of long work: how far it is, and in the end what came of it. The work is given up when the stream ends.
 
+use super::permit::Permit;
 use super::{refusal, stopped};
 use crate::server::access::caller::Caller;
 use crate::server::workers::Turn;
+use crate::wire::pb;
 use crate::wire::status::Fault;
+use prost::Message as _;
 use std::future::{Future, pending};
 use std::time::{Duration, Instant};
 use tokio::sync::mpsc::error::TrySendError;
@@ -20,10 +23,17 @@ const QUEUE: usize = 4;
 pub(super) const LAST_WORD: Duration = Duration::from_secs(30);
 /// Bytes of frames, and time, after which a message of a stream is sent.
 pub(super) const PART: (usize, Duration) = (64 * 1024, Duration::from_millis(100));
-/// How long work waits for a client that does not read before it is given up.
-const PATIENCE: Duration = Duration::from_secs(30);
+/// How long work waits for a client that does not read before it is given up: usually, and while others wait for its
+/// place.
+const PATIENCE: [Duration; 2] = [Duration::from_secs(30), Duration::from_secs(1)];
 /// How often it looks whether the client has read.
 const LOOK: Duration = Duration::from_millis(5);
+
+/// Bytes of a frame in memory, near enough: one that shows little takes many times as much as on the wire.
+pub(super) fn memory(frame: &pb::WorldFrame) -> usize {
+    let figures = frame.figures.len() * size_of::<pb::FigureFrame>();
+    size_of::<pb::WorldFrame>() + figures + frame.encoded_len()
+}
 
 /// Where messages of work go.
 pub(super) type Out<M> = mpsc::Sender<Result<M, Status>>;
@@ -48,10 +58,13 @@ pub(super) fn hand_over<M>(out: &Out<M>, message: M, turn: &Turn) -> Result<(), 
         if turn.stop() {
             return Err(Turn::gone());
         }
-        if begun.elapsed() > PATIENCE {
+        let waited = begun.elapsed();
+        let [long, short] = PATIENCE;
+        if waited > long || waited > short && turn.is_wanted() {
+            let seconds = waited.as_secs();
             return Err(Fault::Aborted {
                 reason: "SLOW_READER",
-                message: "what was sent was not read for half a minute".into(),
+                message: format!("what was sent was not read for {seconds} s"),
             });
         }
         std::thread::sleep(LOOK);
@@ -62,6 +75,8 @@ pub(super) fn hand_over<M>(out: &Out<M>, message: M, turn: &Turn) -> Result<(), 
 pub(super) struct Stream<P, L> {
     /// Whose it is.
     pub caller: Caller,
+    /// Ends it with the caller's role in a world.
+    pub permit: Option<Permit>,
     /// How far the work is.
     pub told: watch::Receiver<Option<f64>>,
     /// Makes a message of that; `None` if the work itself sends such messages.
@@ -110,7 +125,14 @@ impl<P, L> Stream<P, L> {
                     None => pending().await,
                 }
             };
-            tokio::pin!(expired);
+            let mut permit = self.permit.take();
+            let ended = async {
+                match &mut permit {
+                    Some(permit) => permit.ended().await,
+                    None => pending().await,
+                }
+            };
+            tokio::pin!(expired, ended);
             let done = loop {
                 tokio::select! {
                     done = &mut work => break done,
@@ -127,6 +149,7 @@ impl<P, L> Stream<P, L> {
                     () = out.closed() => return,
                     () = stopped(&mut stopping) => break Err(Fault::Draining),
                     () = &mut expired => break Err(Caller::expired()),
+                    fault = &mut ended => break Err(fault),
                 }
             };
             drop(work);
@@ -135,5 +158,40 @@ impl<P, L> Stream<P, L> {
             let _ = out.send_timeout(last, LAST_WORD).await;
         });
         ReceiverStream::new(messages)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::server::workers::Pool;
+
+    #[tokio::test(flavor = "multi_thread")]
+    async fn who_does_not_read_gives_way_to_others() {
+        let pool = Pool::new("piece of work", "max_waiting_work", 1, 64);
+        let mut unread = Vec::new();
+        for n in 0..12 {
+            let (out, messages) = mpsc::channel(1);
+            unread.push(messages);
+            let pool = pool.clone();
+            tokio::spawn(async move {
+                let stalled = move |turn: &Turn| {
+                    hand_over(&out, 1, turn)?;
+                    hand_over(&out, 2, turn)
+                };
+                pool.run(&format!("{n}").into(), stalled).await
+            });
+        }
+        let full = async {
+            while unread.iter().filter(|m| m.len() == 1).count() < 8 {
+                tokio::time::sleep(LOOK).await;
+            }
+        };
+        let [long, _] = PATIENCE;
+        tokio::time::timeout(long / 2, full).await.unwrap();
+        let client = "other".into();
+        let other = pool.run(&client, |_| Ok(7));
+        let other = tokio::time::timeout(long / 2, other).await;
+        assert_eq!(other.expect("it has its turn").unwrap(), 7);
     }
 }

@@ -19,6 +19,8 @@ mod perturbations;
 mod recordings;
 mod simulation;
 mod state;
+#[cfg(test)]
+mod tests;
 mod watching;
 mod worlds;
 
@@ -28,15 +30,18 @@ use super::access::grants::Grant;
 use super::access::roles::{Role, Rule};
 use super::checkpoints::Checkpoints;
 use super::config::Config;
+use super::edge::Upload;
+use super::encoded::Encoded;
 use super::library::{Bodies, Clips};
 use super::operations::{self as long_work, Operations};
 use super::persistence::Persistence;
 use super::recordings::Recordings;
-use super::repeats::{self, Repeats};
+use super::repeats::{self, Repeats, to_the_end};
 use super::shares::{Client, Place, Places};
 use super::tick::command::Origin;
 use super::workers::Pool;
-use super::worlds::{Registry, WorldHandle};
+use super::worlds::{Leaving, Registry, WorldHandle};
+use crate::sim::retarget;
 use crate::wire::convert::{client_id, world_name};
 use crate::wire::pb;
 use crate::wire::repeatable::Repeatable;
@@ -126,7 +131,7 @@ pub struct App {
     /// The data directory.
     pub persistence: Option<Arc<Persistence>>,
     /// Long work that nobody waits for.
-    operations: Arc<Operations<pb::operation::Result>>,
+    operations: Arc<Operations<Encoded>>,
     /// Recent requests by name, with their answers.
     repeats: Arc<Repeats>,
     /// When the server started.
@@ -212,25 +217,31 @@ impl App {
         }
     }
 
-    /// Waits until what has changed of a world is on disk.
-    async fn stored(&self, handle: &WorldHandle) -> Result<(), Fault> {
-        match &self.persistence {
-            Some(persistence) => persistence.changed(handle).await,
-            None => Ok(()),
-        }
+    /// Waits until what has changed of a world is on disk. What is half written when its client goes away would differ
+    /// from what is known of it.
+    async fn stored(&self, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
+        let Some(persistence) = self.persistence.clone() else {
+            return Ok(());
+        };
+        let handle = handle.clone();
+        to_the_end(async move { persistence.changed(&handle).await }).await
     }
 
-    /// Writes a new world down; one that cannot be is ended again.
-    async fn written(&self, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
-        if let Some(persistence) = &self.persistence
-            && let Err(fault) = persistence.created(handle).await
-        {
-            self.worlds
-                .delete(&handle.id, "it could not be stored")
-                .await?;
-            return Err(fault);
-        }
-        Ok(())
+    /// Writes a new world down, whether or not its client waits for it; one that cannot be is ended again. Called
+    /// before anything else is waited for: others can see the world already.
+    async fn written(self: &Arc<Self>, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
+        let Some(persistence) = self.persistence.clone() else {
+            return Ok(());
+        };
+        let (app, handle) = (self.clone(), handle.clone());
+        to_the_end(async move {
+            let written = persistence.created(&handle).await;
+            if written.is_err() {
+                app.delete(&handle, "it could not be stored").await?;
+            }
+            written
+        })
+        .await
     }
 
     /// A world by the last part of its name; one in quarantine says so.
@@ -239,6 +250,14 @@ impl App {
             let quarantined = self.persistence.as_ref().map(|p| p.check(id));
             quarantined.and_then(Result::err).unwrap_or(missing)
         })
+    }
+
+    /// Refuses what is not to come into being after its world has left.
+    fn still_there(&self, handle: &WorldHandle) -> Result<(), Fault> {
+        match self.worlds.holds(handle) {
+            true => Ok(()),
+            false => Err(handle.ended()),
+        }
     }
 
     /// The world of this name, for a caller who has the role there that its call needs.
@@ -342,20 +361,26 @@ impl App {
         }
     }
 
-    /// Ends a world, also on disk. `by`: who wants it.
-    async fn delete_world_by(&self, id: &str, by: &str) -> Result<(), Fault> {
-        let ended = self.worlds.delete(id, by).await;
-        let stored = self.forget_world(id).await?;
-        if stored { Ok(()) } else { ended }
+    /// Ends this very world, and not another one of its name, also on disk. `by`: who wants it.
+    async fn delete(self: &Arc<Self>, handle: &Arc<WorldHandle>, by: &str) -> Result<(), Fault> {
+        let (app, handle, by) = (self.clone(), handle.clone(), by.to_owned());
+        to_the_end(async move {
+            let same = |there: &Arc<WorldHandle>| Arc::ptr_eq(there, &handle);
+            let leaving = app.worlds.delete_if(&handle.id, &by, same).await?;
+            let missing = || Fault::not_found("world", format!("worlds/{}", handle.id));
+            app.forget_world(leaving.ok_or_else(missing)?).await
+        })
+        .await
     }
 
-    /// Forgets what is kept of a world that has ended; whether there was something on disk.
-    async fn forget_world(&self, id: &str) -> Result<bool, Fault> {
-        self.checkpoints.forget_world(id);
-        self.recordings.forget_world(id);
+    /// Forgets what is kept of a world that has ended. Until then no other one has its name.
+    async fn forget_world(&self, leaving: Leaving) -> Result<(), Fault> {
+        let handle = &leaving.handle;
+        self.checkpoints.forget_world(&handle.id);
+        self.recordings.forget_world(&handle.id);
         match &self.persistence {
-            Some(persistence) => persistence.deleted(id).await,
-            None => Ok(false),
+            Some(persistence) => persistence.deleted(handle).await,
+            None => Ok(()),
         }
     }
 
@@ -364,7 +389,7 @@ impl App {
         loop {
             tokio::time::sleep(IDLE_LOOK).await;
             for handle in self.worlds.list() {
-                let idle = |w: &WorldHandle| {
+                let idle = |w: &Arc<WorldHandle>| {
                     let ttl = w.described().world.settings.pace.idle_ttl;
                     ttl.is_some_and(|ttl| w.usage.idle(Instant::now()) >= ttl)
                 };
@@ -373,8 +398,8 @@ impl App {
                 }
                 // Whoever came in the meantime keeps it; one that somebody else deletes is gone, too.
                 let ended = self.worlds.delete_if(&handle.id, "idle_ttl", idle).await;
-                if matches!(ended, Ok(true))
-                    && let Err(fault) = self.forget_world(&handle.id).await
+                if let Ok(Some(leaving)) = ended
+                    && let Err(fault) = self.forget_world(leaving).await
                 {
                     tracing::error!(world = &*handle.id, %fault, "an idle world is still stored");
                 }
@@ -420,7 +445,8 @@ impl std::ops::Deref for Api {
 }
 
 impl Api {
-    /// Answers a request that is done once, however often it comes under the same `request_id`.
+    /// Answers a request that is done once, however often it comes under the same `request_id`. Once it has begun it is
+    /// done to its end, also if its client does not wait for it: what is half done would differ from what is stored.
     async fn once<Q, R, W>(
         &self,
         request: Request<Q>,
@@ -428,7 +454,23 @@ impl Api {
     ) -> Result<Response<R>, Status>
     where
         Q: Repeatable,
-        R: prost::Message + Default,
+        R: prost::Message + Default + 'static,
+        W: Future<Output = Result<R, Fault>> + Send + 'static,
+    {
+        let upload = upload(&request);
+        let work = |api, request| to_the_end(holding(upload, work(api, request)));
+        self.once_if_awaited(request, work).await
+    }
+
+    /// The same for what takes long before it changes anything: without a `request_id` it is given up with its client.
+    async fn once_if_awaited<Q, R, W>(
+        &self,
+        request: Request<Q>,
+        work: impl FnOnce(Self, Request<Q>) -> W,
+    ) -> Result<Response<R>, Status>
+    where
+        Q: Repeatable,
+        R: prost::Message + Default + 'static,
         W: Future<Output = Result<R, Fault>> + Send + 'static,
     {
         let id = client_id("request_id", request.get_ref().request_id()).map_err(refusal)?;
@@ -442,7 +484,7 @@ impl Api {
             id,
         };
         let hash = xxh3_64(&request.get_ref().encode_to_vec());
-        let work = work(self.clone(), request);
+        let work = holding(upload(&request), work(self.clone(), request));
         let encoded = async move { work.await.map(|r| Bytes::from(r.encode_to_vec())) };
         let done = self.repeats.once(key, hash, encoded).await;
         answer(done.and_then(|bytes| {
@@ -503,6 +545,24 @@ fn client<T>(request: &Request<T>) -> Client {
     caller(request).map_or_else(|_| "".into(), |c| c.client.clone())
 }
 
+/// The bytes that a request has come with.
+fn upload<T>(request: &Request<T>) -> Upload {
+    let upload = request.extensions().get::<Upload>();
+    upload.cloned().unwrap_or_default()
+}
+
+/// Work that may go on without its client: until it ends, its request is in memory.
+async fn holding<T>(upload: Upload, work: impl Future<Output = T>) -> T {
+    let _upload = upload;
+    work.await
+}
+
+/// Bytes that converting a file takes meanwhile. They are found where there is time for it: its head may be long.
+async fn memory(file: Bytes, rate_hz: Option<f64>) -> u64 {
+    let found = tokio::task::spawn_blocking(move || retarget::memory(&file, rate_hz));
+    found.await.unwrap_or(0)
+}
+
 /// The sender of a request, as commands of its world are ordered by.
 fn origin<T>(request: &Request<T>) -> Origin {
     Origin {
@@ -514,6 +574,13 @@ fn origin<T>(request: &Request<T>) -> Origin {
 /// A result as gRPC wants it; refusals are counted by reason.
 fn answer<T>(result: Result<T, Fault>) -> Result<Response<T>, Status> {
     result.map(Response::new).map_err(refusal)
+}
+
+/// An answer that is encoded already. The message itself is empty: the edge sends the bytes in its place.
+fn encoded<T: Default>(bytes: Encoded) -> Response<T> {
+    let mut response = Response::new(T::default());
+    response.extensions_mut().insert(bytes);
+    response
 }
 
 fn refusal(fault: Fault) -> Status {

@@ -1,6 +1,7 @@
 //! `OperationService`.
 
-use super::{Api, answer, caller, client, clips, simulation, stopped};
+use super::{Api, answer, caller, client, clips, encoded, refusal, simulation, stopped, upload};
+use crate::server::encoded::Encoded;
 use crate::server::operations::{Operation, State};
 use crate::wire::convert::names::OPERATION;
 use crate::wire::convert::{duration, operation_name, page, timestamp};
@@ -14,19 +15,27 @@ use tonic::{Request, Response, Status};
 /// Longest wait of one call, and the wait of one that does not say.
 const LONGEST_WAIT: Duration = Duration::from_secs(60);
 
-/// Bytes of a result in memory, near enough.
-fn size(done: &Done) -> u64 {
-    match done {
-        Done::Error(status) => prost::Message::encoded_len(status) as u64,
-        Done::CreateClip(made) => prost::Message::encoded_len(made) as u64,
-        Done::SimulateClip(done) => prost::Message::encoded_len(done) as u64,
-        Done::RehearseClip(done) => prost::Message::encoded_len(done) as u64,
-    }
+/// The field `operation` of every answer that has one.
+const OPERATION_FIELD: u32 = 1;
+/// The field `simulate_clip` of an operation.
+const SIMULATE_CLIP: u32 = 9;
+
+/// Bytes of a result.
+fn size(result: &Encoded) -> u64 {
+    result.len() as u64
+}
+
+/// The field of an operation that holds its result.
+fn result(done: Done) -> Encoded {
+    Encoded::of(&pb::Operation {
+        result: Some(done),
+        ..Default::default()
+    })
 }
 
 impl Api {
-    /// An operation on the wire.
-    fn operation_out(&self, o: &Operation<Done>, with_result: bool) -> pb::Operation {
+    /// An operation on the wire, and apart from it the field of its result.
+    fn operation_out(&self, o: &Operation<Encoded>) -> (pb::Operation, Encoded) {
         use pb::OperationState as S;
         let told = *o.progress.watch().borrow();
         let mut out = pb::Operation {
@@ -35,6 +44,7 @@ impl Api {
             create_time: Some(timestamp(o.created)),
             ..Default::default()
         };
+        let mut found = Encoded::default();
         let state = match o.state() {
             State::Going if told.is_none() => S::Queued,
             State::Going => S::Running,
@@ -46,25 +56,31 @@ impl Api {
                     None => S::Cancelled,
                     Some(Ok(done)) => {
                         out.progress = 1.0;
-                        out.result = with_result.then(|| (*done).clone());
+                        found = (*done).clone();
                         S::Succeeded
                     }
                     Some(Err(fault)) => {
-                        out.result = with_result.then(|| Done::Error(rpc_status(fault)));
+                        found = result(Done::Error(rpc_status(fault)));
                         S::Failed
                     }
                 }
             }
         };
         out.state = state.into();
-        out
+        (out, found)
+    }
+
+    /// An answer with an operation and its result, which all who ask for it share.
+    fn operation_answer<T: Default>(&self, o: &Operation<Encoded>) -> Response<T> {
+        let (operation, result) = self.operation_out(o);
+        encoded(Encoded::of(&operation).then(result).field(OPERATION_FIELD))
     }
 
     fn operation<T>(
         &self,
         request: &Request<T>,
         name: &str,
-    ) -> Result<std::sync::Arc<Operation<Done>>, Fault> {
+    ) -> Result<std::sync::Arc<Operation<Encoded>>, Fault> {
         let id = operation_name("name", name)?;
         self.operations.get(caller(request)?.principal(), id)
     }
@@ -78,6 +94,7 @@ impl OperationService for Api {
     ) -> Result<Response<pb::StartOperationResponse>, Status> {
         self.once(request, |api, request| async move {
             let (client, caller) = (client(&request), caller(&request)?.clone());
+            let upload = upload(&request);
             let work = request.into_inner().work;
             let work = work.ok_or_else(|| {
                 Fault::invalid(
@@ -98,26 +115,33 @@ impl OperationService for Api {
                 |progress| async move {
                     let who = (&caller, client);
                     match work {
-                        Work::CreateClip(r) => clips::create(&doer, who, r, progress)
+                        Work::CreateClip(r) => clips::create(&doer, who, (r, upload), progress)
                             .await
-                            .map(Done::CreateClip)
+                            .map(|made| result(Done::CreateClip(made)))
                             .map_err(|fault| fault.within("create_clip")),
                         Work::SimulateClip(r) => {
-                            simulation::simulate(&doer, who, r, progress, None)
+                            simulation::simulate(&doer, who, (r, upload), progress, None)
                                 .await
-                                .map(Done::SimulateClip)
+                                .map(|done| done.whole().field(SIMULATE_CLIP))
                                 .map_err(|fault| fault.within("simulate_clip"))
                         }
                         Work::RehearseClip(r) => clips::rehearse(&doer, who, r, progress)
                             .await
-                            .map(Done::RehearseClip)
+                            .map(|done| result(Done::RehearseClip(done)))
                             .map_err(|fault| fault.within("rehearse_clip")),
                     }
                 },
                 size,
             )?;
+            // What has ended already says so when it is asked for.
+            let operation = pb::Operation {
+                state: pb::OperationState::Queued.into(),
+                name: OPERATION.name([&started.id]),
+                create_time: Some(timestamp(started.created)),
+                ..Default::default()
+            };
             Ok(pb::StartOperationResponse {
-                operation: Some(api.operation_out(&started, true)),
+                operation: Some(operation),
             })
         })
         .await
@@ -128,9 +152,8 @@ impl OperationService for Api {
         request: Request<pb::GetOperationRequest>,
     ) -> Result<Response<pb::GetOperationResponse>, Status> {
         let operation = self.operation(&request, &request.get_ref().name);
-        answer(operation.map(|o| pb::GetOperationResponse {
-            operation: Some(self.operation_out(&o, true)),
-        }))
+        let operation = operation.map_err(refusal)?;
+        Ok(self.operation_answer(&operation))
     }
 
     async fn list_operations(
@@ -146,10 +169,7 @@ impl OperationService for Api {
             let list = format!("operations of {principal}");
             let (operations, next_page_token) = page(&list, items, r.page_size, &r.page_token)?;
             Ok(pb::ListOperationsResponse {
-                operations: operations
-                    .iter()
-                    .map(|o| self.operation_out(o, false))
-                    .collect(),
+                operations: operations.iter().map(|o| self.operation_out(o).0).collect(),
                 next_page_token,
             })
         };
@@ -174,11 +194,9 @@ impl OperationService for Api {
                 () = tokio::time::sleep(longest) => {}
                 () = stopped(&mut stopping) => return Err(Fault::Draining),
             }
-            Ok(pb::WaitOperationResponse {
-                operation: Some(self.operation_out(&operation, true)),
-            })
+            Ok(self.operation_answer(&operation))
         };
-        answer(result.await)
+        result.await.map_err(refusal)
     }
 
     async fn cancel_operation(
@@ -186,12 +204,9 @@ impl OperationService for Api {
         request: Request<pb::CancelOperationRequest>,
     ) -> Result<Response<pb::CancelOperationResponse>, Status> {
         let operation = self.operation(&request, &request.get_ref().name);
-        answer(operation.map(|o| {
-            o.cancel();
-            pb::CancelOperationResponse {
-                operation: Some(self.operation_out(&o, true)),
-            }
-        }))
+        let operation = operation.map_err(refusal)?;
+        operation.cancel();
+        Ok(self.operation_answer(&operation))
     }
 
     async fn delete_operation(

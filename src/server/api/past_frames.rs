@@ -10,7 +10,6 @@ use crate::wire::frame::{roster, world_frame};
 use crate::wire::pb;
 use crate::wire::status::Fault;
 use crate::wire::types::{RosterEntry, ViewSpec};
-use prost::Message as _;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -106,7 +105,7 @@ impl Frames<'_> {
             self.ready.roster = Some(roster(&snapshot, &self.part.view));
         }
         let frame = world_frame(&snapshot, &self.part.view);
-        self.bytes += frame.encoded_len();
+        self.bytes += long::memory(&frame);
         self.ready.frames.push(frame);
         if self.bytes >= long::PART.0 || self.since.elapsed() >= long::PART.1 {
             self.send()?;

@@ -36,14 +36,14 @@ impl PerturbationService for Api {
             from.sequence = r.sequence;
             let batch = perturbation::batch(&r.perturbations)?;
             let rights = handle.grants.rights(&caller.identity, &handle.id);
-            handle.grants.admit(caller, &rights, &batch)?;
+            let bound = handle.grants.admit(caller, &rights, &batch)?;
             let only = r.validate_only;
             let tick = handle
                 .call(from, move |s| {
                     if only {
-                        s.would_perturb(&batch)
+                        s.would_perturb(&batch, bound.as_ref())
                     } else {
-                        s.perturb(&batch)
+                        s.perturb(&batch, bound.as_ref())
                     }
                 })
                 .await?;

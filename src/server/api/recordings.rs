@@ -1,7 +1,8 @@
 //! `RecordingService`.
 
 use super::history::journal;
-use super::{Api, answer, client, long, refusal};
+use super::permit::Permit;
+use super::{Api, answer, caller, client, long, refusal};
 use crate::server::export::{Format, export};
 use crate::server::recordings::{NewRecording, Recording, end_name};
 use crate::wire::convert::names::RECORDING;
@@ -67,7 +68,8 @@ impl RecordingService for Api {
                 first: first.transpose()?,
                 owner: client(&request),
             };
-            let recording = api.recordings.start(journal(&handle)?, new)?;
+            let recording =
+                (api.recordings).start(journal(&handle)?, new, || api.still_there(&handle))?;
             api.stored(&handle).await?;
             Ok(pb::StartRecordingResponse {
                 recording: Some(out(&recording)),
@@ -152,9 +154,11 @@ impl RecordingService for Api {
                 Ok(pb::RecordingFormat::Csv) => Format::Csv(figure),
                 Err(_) => return Err(Fault::invalid("format", "is none that is known")),
             };
-            Ok((recording, format))
+            let handle = self.worlds.get(&recording.world)?;
+            let permit = Permit::new(self, &handle, caller(&request)?, &[]);
+            Ok((recording, format, permit))
         };
-        let (recording, format) = start().map_err(refusal)?;
+        let (recording, format, mut permit) = start().map_err(refusal)?;
         let client = client(&request);
         let (send, receive) = mpsc::channel(PIECES);
         let pool = self.simulations.clone();
@@ -190,7 +194,11 @@ impl RecordingService for Api {
                 );
                 refused.map_or(done, Err)
             });
-            if let Err(fault) = done.await {
+            let done = tokio::select! {
+                done = done => done,
+                fault = permit.ended() => Err(fault),
+            };
+            if let Err(fault) = done {
                 // Nobody may be there to hear it, or to read it.
                 let _ = send
                     .send_timeout(Err(refusal(fault)), long::LAST_WORD)

@@ -1,32 +1,93 @@
 //! `SimulationService`.
 
-use super::{Api, answer, caller, client, long, refusal};
+use super::{Api, caller, client, encoded, long, memory, refusal, upload};
 use crate::server::access::caller::Caller;
-use crate::server::engine;
+use crate::server::edge::Upload;
+use crate::server::encoded::Encoded;
+use crate::server::engine::{self, Clip};
 use crate::server::library::Manner;
 use crate::server::progress::Progress;
 use crate::server::shares::Client;
 use crate::server::simulate::{self, Limits, Sink};
 use crate::server::workers::Turn;
+use crate::sim::body::Body;
 use crate::sim::plan::cycle;
 use crate::wire::convert::simulation::{self, Source};
 use crate::wire::pb::{self, simulation_service_server::SimulationService};
 use crate::wire::status::Fault;
-use prost::Message as _;
+use crate::wire::types::{MotionSource, ReadingReport, SimulationSettings};
 use std::sync::Arc;
 use std::time::Instant;
 use tonic::{Request, Response, Status};
 
 type Out = long::Out<pb::StreamSimulateClipResponse>;
 
+/// What came of a simulation.
+pub(super) struct Done {
+    /// Without frames.
+    answer: pb::SimulateClipResponse,
+    /// The field of the answer that holds them.
+    frames: Encoded,
+}
+
+impl Done {
+    /// The whole answer.
+    pub(super) fn whole(self) -> Encoded {
+        Encoded::of(&self.answer).then(self.frames)
+    }
+}
+
+/// The motion of a simulation, prepared where files become clips.
+async fn motion(
+    api: &Api,
+    client: &Client,
+    (source, upload): (Source, Upload),
+    settings: &SimulationSettings,
+    body: &Arc<Body>,
+    progress: Progress,
+) -> Result<(Arc<Clip>, Option<ReadingReport>), Fault> {
+    let (app, body, looped) = (api.0.clone(), body.clone(), settings.looped);
+    match source {
+        Source::Clip(id) => {
+            let (body_id, manner) = (settings.figure.body.id.clone(), Manner::recorded(looped));
+            if let Some(clip) = api.clips.ready(&id, &body_id, manner) {
+                return Ok((clip, None));
+            }
+            let bytes = api.clips.memory(&id)?;
+            let work = move |turn: &Turn| {
+                let stop = || turn.stop();
+                app.clips.prepared(&id, &body_id, &body, manner, &stop)
+            };
+            let clip = api.conversions.run_large(client, bytes, work).await?;
+            Ok((clip, None))
+        }
+        Source::File(file) => {
+            let bytes = match &file {
+                MotionSource::Bvh(data, how) => memory(data.clone(), how.rate_hz).await,
+                MotionSource::Postures { .. } => 0, // none is uploaded to be simulated
+            };
+            let work = move |turn: &Turn| {
+                let _upload = upload;
+                progress.tell(0.0, 1.0);
+                let stop = || turn.stop();
+                let (clip, report) = engine::prepare("bvh", "upload", &file, &body, 1.0, &stop)?;
+                let clip = Arc::new(clip);
+                let repeats = looped.then(|| cycle(&body, &clip)).flatten();
+                Ok((repeats.map_or(clip, Arc::new), report))
+            };
+            api.conversions.run_large(client, bytes, work).await
+        }
+    }
+}
+
 /// Simulates a clip. Frames go into the response, or to `out`.
 pub(super) async fn simulate(
     api: &Api,
     (caller, client): (&Caller, Client),
-    r: pb::SimulateClipRequest,
+    (r, upload): (pb::SimulateClipRequest, Upload),
     progress: Progress,
     out: Option<Out>,
-) -> Result<pb::SimulateClipResponse, Fault> {
+) -> Result<Done, Fault> {
     let limits = Limits {
         seconds: api.config.max_simulation_s,
         bytes: api.config.max_response_bytes,
@@ -36,37 +97,21 @@ pub(super) async fn simulate(
     if let Source::Clip(id) = &source {
         super::clips::seen(api, caller, id)?; // an unknown name does not wait for its turn
     }
-    let app = api.0.clone();
+    let body = api.body("figure.profile", &settings.figure.body).await?;
+    let (source, told) = ((source, upload), progress.clone());
+    let (clip, report) = motion(api, &client, source, &settings, &body, told).await?;
     let work = move |turn: &Turn| {
         progress.tell(0.0, 1.0);
-        let stop = || turn.stop();
-        let body_id = settings.figure.body.id.clone();
-        let body = app.bodies.get("figure.profile", &settings.figure.body)?;
-        let (clip, report) = match source {
-            Source::Clip(id) => {
-                let manner = Manner::recorded(settings.looped);
-                let clip = app.clips.prepared(&id, &body_id, &body, manner, &stop)?;
-                (clip, None)
-            }
-            Source::File(file) => {
-                let (clip, report) = engine::prepare("bvh", "upload", &file, &body, 1.0, &stop)?;
-                let clip = Arc::new(clip);
-                let repeats = settings.looped.then(|| cycle(&body, &clip)).flatten();
-                (repeats.map_or(clip, Arc::new), report)
-            }
-        };
         let mut parts = out.map(|out| Parts::new(out, turn));
         let sink = Sink {
             progress: &progress,
             parts: parts.as_mut().map(|p| p as &mut dyn simulate::Parts),
         };
         let outcome = simulate::run(&settings, &body, clip, limits, (turn, sink))?;
-        Ok(simulation::response(
-            &outcome.summary,
-            outcome.frames,
-            &outcome.events,
-            report.as_ref(),
-        ))
+        Ok(Done {
+            answer: simulation::response(&outcome.summary, &outcome.events, report.as_ref()),
+            frames: outcome.frames,
+        })
     };
     api.simulations.run(&client, work).await
 }
@@ -110,7 +155,7 @@ impl<'a> Parts<'a> {
 impl simulate::Parts for Parts<'_> {
     fn take(&mut self, frame: Option<pb::WorldFrame>, share: f64) -> Result<(), Fault> {
         if let Some(frame) = frame {
-            self.bytes += frame.encoded_len();
+            self.bytes += long::memory(&frame);
             self.frames.push(frame);
         }
         if self.bytes >= long::PART.0 || self.since.elapsed() >= long::PART.1 {
@@ -132,10 +177,12 @@ impl SimulationService for Api {
     ) -> Result<Response<pb::SimulateClipResponse>, Status> {
         let result = async {
             let (client, caller) = (client(&request), caller(&request)?.clone());
-            let (r, progress) = (request.into_inner(), Progress::default());
+            let (upload, progress) = (upload(&request), Progress::default());
+            let r = (request.into_inner(), upload);
             simulate(self, (&caller, client), r, progress, None).await
         };
-        answer(result.await)
+        let done = result.await.map_err(refusal)?;
+        Ok(encoded(done.whole()))
     }
 
     type StreamSimulateClipStream = long::Messages<pb::StreamSimulateClipResponse>;
@@ -147,19 +194,23 @@ impl SimulationService for Api {
         use pb::stream_simulate_clip_response::Message;
         let start = || {
             let (client, caller) = (client(&request), caller(&request)?.clone());
+            let upload = upload(&request);
             let r = request.into_inner().simulate_clip;
             let r = r.ok_or_else(|| Fault::invalid("simulate_clip", "must be given"))?;
             let (api, progress) = (self.clone(), Progress::default());
             let (told, who) = (progress.watch(), caller.clone());
             let work = |out| async move {
+                let r = (r, upload);
                 let done = simulate(&api, (&who, client), r, progress, Some(out)).await;
-                done.map_err(|fault| fault.within("simulate_clip"))
+                done.map(|done| done.answer)
+                    .map_err(|fault| fault.within("simulate_clip"))
             };
             let last = |done| pb::StreamSimulateClipResponse {
                 message: Some(Message::SimulateClip(done)),
             };
             Ok(long::Stream {
                 caller,
+                permit: None,
                 told,
                 progress: None::<fn(f64) -> pb::StreamSimulateClipResponse>,
                 last,

@@ -2,6 +2,7 @@
 
 use super::{Api, answer, caller, client, first_grants, origin};
 use crate::server::access::roles::Role;
+use crate::server::repeats::to_the_end;
 use crate::server::tick::shard::{Shard, StepRequest};
 use crate::wire::convert::{count, new_id, page, world, world_name};
 use crate::wire::pb::{self, world_service_server::WorldService};
@@ -22,9 +23,13 @@ impl Api {
         f: impl FnOnce(&mut Shard) -> Result<WorldInfo, Fault> + Send + 'static,
     ) -> Result<pb::World, Fault> {
         let handle = self.world(request, "name", name)?;
-        let info = handle.call(origin(request), f).await?;
-        self.stored(&handle).await?;
-        Ok(world::world_out(&info))
+        let (api, origin) = (self.clone(), origin(request));
+        to_the_end(async move {
+            let info = handle.call(origin, f).await?;
+            api.stored(&handle).await?;
+            Ok(world::world_out(&info))
+        })
+        .await
     }
 }
 
@@ -109,22 +114,20 @@ impl WorldService for Api {
             let handle = self.world(&request, "world.name", &w.name)?;
             let update = world::update(w, r.update_mask.as_ref())?;
             let (etag, only) = (w.etag.clone(), r.validate_only);
-            let info = handle
-                .call(origin(&request), move |s| {
-                    world::check_etag(&s.info(), &etag)?;
-                    if only {
-                        s.would_update(update)
-                    } else {
-                        s.update(update)
-                    }
-                })
-                .await?;
-            if !only {
-                self.stored(&handle).await?;
-            }
-            Ok(pb::UpdateWorldResponse {
-                world: Some(world::world_out(&info)),
-            })
+            let change = move |s: &mut Shard| {
+                world::check_etag(&s.info(), &etag)?;
+                if only {
+                    s.would_update(update)
+                } else {
+                    s.update(update)
+                }
+            };
+            let world = if only {
+                world::world_out(&handle.call(origin(&request), change).await?)
+            } else {
+                self.on_world(&request, &w.name, change).await?
+            };
+            Ok(pb::UpdateWorldResponse { world: Some(world) })
         };
         answer(result.await)
     }
@@ -142,13 +145,17 @@ impl WorldService for Api {
                 .persistence
                 .as_ref()
                 .is_some_and(|p| p.check(name).is_err());
-            if quarantined {
-                caller.check_claim(Role::Owner, name)?;
-            } else {
-                let handle = api.enter(caller, name)?;
-                world::check_etag(&handle.info(), &r.etag)?;
+            match &api.persistence {
+                Some(persistence) if quarantined => {
+                    caller.check_claim(Role::Owner, name)?;
+                    persistence.deleted_in_quarantine(name).await?;
+                }
+                _ => {
+                    let handle = api.enter(caller, name)?;
+                    world::check_etag(&handle.info(), &r.etag)?;
+                    api.delete(&handle, caller.principal()).await?;
+                }
             }
-            api.delete_world_by(name, caller.principal()).await?;
             Ok(pb::DeleteWorldResponse {})
         })
         .await
@@ -182,7 +189,7 @@ impl WorldService for Api {
         &self,
         request: Request<pb::StepWorldRequest>,
     ) -> Result<Response<pb::StepWorldResponse>, Status> {
-        self.once(request, |api, request| async move {
+        self.once_if_awaited(request, |api, request| async move {
             let r = request.get_ref();
             let handle = api.world(&request, "name", &r.name)?;
             let left = count("tick_count", r.tick_count, 1, 1, MAX_STEPS)?;

@@ -357,7 +357,8 @@ settings! {
     max_requests: int = 4096, 16, 1_000_000;
     /// Bytes of all requests that are read or worked on.
     max_pending_bytes: int = 50_331_648, 1_048_576, 2_147_483_648;
-    /// Bytes that wait for clients to read them; beyond that, connections that read nothing are closed.
+    /// Bytes that wait for clients to read them; beyond that, connections that read nothing are closed, and large
+    /// answers refused.
     max_unread_bytes: int = 67_108_864, 1_048_576, 68_719_476_736;
     /// How long a new connection may take to bring its first request, s.
     first_request_s: float = 10.0, 0.1, 3600.0;

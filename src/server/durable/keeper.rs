@@ -19,6 +19,8 @@ use tokio::sync::{oneshot, watch};
 pub const GROUP: Duration = Duration::from_millis(10);
 /// Time between two looks at what can be cut off.
 const UPKEEP: Duration = Duration::from_secs(1);
+/// The same while there is more to delete: between them groups are committed.
+const UPKEEP_AGAIN: Duration = Duration::from_millis(50);
 /// Time between two tries on a disk that has failed.
 const RETRY: Duration = Duration::from_secs(1);
 /// Requests that wait for the thread.
@@ -144,6 +146,28 @@ impl Shared {
     }
 }
 
+/// A request that has its place in the order of all.
+#[derive(Debug)]
+pub struct HandedIn<T>(oneshot::Receiver<Result<T, StoreError>>);
+
+impl<T> HandedIn<T> {
+    /// Waits until it is done.
+    ///
+    /// # Errors
+    /// Its own; the store has ended.
+    pub async fn done(self) -> Result<T, StoreError> {
+        self.0.await.unwrap_or(Err(StoreError::Ended))
+    }
+
+    /// The same. Blocks: not on an async thread.
+    ///
+    /// # Errors
+    /// Its own; the store has ended.
+    pub fn wait(self) -> Result<T, StoreError> {
+        self.0.blocking_recv().unwrap_or(Err(StoreError::Ended))
+    }
+}
+
 /// Hands what is to be written to the thread that writes.
 pub struct Keeper {
     shared: Arc<Shared>,
@@ -210,6 +234,17 @@ impl Keeper {
         &self,
         f: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, StoreError> + Send + 'static,
     ) -> Result<T, StoreError> {
+        self.hand_in(f)?.done().await
+    }
+
+    /// The same without waiting: it has its place in the order of all that is handed in when this returns.
+    ///
+    /// # Errors
+    /// Too many requests wait; the store has ended.
+    pub fn hand_in<T: Send + 'static>(
+        &self,
+        f: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, StoreError> + Send + 'static,
+    ) -> Result<HandedIn<T>, StoreError> {
         let (tx, rx) = oneshot::channel();
         {
             let mut queue = locked(&self.shared.queue);
@@ -226,7 +261,7 @@ impl Keeper {
             }));
         }
         self.shared.filled.notify_one();
-        rx.await.unwrap_or(Err(StoreError::Ended))
+        Ok(HandedIn(rx))
     }
 
     /// Why less is written than was promised; `None`: everything is.
@@ -432,10 +467,23 @@ impl Writer {
                 break;
             }
         }
-        locked(&self.shared.queue).ended = true;
+        self.end();
         if let Err(error) = self.store.close() {
             tracing::error!(%error, "the store did not end in good order");
         }
+    }
+
+    /// From now on nobody waits for this thread.
+    fn end(&self) {
+        let mut queue = locked(&self.shared.queue);
+        queue.ended = true;
+        queue.requests.clear();
+        let (first, last) = (queue.taken + 1, queue.sent);
+        for late in queue.entries.drain(..) {
+            late.world.lose(first, last);
+        }
+        drop(queue);
+        self.shared.done.send_replace(u64::MAX);
     }
 
     /// Waits for a group, for requests, or for the time of the next upkeep.
@@ -546,10 +594,25 @@ impl Writer {
         match self.store.cut(&self.shared.sizes.retention) {
             Ok(usage) => {
                 metrics::gauge!("sinew_store_history_bytes").set(usage.history_bytes as f64);
+                if usage.unswept {
+                    self.upkeep_at = Instant::now() + UPKEEP_AGAIN;
+                }
             }
             // The next commit meets it too, and does something about it.
             Err(error) => tracing::warn!(%error, "old history was not cut off"),
         }
         metrics::histogram!("sinew_store_upkeep_seconds").record(begun.elapsed().as_secs_f64());
+    }
+}
+
+/// A panic of the thread loses what it was about to write, and says so.
+impl Drop for Writer {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            let first = *self.shared.done.borrow() + 1;
+            let fault = StoreError::Io("the thread that writes has panicked".to_owned());
+            self.failed(&fault, first);
+            self.end();
+        }
     }
 }

@@ -260,12 +260,16 @@ impl LocalStore {
         if !self.last_end.damage.is_empty() {
             return None;
         }
+        // Rows of worlds that were deleted since are not missing: the note is written with commits only.
+        let there = |w: &WorldKey| self.world_path(*w, "world").exists();
+        let ends = note.worlds.iter().filter(|(w, _)| there(w));
+        let end = ends.map(|(_, id)| *id).max().unwrap_or(0);
         self.log.expect(note.worlds);
-        (self.log.end() < note.end).then(|| {
+        (self.log.end() < end).then(|| {
             format!(
                 "{}: the last {} rows of worlds are missing: the log is damaged",
                 self.dir.join("log.sqlite").display(),
-                note.end - self.log.end()
+                end - self.log.end()
             )
         })
     }
@@ -490,8 +494,11 @@ impl CheckpointStore for LocalStore {
     }
 
     fn delete_world(&mut self, key: WorldKey) -> Result<(), StoreError> {
-        // From here on it is gone, whatever becomes of the process.
-        files::rename(&self.world_path(key, "world"), &self.world_path(key, GONE))?;
+        let (there, gone) = (self.world_path(key, "world"), self.world_path(key, GONE));
+        // From here on it is gone, whatever becomes of the process. It may be another try.
+        if there.exists() || !gone.exists() {
+            files::rename(&there, &gone)?;
+        }
         self.finish_deletion(key)
     }
 
@@ -546,11 +553,12 @@ impl CheckpointStore for LocalStore {
             StoreError::Full(_) => {
                 // The copy of the write-ahead log to where its pages belong frees it for new rows.
                 self.log.shrink()?;
-                self.log.cut(&Retention {
+                let nothing = Retention {
                     age: Duration::ZERO,
                     world_bytes: 0,
                     total_bytes: 0,
-                })?;
+                };
+                while self.log.cut(&nothing)?.unswept {}
                 self.log.shrink()?;
                 Ok(Some("the oldest history is given up".to_owned()))
             }

@@ -8,6 +8,7 @@ use super::store::{Entry, History, Item, Logged, Loss, Retention, StoreError, Us
 use bytes::Bytes;
 use rusqlite::{Connection, ErrorCode, Row, params};
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
@@ -21,7 +22,7 @@ const PAGE_BYTES: u32 = 16_384;
 const WAL_PAGES: u32 = 2000;
 /// Bytes of pages that are held in memory.
 const CACHE_KIB: u32 = 16_384;
-/// Rows that one call of [`Log::cut`] deletes, so that commits do not wait for long.
+/// Rows that one call of [`Log::cut`] looks at, so that commits do not wait for long.
 const CUT_ROWS: usize = 20_000;
 /// Damaged places in one file after which the rest of it is given up.
 const MAX_DAMAGED: u32 = 1000;
@@ -75,6 +76,25 @@ impl Track {
             .front()
             .map_or(0, |p| self.written.saturating_sub(p.bytes_before))
     }
+
+    /// Drops the oldest of two or more checkpoints. Ids from it to the next: rows of this world among them go.
+    fn cut_first(&mut self) -> Option<Range<i64>> {
+        let first = self.places.pop_front()?;
+        Some(first.id..self.places.front()?.id)
+    }
+}
+
+/// The same ranges in order and apart from each other.
+fn joined(mut ranges: Vec<Range<i64>>) -> Vec<Range<i64>> {
+    ranges.sort_unstable_by_key(|r| r.start);
+    let mut out: Vec<Range<i64>> = Vec::with_capacity(ranges.len());
+    for range in ranges {
+        match out.last_mut() {
+            Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
+            _ => out.push(range),
+        }
+    }
+    out
 }
 
 /// One row, as it is on disk.
@@ -282,6 +302,8 @@ pub(super) struct Log {
     known: HashSet<WorldKey>,
     /// The last row of each world, as it should be.
     ends: BTreeMap<WorldKey, i64>,
+    /// Ids among which there are rows that no world needs any more, in order and apart from each other.
+    unswept: Vec<Range<i64>>,
     /// Rows with wrong checksums that were met, and places that could not be read.
     pub damaged_rows: u64,
 }
@@ -335,9 +357,12 @@ impl Log {
             tracks: HashMap::new(),
             known: HashSet::new(),
             ends: BTreeMap::new(),
+            unswept: Vec::new(),
             damaged_rows: 0,
         };
         log.load()?;
+        // The process may have ended before it had deleted what was cut off.
+        log.unswept.push(0..log.next_id);
         Ok(log)
     }
 
@@ -695,25 +720,26 @@ impl Log {
         let sql = "DELETE FROM checkpoints WHERE world = ?1";
         let done = self.db.execute(sql, [world.0 as i64]);
         done.map_err(|e| self.fault(&e))?;
-        self.tracks.remove(&world);
+        let track = self.tracks.remove(&world);
+        let first = track.and_then(|t| t.places.front().map(|p| p.id));
+        self.unswept.push(first.unwrap_or(0)..self.next_id);
         self.known.remove(&world);
         self.ends.remove(&world);
         Ok(())
     }
 
-    /// Cuts old history off.
+    /// Cuts old history off, and deletes some of what has been cut off.
     ///
     /// # Errors
     /// It could not be done.
     pub fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError> {
         let age = i64::try_from(limits.age.as_millis()).unwrap_or(i64::MAX);
         let oldest = now_ms().saturating_sub(age);
-        let mut dropped = Vec::new();
         for track in self.tracks.values_mut() {
             while let [_, second, ..] = *track.places.make_contiguous()
                 && (second.time_ms <= oldest || track.held() > limits.world_bytes)
             {
-                dropped.extend(track.places.pop_front());
+                self.unswept.extend(track.cut_first());
             }
         }
         let mut total: u64 = self.tracks.values().map(Track::held).sum();
@@ -723,56 +749,64 @@ impl Log {
                 break;
             };
             total -= track.held();
-            dropped.extend(track.places.pop_front());
+            self.unswept.extend(track.cut_first());
             total += track.held();
         }
-        self.delete(&dropped).map_err(|e| self.fault(&e))?;
+        self.unswept = joined(std::mem::take(&mut self.unswept));
+        let swept = self.sweep().map_err(|e| self.fault(&e))?;
+        self.unswept = swept;
         Ok(Usage {
             history_bytes: total,
             checkpoints: self.tracks.values().map(|t| t.places.len()).sum(),
+            unswept: !self.unswept.is_empty(),
         })
     }
 
-    fn delete(&mut self, dropped: &[Place]) -> rusqlite::Result<()> {
-        // Each world keeps what is behind its oldest checkpoint.
-        let kept = |world: WorldKey| {
-            let first = self.tracks.get(&world).and_then(|t| t.places.front());
-            first.map_or(i64::MAX, |p| p.id)
-        };
-        let upto = self
-            .tracks
-            .values()
-            .filter_map(|t| t.places.front())
-            .map(|p| p.id)
-            .max()
-            .unwrap_or(self.next_id);
-        let mut old = Vec::new();
-        {
-            let sql = "SELECT id, world FROM log WHERE id < ?1 ORDER BY id LIMIT ?2";
-            let mut all = self.db.prepare_cached(sql)?;
-            let mut rows = all.query(params![upto, CUT_ROWS as i64])?;
+    /// Deletes rows that no world needs any more, and where checkpoints among them were. Where there may be others that
+    /// it has not come to.
+    fn sweep(&mut self) -> rusqlite::Result<Vec<Range<i64>>> {
+        let (mut old, mut rest) = (Vec::new(), Vec::new());
+        let mut left = CUT_ROWS;
+        for range in &self.unswept {
+            if left == 0 {
+                rest.push(range.clone());
+                continue;
+            }
+            let sql = "SELECT id, world FROM log WHERE id >= ?1 AND id < ?2 ORDER BY id LIMIT ?3";
+            let mut found = self.db.prepare_cached(sql)?;
+            let mut rows = found.query(params![range.start, range.end, left as i64])?;
+            let mut next = range.end;
             while let Some(row) = rows.next()? {
                 let (id, world): (i64, i64) = (row.get(0)?, row.get(1)?);
-                if id < kept(WorldKey(world as u64)) {
+                // Each world keeps what is behind its oldest checkpoint.
+                let track = self.tracks.get(&WorldKey(world as u64));
+                if track
+                    .and_then(|t| t.places.front())
+                    .is_none_or(|kept| id < kept.id)
+                {
                     old.push(id);
                 }
+                left -= 1;
+                if left == 0 {
+                    next = id + 1;
+                }
+            }
+            if next < range.end {
+                rest.push(next..range.end);
             }
         }
-        if old.is_empty() && dropped.is_empty() {
-            return Ok(());
+        if old.is_empty() {
+            return Ok(rest);
         }
         let tx = self.db.transaction()?;
-        {
-            let mut delete = tx.prepare_cached("DELETE FROM log WHERE id = ?1")?;
-            for id in old {
+        for table in ["log", "checkpoints"] {
+            let mut delete = tx.prepare_cached(&format!("DELETE FROM {table} WHERE id = ?1"))?;
+            for id in &old {
                 delete.execute([id])?;
             }
-            let mut delete = tx.prepare_cached("DELETE FROM checkpoints WHERE id = ?1")?;
-            for place in dropped {
-                delete.execute([place.id])?;
-            }
         }
-        tx.commit()
+        tx.commit()?;
+        Ok(rest)
     }
 
     /// Lets go of the file. What is asked of the log afterwards fails.
@@ -876,6 +910,68 @@ mod tests {
             frame(&mut out, *kind, *tick, bytes);
         }
         out
+    }
+
+    /// Many worlds rest, and what they keep is older than all that a busy one writes and cuts off.
+    #[test]
+    fn what_others_keep_does_not_hide_what_can_be_deleted() {
+        const RESTING: u64 = 100;
+        let name = format!("sinew-log-{}.sqlite", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        let mut log = Log::open(&path).unwrap();
+        let entry = |world, tick, item| Entry {
+            world: WorldKey(world),
+            tick,
+            item,
+        };
+        let checkpoint = |world, tick| {
+            let bytes = Bytes::from_static(&[0; 100]);
+            entry(
+                world,
+                tick,
+                Item::Checkpoint {
+                    bytes,
+                    after_gap: false,
+                },
+            )
+        };
+        (0..=RESTING).for_each(|world| log.know(WorldKey(world)));
+        let mut rows = 0;
+        let mut commit = |log: &mut Log, entries: Vec<Entry>| {
+            rows += entries.len();
+            log.commit(&entries).unwrap();
+        };
+        commit(&mut log, (0..=RESTING).map(|w| checkpoint(w, 0)).collect());
+        for tick in 1..=CUT_ROWS as u64 / RESTING {
+            let hashes = (0..RESTING).map(|w| entry(w, tick, Item::Hash(tick)));
+            commit(&mut log, hashes.collect());
+        }
+        for tick in 1..=20 {
+            let hash = entry(RESTING, tick, Item::Hash(tick));
+            commit(&mut log, vec![hash, checkpoint(RESTING, tick)]);
+        }
+        let limits = Retention {
+            age: Duration::from_secs(3600),
+            world_bytes: u64::MAX,
+            total_bytes: 0,
+        };
+        let count = |log: &Log| {
+            let sql = "SELECT COUNT(*) FROM log";
+            log.db.query_row(sql, [], |r| r.get::<_, i64>(0)).unwrap() as usize
+        };
+        assert_eq!(count(&log), rows);
+        let mut calls = 1;
+        while log.cut(&limits).unwrap().unswept {
+            calls += 1;
+        }
+        assert_eq!(count(&log), rows - 2 * 20, "after {calls} calls");
+        // All at once: what a process left that ended before it had swept.
+        log.unswept = vec![0..log.next_id];
+        assert!(log.cut(&limits).unwrap().unswept, "a call is bounded");
+        assert!(!log.cut(&limits).unwrap().unswept);
+        assert_eq!(count(&log), rows - 2 * 20);
+        drop(log);
+        let _ = std::fs::remove_file(path);
     }
 
     proptest! {

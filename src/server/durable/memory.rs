@@ -159,6 +159,7 @@ impl CheckpointStore for MemoryStore {
         Ok(Usage {
             history_bytes: content.log.iter().map(|e| e.size() as u64).sum(),
             checkpoints: content.log.iter().filter(checkpoint).count(),
+            unswept: false,
         })
     }
 

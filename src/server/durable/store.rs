@@ -194,6 +194,8 @@ pub struct Usage {
     pub history_bytes: u64,
     /// Checkpoints.
     pub checkpoints: usize,
+    /// There may be more to delete of what has been cut off.
+    pub unswept: bool,
 }
 
 /// What the store found when it read its own directory.

@@ -429,6 +429,30 @@ fn what_is_held_of_deleted_worlds_is_nothing() {
 }
 
 #[test]
+fn rows_of_deleted_worlds_are_not_missed() {
+    for left in 0..WORLDS {
+        let dir = Temporary::new();
+        let mut store = LocalStore::open(&dir.0).unwrap();
+        let worlds = fill(&mut store, 30);
+        for world in &worlds[left..] {
+            store.delete_world(world.key).unwrap();
+        }
+        while store.cut(&RETENTION).unwrap().unswept {}
+        store.close().unwrap();
+        drop(store);
+        let mut store = LocalStore::open(&dir.0).unwrap();
+        assert!(store.last_end().damage.is_empty(), "{:?}", store.last_end());
+        let found = recover(&mut store, &[]).unwrap();
+        assert!(found.damaged.is_empty(), "{:?}", found.damaged);
+        assert_eq!(found.worlds.len(), left);
+        for (n, (_, history)) in found.worlds.iter().enumerate() {
+            assert!(history.losses.is_empty(), "{:?}", history.losses);
+            assert_eq!(check(n as u64, history).unwrap(), Some(30));
+        }
+    }
+}
+
+#[test]
 fn each_file_of_a_store_is_needed() {
     // The test above fails if damage is not seen: here every file is overwritten, and all but the notes are missed.
     let left = killed(true);
@@ -814,6 +838,23 @@ fn a_slow_disk_bounds_the_queue() {
             ..
         }
     ));
+}
+
+#[tokio::test]
+async fn nobody_waits_for_a_thread_that_has_panicked() {
+    let disk = Disk::default();
+    let (keeper, recorder) = recorded(&disk, SIZES, Durability::Each);
+    recorder.checkpoint(0, state(0, 0));
+    let ticket = recorder.input(1, bytes_of(0, 1, 2, 10));
+    recorder.durable(ticket).await.unwrap();
+    let panics = |_: &mut dyn CheckpointStore| -> Result<(), StoreError> { panic!("on purpose") };
+    let ended = |result: Result<(), StoreError>| matches!(result, Err(StoreError::Ended));
+    assert!(ended(keeper.call(panics).await));
+    let ticket = recorder.input(2, bytes_of(0, 2, 2, 10));
+    assert!(recorder.durable(ticket).await.is_err());
+    assert!(ended(keeper.call(|_| Ok(())).await));
+    assert!(keeper.degraded().unwrap().contains("panicked"));
+    assert_eq!(recorder.durable_tick(), 1);
 }
 
 #[tokio::test]

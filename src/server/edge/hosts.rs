@@ -37,7 +37,18 @@ fn is_loopback(host: &str) -> bool {
 /// The authority of an origin, `http://host:port`.
 fn authority(origin: &str) -> Option<Authority> {
     let (_, rest) = origin.split_once("://")?;
-    rest.parse().ok()
+    rest.parse().ok().filter(is_plain)
+}
+
+/// True of `host` and `host:port`. What else is read as the authority of an address, as `[::1].example` is, has a host
+/// that is only a part of it.
+fn is_plain(authority: &Authority) -> bool {
+    let rest = authority.as_str().strip_prefix(authority.host());
+    let port = |rest: &str| {
+        let port = rest.strip_prefix(':');
+        port.is_some_and(|p| p.bytes().all(|b| b.is_ascii_digit()))
+    };
+    rest.is_some_and(|rest| rest.is_empty() || port(rest))
 }
 
 /// Whether this is the origin of a page of the same machine.
@@ -106,7 +117,7 @@ impl Hosts {
     fn host(&self, authority: &Authority) -> Result<(), Fault> {
         let host = authority.host();
         let listed = self.names.iter().any(|n| n.eq_ignore_ascii_case(host));
-        if listed || is_loopback(host) || address(host).is_some() {
+        if is_plain(authority) && (listed || is_loopback(host) || address(host).is_some()) {
             Ok(())
         } else {
             Err(refused(
@@ -215,6 +226,8 @@ mod tests {
             "http://app.example",
             "http://192.168.1.7",
             "https://other",
+            "http://[::1].evil",
+            "http://127.0.0.1@evil",
             "",
         ] {
             assert_eq!(

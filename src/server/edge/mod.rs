@@ -3,14 +3,16 @@
 //!
 //! Everything here is about strangers: a client that keeps to the limits does not notice it.
 
+mod answers;
 pub(super) mod connections;
 mod errors;
 pub(super) mod hosts;
 mod replies;
 mod requests;
 
+pub(super) use answers::answers;
 pub(super) use errors::reasons;
-pub(super) use requests::sizes;
+pub(super) use requests::{Upload, sizes};
 
 use super::config::Config;
 use super::telemetry::count_refusal;
@@ -98,7 +100,7 @@ pub(super) async fn admit(
         local_addr: None,
         remote_addr: Some(peer.address),
     });
-    let open = peer.open();
+    let open = Arc::new(peer.open());
     let vital = VITAL.contains(&request.uri().path());
     if let Err(fault) = edge.hosts.check(request.uri(), request.headers()) {
         return refused(fault, &request);
@@ -145,7 +147,11 @@ pub(super) async fn admit(
         );
     }
     let unread = (!vital).then(|| edge.unread.clone());
+    request.extensions_mut().insert(open.clone());
     let response = next.run(request).await;
+    // Of an answer that is counted as a whole, no part waits for room.
+    let whole = response.extensions().get::<answers::Counted>().is_some();
+    let unread = unread.filter(|_| !whole);
     response.map(|body| Body::new(Reply::new(body, unread, open, place)))
 }
 

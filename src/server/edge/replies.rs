@@ -4,8 +4,12 @@
 //! memory, for as long as the client does not read. All parts that wait are counted. When they become too many, the
 //! connections whose clients have read nothing for the longest are closed, and nobody else gets a new part until there
 //! is room again.
+//!
+//! An answer that is there as a whole ([`super::answers`]) is counted from then on, less what is sent of it. One more
+//! that has no room is refused: it would wait in memory.
 
 use super::connections::{Open, Why};
+use crate::wire::status::Fault;
 use axum::body::{Body, Bytes};
 use http_body::{Body as HttpBody, Frame, SizeHint};
 use std::collections::BTreeMap;
@@ -26,12 +30,14 @@ const RETRY: Duration = Duration::from_millis(20);
 #[derive(Debug)]
 pub(super) struct Unread {
     bytes: AtomicU64,
+    /// Bytes of whole answers.
+    whole: AtomicU64,
     most: u64,
     next: AtomicU64,
     waiting: Mutex<BTreeMap<u64, Waiting>>,
 }
 
-/// A part that waits. Numbers grow, so the first of the map is the oldest.
+/// A part that waits.
 #[derive(Debug)]
 struct Waiting {
     since: Instant,
@@ -52,10 +58,38 @@ impl Drop for Part {
     }
 }
 
+/// An answer that is counted as a whole as long as this lives.
+pub(super) struct Whole {
+    unread: Arc<Unread>,
+    number: u64,
+    bytes: u64,
+}
+
+impl Whole {
+    /// So much of it was sent.
+    pub(super) fn sent(&mut self, bytes: u64) {
+        let bytes = bytes.min(self.bytes);
+        self.bytes -= bytes;
+        self.unread.whole.fetch_sub(bytes, Ordering::Relaxed);
+        // The client reads.
+        if let Some(waiting) = self.unread.lock().get_mut(&self.number) {
+            waiting.since = Instant::now();
+        }
+    }
+}
+
+impl Drop for Whole {
+    fn drop(&mut self) {
+        self.unread.whole.fetch_sub(self.bytes, Ordering::Relaxed);
+        self.unread.lock().remove(&self.number);
+    }
+}
+
 impl Unread {
     pub(super) fn new(most: u64) -> Arc<Self> {
         Arc::new(Self {
             bytes: AtomicU64::new(0),
+            whole: AtomicU64::new(0),
             most,
             next: AtomicU64::new(0),
             waiting: Mutex::default(),
@@ -67,8 +101,7 @@ impl Unread {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn add(self: &Arc<Self>, bytes: u64, open: &Arc<Open>) -> Part {
-        self.bytes.fetch_add(bytes, Ordering::Relaxed);
+    fn enter(&self, open: &Arc<Open>) -> u64 {
         let number = self.next.fetch_add(1, Ordering::Relaxed);
         self.lock().insert(
             number,
@@ -77,27 +110,64 @@ impl Unread {
                 open: open.clone(),
             },
         );
+        number
+    }
+
+    fn add(self: &Arc<Self>, bytes: u64, open: &Arc<Open>) -> Part {
+        self.bytes.fetch_add(bytes, Ordering::Relaxed);
         Part {
             unread: self.clone(),
-            number,
+            number: self.enter(open),
             bytes,
         }
     }
 
-    /// Whether there is room for one more part; closes connections to make some.
+    /// Counts a whole answer. One has room in any case.
+    ///
+    /// # Errors
+    /// There is no room for it beside those that are being sent.
+    pub(super) fn add_whole(
+        self: &Arc<Self>,
+        bytes: u64,
+        open: &Arc<Open>,
+    ) -> Result<Whole, Fault> {
+        let fits = |waiting: u64| {
+            let all = waiting.saturating_add(bytes);
+            (waiting == 0 || all <= self.most).then_some(all)
+        };
+        let (order, whole) = (Ordering::Relaxed, &self.whole);
+        if whole.fetch_update(order, order, fits).is_err() {
+            self.close_stalled(Instant::now());
+            return Err(Fault::Exhausted {
+                limit: "max_unread_bytes",
+                value: self.most,
+                message: format!("an answer of {bytes} bytes beside those that are not read yet"),
+                retry: Some(4 * PATIENCE),
+            });
+        }
+        Ok(Whole {
+            unread: self.clone(),
+            number: self.enter(open),
+            bytes,
+        })
+    }
+
+    /// Whether there is room for one more part; closes connections to make some. Whole answers leave half of it.
     fn room(&self, now: Instant) -> bool {
-        if self.bytes.load(Ordering::Relaxed) <= self.most {
+        let whole = self.whole.load(Ordering::Relaxed).min(self.most / 2);
+        if self.bytes.load(Ordering::Relaxed) + whole <= self.most {
             return true;
         }
+        self.close_stalled(now);
+        false
+    }
+
+    fn close_stalled(&self, now: Instant) {
         // Closing one takes a moment to be felt here, so all that have waited too long go at once.
-        for part in self
-            .lock()
-            .values()
-            .take_while(|w| now - w.since >= PATIENCE)
-        {
+        let waiting = self.lock();
+        for part in waiting.values().filter(|w| now - w.since >= PATIENCE) {
             part.open.close(Why::Unread);
         }
-        false
     }
 }
 
@@ -116,13 +186,13 @@ impl Reply {
     pub(super) fn new(
         body: Body,
         unread: Option<Arc<Unread>>,
-        open: Open,
+        open: Arc<Open>,
         place: Option<OwnedSemaphorePermit>,
     ) -> Self {
         Self {
             body,
             unread,
-            open: Arc::new(open),
+            open,
             part: None,
             wait: None,
             _place: place,
@@ -175,7 +245,7 @@ mod tests {
 
     fn reply(unread: &Arc<Unread>, peer: &Arc<Peer>) -> Reply {
         let body = Body::from(vec![0; 100]);
-        Reply::new(body, Some(unread.clone()), peer.open(), None)
+        Reply::new(body, Some(unread.clone()), Arc::new(peer.open()), None)
     }
 
     async fn part(reply: &mut Reply) -> usize {
@@ -201,6 +271,33 @@ mod tests {
         assert_eq!(part(&mut reply(&unread, &reader)).await, 100);
         assert!(unread.room(Instant::now()) && !reader.is_closed());
         assert_eq!(unread.bytes.load(Ordering::Relaxed), 0);
+        assert!(unread.lock().is_empty());
+    }
+
+    #[tokio::test]
+    async fn a_whole_answer_has_room_or_is_refused() {
+        let unread = Unread::new(100);
+        let (slow, other) = (Peer::alone(), Peer::alone());
+        let (slow_open, other_open) = (Arc::new(slow.open()), Arc::new(other.open()));
+        let mut first = unread.add_whole(60, &slow_open).unwrap();
+        let refused = unread.add_whole(60, &other_open).err().unwrap();
+        assert!(
+            refused.to_string().contains("max_unread_bytes"),
+            "{refused}"
+        );
+        // What is sent of it makes room.
+        first.sent(30);
+        let second = unread.add_whole(60, &other_open).unwrap();
+        // Parts of streams have half of it in any case.
+        let part = unread.add(50, &other_open);
+        assert!(unread.room(Instant::now()));
+        drop((part, second));
+        unread.close_stalled(Instant::now() + PATIENCE);
+        assert!(slow.is_closed() && !other.is_closed());
+        drop(first);
+        // One that is larger than all has room alone.
+        drop(unread.add_whole(1000, &other_open).unwrap());
+        assert_eq!(unread.whole.load(Ordering::Relaxed), 0);
         assert!(unread.lock().is_empty());
     }
 

@@ -41,6 +41,17 @@ pub(super) struct Uploads {
     large: Limit,
 }
 
+/// The part of `max_pending_bytes` that a request takes. Work that holds the request holds this, too: beside the call
+/// itself it may wait for its turn in an operation, or go on when its client is gone.
+#[derive(Clone, Debug, Default)]
+pub(in crate::server) struct Upload(Arc<Mutex<Option<OwnedSemaphorePermit>>>);
+
+impl Upload {
+    fn set(&self, permit: Option<OwnedSemaphorePermit>) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = permit;
+    }
+}
+
 /// Largest message of a call, and the setting that says so.
 #[derive(Clone, Copy, Debug)]
 struct Limit {
@@ -83,9 +94,9 @@ pub(in crate::server) async fn sizes(
         uploads.small
     };
     let called = path.to_owned();
-    let held = Arc::new(Mutex::new(None));
+    let held = Upload::default();
     let streams = !api::is_unary(path);
-    let request = request.map(|body| {
+    let mut request = request.map(|body| {
         Body::new(Sized {
             body,
             limit,
@@ -101,8 +112,9 @@ pub(in crate::server) async fn sizes(
             ended: false,
         })
     });
+    // At least until the call is answered.
+    request.extensions_mut().insert(held.clone());
     let response = next.run(request).await;
-    // The message was held until here: decoded, carried out, answered.
     drop(held);
     let header = |name: &str| response.headers().get(name);
     if header("grpc-status").is_some_and(|s| s == UNIMPLEMENTED) && header("grpc-message").is_none()
@@ -119,7 +131,7 @@ struct Sized {
     free: Arc<Semaphore>,
     most: u64,
     /// Of the latest message.
-    held: Arc<Mutex<Option<OwnedSemaphorePermit>>>,
+    held: Upload,
     streams: bool,
     begun: bool,
     prefix: [u8; PREFIX],
@@ -194,14 +206,14 @@ impl Sized {
                 "{length} bytes more of requests that are read or worked on"
             ))
         })?;
-        *self.held.lock().unwrap_or_else(PoisonError::into_inner) = Some(taken);
+        self.held.set(Some(taken));
         let time = MESSAGE_TIME + Duration::from_secs_f64(length as f64 / SLOWEST);
         self.deadline = Some(Box::pin(tokio::time::sleep(time)));
         Ok(())
     }
 
     fn release(&self) {
-        *self.held.lock().unwrap_or_else(PoisonError::into_inner) = None;
+        self.held.set(None);
     }
 
     fn exhausted(&self, message: String) -> Fault {
@@ -289,7 +301,7 @@ mod tests {
             },
             free: Arc::new(Semaphore::new(most)),
             most: most as u64,
-            held: Arc::default(),
+            held: Upload::default(),
             streams,
             begun: false,
             prefix: [0; PREFIX],

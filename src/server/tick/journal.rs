@@ -115,11 +115,14 @@ impl Segment {
     }
 
     fn push(&mut self, entry: Logged) {
-        self.bytes += ENTRY_BYTES;
-        if let Logged::Record(r) = &entry {
-            self.bytes += r.bytes.len();
-        }
+        self.bytes += size(&entry);
         self.entries.push(entry);
+    }
+
+    /// Keeps the first entries.
+    fn truncate(&mut self, count: usize) {
+        let gone: usize = self.entries.drain(count..).map(|e| size(&e)).sum();
+        self.bytes -= gone;
     }
 
     /// What it takes, bytes.
@@ -143,6 +146,15 @@ impl Segment {
     pub fn scene(&self) -> Result<Scene, Fault> {
         scene_of(&self.start)
     }
+}
+
+/// What an entry takes, bytes.
+fn size(entry: &Logged) -> usize {
+    ENTRY_BYTES
+        + match entry {
+            Logged::Record(r) => r.bytes.len(),
+            Logged::Hash(..) => 0,
+        }
 }
 
 /// The scene of a capture.
@@ -230,6 +242,8 @@ struct Inside {
     pins: Vec<Weak<Pin>>,
     /// Bytes of it that are counted in the total.
     counted: u64,
+    /// How often the world went on from another state.
+    begun_anew: u64,
 }
 
 /// The last minutes of one world.
@@ -263,6 +277,7 @@ impl Journal {
                 ticket: None,
                 pins: Vec::new(),
                 counted: 0,
+                begun_anew: 0,
             }),
             written: Notify::new(),
         }
@@ -323,10 +338,16 @@ impl Journal {
         inside.cut(&self.room, now, &self.total);
     }
 
+    /// How often the world went on from another state than that of its last tick.
+    pub fn begun_anew(&self) -> u64 {
+        self.inside().begun_anew
+    }
+
     /// The world goes on from `capture`, and not from what it was. With `goes_back` what is held up to there is its
     /// past still; `seq` is the last record of that.
     pub fn begin_anew(&self, capture: Capture, goes_back: bool, now: Instant) {
         let mut inside = self.inside();
+        inside.begun_anew += 1;
         let (tick, hash) = (capture.tick(), capture.hash());
         if let Some(before) = inside.current.take().map(Segment::sealed) {
             inside.pin(&before, Some(PinEnd::Restored));
@@ -339,7 +360,7 @@ impl Journal {
                 let there =
                     |e: &Logged| matches!(e, Logged::Hash(t, h) if (*t, *h) == (tick, hash));
                 let end = last.entries.iter().position(there);
-                last.entries.truncate(end.map_or(0, |i| i + 1));
+                last.truncate(end.map_or(0, |i| i + 1));
                 inside.sealed.push_back(Arc::new(last));
             }
         } else {

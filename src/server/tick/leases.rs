@@ -15,8 +15,8 @@ use std::time::{Duration, Instant};
 pub struct Offer {
     /// To whom; `None`: who has the token of the offer.
     pub to: Option<Arc<str>>,
-    /// Its token.
-    pub token: String,
+    /// What is known of its token.
+    pub token: TokenHash,
     /// How long the figure goes over, s.
     pub blend: f64,
     /// When it ends.
@@ -58,6 +58,13 @@ pub struct Leases {
 fn same(token: &str, known: &TokenHash) -> bool {
     let hash = token_hash(token);
     hash.iter().zip(known).fold(0, |d, (a, b)| d | (a ^ b)) == 0
+}
+
+impl Offer {
+    /// Whether one of these tokens is its own.
+    pub fn is_known_to(&self, tokens: &[String]) -> bool {
+        tokens.iter().any(|t| same(t, &self.token))
+    }
 }
 
 /// What a holder learns whose token is not the valid one.

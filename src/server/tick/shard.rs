@@ -1,6 +1,7 @@
 //! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by whatever
 //! thread runs it; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
+pub mod bounds;
 mod checkpoint;
 mod clips;
 mod control;
@@ -26,6 +27,7 @@ use crate::wire::types::{
     Described, EventKind, RosterEntry, Snapshot, WorldCondition, WorldEvent, WorldInfo,
     WorldSettings, WorldUpdate,
 };
+use bounds::Shares;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
@@ -72,6 +74,8 @@ pub struct Shard {
     /// World time that clocks of before had left out, s: live motion is reckoned by it.
     lost_before: f64,
     leases: Leases,
+    /// What perturbers with bounds do.
+    shares: Shares,
     mailboxes: Arc<Mailboxes>,
     next_driver: u64,
     described: bool,
@@ -125,6 +129,7 @@ impl Shard {
             undriven: BTreeMap::new(),
             lost_before: 0.0,
             leases: Leases::default(),
+            shares: Shares::default(),
             mailboxes: Arc::default(),
             next_driver: 1,
             described: false,

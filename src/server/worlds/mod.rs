@@ -3,4 +3,4 @@
 pub mod registry;
 pub mod usage;
 
-pub use registry::{Registry, WorldHandle};
+pub use registry::{Leaving, Registry, Stored, WorldHandle};

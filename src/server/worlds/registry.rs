@@ -3,6 +3,7 @@
 use crate::server::access::caller::Caller;
 use crate::server::access::grants::{Grant, Grants};
 use crate::server::config::Config;
+use crate::server::durable::store::WorldKey;
 use crate::server::fanout::hub::Hub;
 use crate::server::ingest::mailbox::Mailboxes;
 use crate::server::shares::{Client, check_part, part};
@@ -20,7 +21,7 @@ use crate::server::worlds::usage::Usage;
 use crate::sim::body::Body;
 use crate::wire::status::Fault;
 use crate::wire::types::{ControlInfo, Described, FigureInfo, Snapshot, WorldInfo, WorldSettings};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicI64, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
@@ -54,6 +55,8 @@ pub struct WorldHandle {
     pub usage: Usage,
     /// Who has which roles in it.
     pub grants: Grants,
+    /// Whether it is written down, and where.
+    pub stored: watch::Sender<Stored>,
     /// Who created it.
     owner: Client,
     /// When those who watch were last told that someone was refused.
@@ -64,6 +67,17 @@ pub struct WorldHandle {
     ticket: Ticket,
     draining: Arc<AtomicBool>,
     queue: u64,
+}
+
+/// Whether a world is written down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stored {
+    /// Not yet. Whoever changes it waits for that.
+    Coming,
+    /// Under this number, which no other world has had.
+    At(WorldKey),
+    /// It is there as long as the server is.
+    Never,
 }
 
 /// Least time between two events that tell of refusals.
@@ -142,6 +156,25 @@ pub struct WorldStats {
 }
 
 impl WorldHandle {
+    /// Whose share of the worlds it is.
+    pub fn owner(&self) -> &Client {
+        &self.owner
+    }
+
+    /// Waits until it is known whether and where it is written down.
+    ///
+    /// # Errors
+    /// It has ended before.
+    pub async fn place(&self) -> Result<Stored, Fault> {
+        let (mut stored, mut closed) = (self.stored.subscribe(), self.closed.clone());
+        let known = stored.wait_for(|s| *s != Stored::Coming);
+        tokio::select! {
+            biased;
+            known = known => known.map(|s| *s).map_err(|_| self.ended()),
+            _ = closed.changed() => Err(self.ended()),
+        }
+    }
+
     fn gone(&self) -> Fault {
         if let Some(why) = self.lost() {
             return why;
@@ -402,10 +435,32 @@ fn as_of(latest: &Snapshot, described: &FigureInfo) -> FigureInfo {
     }
 }
 
+/// A world that is being deleted. Its name is taken until this is dropped, so that what belongs to it can be forgotten
+/// by that.
+#[derive(Debug)]
+pub struct Leaving {
+    /// The world.
+    pub handle: Arc<WorldHandle>,
+    names: Arc<Mutex<HashSet<Arc<str>>>>,
+}
+
+impl Drop for Leaving {
+    fn drop(&mut self) {
+        locked(&self.names).remove(&self.handle.id);
+    }
+}
+
+fn locked(names: &Mutex<HashSet<Arc<str>>>) -> MutexGuard<'_, HashSet<Arc<str>>> {
+    // One name more or less at a time.
+    names.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// All worlds.
 #[derive(Debug)]
 pub struct Registry {
     worlds: RwLock<BTreeMap<String, Arc<WorldHandle>>>,
+    /// Names of worlds that are being deleted. Locked after `worlds`.
+    leaving: Arc<Mutex<HashSet<Arc<str>>>>,
     next: AtomicU64,
     /// No new worlds.
     draining: AtomicBool,
@@ -440,6 +495,7 @@ impl Registry {
             budget,
             scheduler,
             worlds: RwLock::default(),
+            leaving: Arc::default(),
             next: AtomicU64::new(1),
             draining: AtomicBool::new(false),
             ending: Arc::default(),
@@ -471,7 +527,7 @@ impl Registry {
         paused: bool,
         owner: (Client, Vec<Grant>),
     ) -> Result<Arc<WorldHandle>, Fault> {
-        self.start(id, (settings, None), paused, owner)
+        self.start(id, (settings, None), paused, owner, false)
     }
 
     /// Creates a world in the state of a checkpoint.
@@ -486,21 +542,39 @@ impl Registry {
         owner: (Client, Vec<Grant>),
     ) -> Result<Arc<WorldHandle>, Fault> {
         let settings = from.settings().clone();
-        self.start(id, (settings, Some(from)), paused, owner)
+        self.start(id, (settings, Some(from)), paused, owner, false)
     }
 
-    /// The name of a new world, one that is free if none is given; there must be room for it.
+    /// Brings a world back, in a state if there is one. It counts to the share of its owner, and there is room for it
+    /// also if that has more than its share.
+    ///
+    /// # Errors
+    /// Those of [`Self::create`] and of [`Shard::restore`].
+    pub fn bring_back(
+        &self,
+        id: String,
+        (settings, from): (WorldSettings, Option<Scene>),
+        paused: bool,
+        owner: (Client, Vec<Grant>),
+    ) -> Result<Arc<WorldHandle>, Fault> {
+        let settings = from.as_ref().map_or(settings, |f| f.settings().clone());
+        self.start(Some(id), (settings, from), paused, owner, true)
+    }
+
+    /// The name of a new world, one that is free if none is given; there must be room for it. `owner`: who has to have
+    /// a share left.
     fn admit(
         &self,
         worlds: &BTreeMap<String, Arc<WorldHandle>>,
         id: Option<String>,
-        owner: &Client,
+        owner: Option<&Client>,
     ) -> Result<String, Fault> {
+        let taken = |id: &str| worlds.contains_key(id) || locked(&self.leaving).contains(id);
         if self.draining.load(Ordering::SeqCst) {
             return Err(Fault::Draining);
         }
         let id = match id {
-            Some(id) if worlds.contains_key(&id) => {
+            Some(id) if taken(&id) => {
                 return Err(Fault::Exists {
                     kind: "world",
                     name: format!("worlds/{id}"),
@@ -509,7 +583,7 @@ impl Registry {
             Some(id) => id,
             None => loop {
                 let id = format!("world-{}", self.next.fetch_add(1, Ordering::Relaxed));
-                if !worlds.contains_key(&id) {
+                if !taken(&id) {
                     break id;
                 }
             },
@@ -522,9 +596,11 @@ impl Registry {
                 retry: None,
             });
         }
-        let own = worlds.values().filter(|w| w.owner == *owner).count() as u64;
-        let (most, share) = (self.config.max_worlds, self.config.max_client_share);
-        check_part("max_worlds", own, most, share)?;
+        if let Some(owner) = owner {
+            let own = worlds.values().filter(|w| w.owner == *owner).count() as u64;
+            let (most, share) = (self.config.max_worlds, self.config.max_client_share);
+            check_part("max_worlds", own, most, share)?;
+        }
         Ok(id)
     }
 
@@ -540,7 +616,7 @@ impl Registry {
         owner: &Client,
     ) -> Result<WorldInfo, Fault> {
         let worlds = self.worlds.read().unwrap_or_else(PoisonError::into_inner);
-        let id = self.admit(&worlds, id, owner)?;
+        let id = self.admit(&worlds, id, Some(owner))?;
         self.shard(id.as_str().into(), settings, paused)
             .map(|shard| shard.info())
     }
@@ -562,11 +638,16 @@ impl Registry {
         (settings, from): (WorldSettings, Option<Scene>),
         paused: bool,
         (owner, grants): (Client, Vec<Grant>),
+        back: bool,
     ) -> Result<Arc<WorldHandle>, Fault> {
-        let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
-        let id = self.admit(&worlds, id, &owner)?;
+        let shares = (!back).then_some(&owner);
+        let id = {
+            let worlds = self.worlds.read().unwrap_or_else(PoisonError::into_inner);
+            self.admit(&worlds, id, shares)?
+        };
         let rate_hz = settings.rate_hz;
         let name: Arc<str> = id.as_str().into();
+        // Nobody who looks a world up waits for what may take many figures.
         let mut shard = self.shard(name.clone(), settings, paused)?;
         if let Some(from) = from {
             shard.restore(from, Past::Beginning)?;
@@ -588,6 +669,8 @@ impl Registry {
             self.config.event_queue as usize,
         ));
         let mailboxes = shard.mailboxes();
+        let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
+        let id = self.admit(&worlds, Some(id), shares)?;
         let Added { ticket, closed } = self.scheduler.add(shard, &commands, &outlet);
         let handle = Arc::new(WorldHandle {
             id: name,
@@ -598,6 +681,7 @@ impl Registry {
                 self.config.history_ticks as usize,
             ),
             grants: Grants::new(grants),
+            stored: watch::Sender::new(Stored::Coming),
             owner,
             told_refused: Mutex::default(),
             waiting: Waiting {
@@ -637,6 +721,12 @@ impl Registry {
             .ok_or_else(|| self.missing(id))
     }
 
+    /// Whether this very world is there, and not only one of its name.
+    pub fn holds(&self, handle: &WorldHandle) -> bool {
+        let found = self.get(&handle.id);
+        found.is_ok_and(|there| std::ptr::eq(&*there, handle))
+    }
+
     fn missing(&self, id: &str) -> Fault {
         if self.ending.load(Ordering::SeqCst) {
             return Fault::Draining; // it may have been there
@@ -670,11 +760,12 @@ impl Registry {
     ///
     /// # Errors
     /// There is none of that name.
-    pub async fn delete(&self, id: &str, by: &str) -> Result<(), Fault> {
-        self.delete_if(id, by, |_| true).await.map(|_| ())
+    pub async fn delete(&self, id: &str, by: &str) -> Result<Leaving, Fault> {
+        let deleted = self.delete_if(id, by, |_| true).await?;
+        deleted.ok_or_else(|| self.missing(id))
     }
 
-    /// Ends a world if `still` says so once nobody can get hold of it any more; false if it goes on.
+    /// Ends a world if `still` says so once nobody can get hold of it any more; `None` if it goes on.
     ///
     /// # Errors
     /// There is none of that name.
@@ -682,25 +773,29 @@ impl Registry {
         &self,
         id: &str,
         by: &str,
-        still: impl FnOnce(&WorldHandle) -> bool,
-    ) -> Result<bool, Fault> {
-        let handle = {
+        still: impl FnOnce(&Arc<WorldHandle>) -> bool,
+    ) -> Result<Option<Leaving>, Fault> {
+        let leaving = {
             let mut worlds = self.worlds.write().unwrap_or_else(PoisonError::into_inner);
             let found = worlds.get(id).ok_or_else(|| self.missing(id))?;
             if !still(found) {
-                return Ok(false);
+                return Ok(None);
             }
             let handle = worlds.remove(id).ok_or_else(|| self.missing(id))?;
             metrics::gauge!("sinew_worlds").set(worlds.len() as f64);
-            handle
+            locked(&self.leaving).insert(handle.id.clone());
+            Leaving {
+                handle,
+                names: Arc::clone(&self.leaving),
+            }
         };
         let why = Fault::Aborted {
             reason: "WORLD_DELETED",
             message: "the world was deleted before its steps were done".into(),
         };
-        end(&handle, why, Some(by)).await;
+        end(&leaving.handle, why, Some(by)).await;
         tracing::info!(world = id, by, "world deleted");
-        Ok(true)
+        Ok(Some(leaving))
     }
 
     /// Ends all worlds; none can be created afterwards.

@@ -2,9 +2,10 @@
 
 use super::report::{Bridged, RetargetError};
 use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::bvh::Bvh;
+use crate::sim::motion::bvh::{Bvh, BvhJoint};
 use crate::sim::motion::filter::{align_signs, percentile, renormalised};
 use crate::sim::motion::skeleton_map::{SideMap, SkeletonMap};
+use crate::sim::retarget::MAX_POINTS;
 use crate::sim::retarget::params::recording;
 
 fn angle_of(q: Quat) -> f64 {
@@ -39,9 +40,9 @@ pub(super) struct Recording {
 }
 
 impl Recording {
-    pub(super) fn read(bvh: &Bvh, map: &SkeletonMap) -> Result<Self, RetargetError> {
-        let n = bvh.joints.len();
-        let mut keep = vec![false; n];
+    /// Whether each joint matters: those that are mapped do, and all above them.
+    pub(super) fn kept(joints: &[BvhJoint], map: &SkeletonMap) -> Vec<bool> {
+        let mut keep = vec![false; joints.len()];
         let ends = |s: &SideMap| [Some(s.foot), s.toes, s.hand, Some(s.forearm), Some(s.shank)];
         let wanted = map
             .sides
@@ -56,10 +57,22 @@ impl Recording {
                 if std::mem::replace(&mut keep[i], true) {
                     break;
                 }
-                at = bvh.joints[i].parent;
+                at = joints[i].parent;
             }
         }
+        keep
+    }
+
+    pub(super) fn read(bvh: &Bvh, map: &SkeletonMap) -> Result<Self, RetargetError> {
+        let n = bvh.joints.len();
+        let keep = Self::kept(&bvh.joints, map);
         let mut joints: Vec<usize> = (0..n).filter(|i| keep[*i]).collect();
+        if bvh.frame_count * joints.len() > MAX_POINTS {
+            return Err(RetargetError::TooMuch {
+                frames: bvh.frame_count,
+                joints: joints.len(),
+            });
+        }
         let mut index = vec![None; 2 * n];
         for (k, j) in joints.iter().enumerate() {
             index[*j] = Some(k);
@@ -166,7 +179,7 @@ impl Recording {
     }
 
     pub(super) fn len(&self) -> usize {
-        self.turn.first().map_or(0, Vec::len)
+        self.step.first().map_or(0, Vec::len)
     }
 
     pub(super) fn at(&self, joint: usize) -> usize {
@@ -363,9 +376,9 @@ impl Recording {
         out
     }
 
-    /// World positions and rotations, `[bone][frame]`, file units and axes.
-    pub(super) fn forward(&self) -> (Vec<Vec<Vec3>>, Vec<Vec<Quat>>) {
-        let (mut places, mut turns) = (self.step.clone(), self.turn.clone());
+    /// World positions and rotations, `[bone][frame]`, file units and axes. The local rotations are used up.
+    pub(super) fn forward(&mut self) -> (Vec<Vec<Vec3>>, Vec<Vec<Quat>>) {
+        let (mut places, mut turns) = (self.step.clone(), std::mem::take(&mut self.turn));
         for k in 0..self.joints.len() {
             if let Some(p) = self.parent[k] {
                 for i in 0..self.len() {
@@ -376,6 +389,25 @@ impl Recording {
             }
         }
         (places, turns)
+    }
+
+    /// Forgets what was read of the frames; which bones are kept stays.
+    pub(super) fn forget_frames(&mut self) {
+        self.turn = Vec::new();
+        self.step = Vec::new();
+    }
+
+    /// Whether each kept bone or tip is asked for once all are smooth; the others only lead to them.
+    pub(super) fn is_mapped(&self, map: &SkeletonMap) -> Vec<bool> {
+        let of = |s: &SideMap| {
+            let limbs = [s.upper_arm, s.forearm, s.thigh, s.shank, s.foot];
+            limbs.into_iter().chain(s.hand).chain(s.toes)
+        };
+        let mut joints: Vec<usize> = map.sides.iter().flat_map(of).collect();
+        joints.extend(map.head.into_iter().chain([map.pelvis]));
+        joints.extend(&map.trunk);
+        let mapped = |point: &usize| *point >= self.joint_count || joints.contains(point);
+        self.joints.iter().map(mapped).collect()
     }
 
     /// Positions of the kept bones in the file's zero pose.

@@ -1,6 +1,6 @@
 //! What retargeting found, guessed and changed, and why it could not.
 
-use super::{MAX_FRAMES, UpAxis};
+use super::{MAX_FRAMES, MAX_POINTS, UpAxis};
 use crate::sim::body::topology::{SEGMENT_COUNT, SEGMENT_NAMES};
 use crate::sim::motion::bvh::Bvh;
 use crate::sim::motion::clip::{Clip, ClipError};
@@ -231,6 +231,16 @@ pub enum RetargetError {
         /// Frames in the file.
         frames: usize,
     },
+    /// Too much to hold at once.
+    #[error(
+        "{frames} frames of {joints} joints that matter; at most {MAX_POINTS} places are held: cut the clip"
+    )]
+    TooMuch {
+        /// Frames in the file.
+        frames: usize,
+        /// Joints that are mapped, with those above them.
+        joints: usize,
+    },
     /// The rate is no capture rate.
     #[error(
         "rate {rate_hz} Hz is outside {lower}…{upper} Hz; give rate_hz if the file's frame time is wrong"
@@ -318,7 +328,10 @@ impl RetargetReport {
         }
         if !self.frames.bridged.is_empty() {
             let frames: usize = self.frames.bridged.iter().map(|b| b.count).sum();
-            w.push(format!("{frames} frames with jumps were bridged"));
+            w.push(match frames {
+                1 => "1 frame with a jump was bridged".to_owned(),
+                n => format!("{n} frames with jumps were bridged"),
+            });
         }
         let notable = |c: &&ClampedDof| {
             [

@@ -3,7 +3,7 @@
 use super::recording::Recording;
 use super::run_detection::{FastStretch, Gait, RecordedPoints, fast_stretches};
 use super::run_to_walk::RunToWalk;
-use super::{MAX_FRAMES, RetargetOptions, UpAxis};
+use super::{RetargetError, RetargetOptions, UpAxis, check_samples, output_rate, sample_count};
 use crate::sim::math::{Mat3, Quat, Vec3};
 use crate::sim::motion::filter::{
     low_pass_points, low_pass_rotations, resample_points, resample_rotations,
@@ -102,7 +102,7 @@ impl<'a> Scene<'a> {
         map: &SkeletonMap,
         recorded: RecordedPaths,
         options: &RetargetOptions,
-    ) -> (Self, SceneFindings) {
+    ) -> Result<(Self, SceneFindings), RetargetError> {
         let RecordedPaths {
             mut places,
             mut turns,
@@ -127,12 +127,8 @@ impl<'a> Scene<'a> {
             }
         }
         let rest: Vec<Vec3> = rest.into_iter().map(|v| z_up(up, v * unit_m)).collect();
-        let kept = (59.0..=240.5).contains(&source_rate);
-        let rate = options
-            .output_rate_hz
-            .unwrap_or(if kept { source_rate } else { 120.0 });
-        let count = ((((take.len() - 1) as f64) * rate / source_rate + 1e-6).floor() as usize + 1)
-            .min(MAX_FRAMES * 4);
+        let rate = output_rate(source_rate, options);
+        let count = sample_count(places[0].len(), source_rate, rate);
         let way = middle(&places);
         let feet = [0, 1].map(|s: usize| places[take.at(map.sides[s].foot)].as_slice());
         let between = |pair: [usize; 2]| {
@@ -161,6 +157,8 @@ impl<'a> Scene<'a> {
             .flatten();
         let slower = slowed.as_ref().map_or(1.0, |s| s.stretch(count as f64));
         let count = slowed.as_ref().map_or(count, RunToWalk::count);
+        check_samples(count)?; // a run that is walked takes longer
+        let mapped = take.is_mapped(map);
         let mut smoothing = (0.0, 0usize);
         let cutoff_hz = if !runs.is_empty() && slowed.is_none() {
             options.cutoff_hz.max(run::CUTOFF)
@@ -187,8 +185,15 @@ impl<'a> Scene<'a> {
                 smoothing.0 += (*a - *b).dot(*a - *b);
                 smoothing.1 += 1;
             }
+            if !mapped[k] {
+                *path = Vec::new();
+            }
         }
-        for path in &mut turns {
+        for (path, mapped) in turns.iter_mut().zip(&mapped) {
+            if !mapped {
+                *path = Vec::new();
+                continue;
+            }
             if let Some(slowed) = &slowed {
                 *path = slowed.rotations(path);
             } else if !same {
@@ -206,16 +211,14 @@ impl<'a> Scene<'a> {
             rate,
         };
         let smoothing_rms = (smoothing.0 / smoothing.1.max(1) as f64).sqrt();
-        (
-            scene,
-            SceneFindings {
-                feet,
-                smoothing_rms,
-                fast,
-                slowed,
-                slower,
-            },
-        )
+        let findings = SceneFindings {
+            feet,
+            smoothing_rms,
+            fast,
+            slowed,
+            slower,
+        };
+        Ok((scene, findings))
     }
 }
 

@@ -43,10 +43,9 @@ pub fn settings(
     ))
 }
 
-/// What came of it, for a response.
+/// What came of it, for a response, without the frames.
 pub fn response(
     s: &SimulationSummary,
-    frames: Vec<pb::WorldFrame>,
     events: &[WorldEvent],
     report: Option<&ReadingReport>,
 ) -> pb::SimulateClipResponse {
@@ -66,7 +65,7 @@ pub fn response(
             tick_p50_us: s.tick_us[0],
             tick_p99_us: s.tick_us[1],
         }),
-        frames,
+        frames: Vec::new(),
         events: events.iter().map(state::event_out).collect(),
         report: report.map(motion::report_out),
     }

@@ -157,7 +157,21 @@ impl Scene {
     /// # Errors
     /// What the physics refuses, with the place of the input in the request.
     pub fn apply(&mut self, input: Input) -> Result<Done, Fault> {
+        // These are checked before anything changes. Refusals of what costs nothing to ask for would fill the past.
+        let checked = matches!(
+            input,
+            Input::Perturb(_) | Input::AddObstacle { .. } | Input::UpdateObstacle(..)
+        );
+        let mark = self.record.mark();
         self.record.input(self.world.tick(), &input);
+        let done = self.carry_out(input);
+        if done.is_err() && checked {
+            self.record.retract(mark);
+        }
+        done
+    }
+
+    fn carry_out(&mut self, input: Input) -> Result<Done, Fault> {
         match input {
             Input::Pace(pace) => {
                 self.settings.pace = pace;

@@ -202,6 +202,14 @@ pub struct Writer {
     lost: Option<u64>,
 }
 
+/// How far a record had been written.
+#[derive(Clone, Copy, Debug)]
+pub struct Mark {
+    bytes: usize,
+    definitions: usize,
+    fresh: bool,
+}
+
 /// A definition in something that can be shown.
 struct Shared(Definition);
 
@@ -250,6 +258,22 @@ impl Writer {
             self.bytes.push(u8::from(std::mem::take(&mut self.fresh)));
         }
         self.on
+    }
+
+    /// How far it has written.
+    pub fn mark(&self) -> Mark {
+        Mark {
+            bytes: self.bytes.len(),
+            definitions: self.definitions.len(),
+            fresh: self.fresh,
+        }
+    }
+
+    /// Takes changes back that were written since, and have not taken place.
+    pub fn retract(&mut self, mark: Mark) {
+        self.bytes.truncate(mark.bytes);
+        self.definitions.truncate(mark.definitions);
+        self.fresh = mark.fresh;
     }
 
     /// A change before a tick.

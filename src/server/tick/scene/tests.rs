@@ -11,7 +11,7 @@ use crate::sim::motion::{Clip, Target, TargetPair};
 use crate::wire::convert;
 use crate::wire::frame::figure_frame;
 use crate::wire::pb;
-use crate::wire::types::{Fields, Follows, NumberFormat, Playback};
+use crate::wire::types::{Disturbance, Fields, Follows, NumberFormat, Playback};
 
 /// Ticks of the motion that is rehearsed.
 const TICKS: usize = 30;
@@ -112,6 +112,34 @@ fn told(scene: &mut Scene, ticks: usize) -> Follows {
     let help = (status.help_newton_seconds, status.help_ratio);
     assert_eq!(help, (follows.so_far.impulse, follows.so_far.help_share()));
     follows
+}
+
+#[test]
+fn what_is_refused_is_not_recorded() {
+    let (mut scene, _) = scene();
+    scene.keep_records();
+    let push = |tick| {
+        Input::Perturb(vec![FigureDisturbance {
+            figure: "anna".into(),
+            tick,
+            what: Disturbance::Force {
+                segment: crate::sim::body::topology::CHEST,
+                point: None,
+                force: Vec3::X,
+                duration: 0.1,
+            },
+        }])
+    };
+    assert!(scene.apply(push(Some(-1))).is_err());
+    assert!(scene.take_record().is_none());
+    scene.apply(push(None)).unwrap();
+    let alone = scene.take_record().unwrap();
+    scene.apply(push(None)).unwrap();
+    assert!(scene.apply(push(Some(-1))).is_err());
+    let both = scene.take_record().unwrap();
+    // The first one of a past says so.
+    assert_eq!(both.bytes[2..], alone.bytes[2..]);
+    assert_eq!((alone.bytes[1], both.bytes[1]), (1, 0));
 }
 
 #[test]

@@ -128,6 +128,8 @@ impl Slot {
     /// Ends it for all who wait.
     fn gone(&self) {
         lock(&self.place).state = State::Gone;
+        // Nobody looks at commands any more: those that wait are dropped, with what they hold, and later ones refused.
+        self.outside.commands.close();
         lock(&self.alive).take();
     }
 

@@ -197,6 +197,31 @@ fn worlds_end_with_their_scheduler() {
 }
 
 #[test]
+fn a_world_that_has_ended_takes_no_commands_and_holds_none() {
+    let scheduler = Scheduler::start(workers(1)).unwrap();
+    let world = Running::start(&scheduler, 100.0);
+    let held = Arc::new(());
+    // Both come while a round ends the world: too late for it, and before anybody can see that it has ended.
+    let (queue, late) = (world.commands().clone(), held.clone());
+    world.send(move |s| {
+        s.close(Fault::Draining, None);
+        let origin = Origin {
+            client: "c".into(),
+            sequence: 0,
+        };
+        let action = Box::new(move |_: &mut Shard| drop(late));
+        queue.push(Command { origin, action }).unwrap();
+    });
+    until(|| world.added.closed.has_changed().is_err());
+    assert_eq!(
+        Arc::strong_count(&held),
+        1,
+        "a command is left in the queue"
+    );
+    assert!(!world.send(|_| ()));
+}
+
+#[test]
 fn what_a_thread_is_given_is_what_the_system_says() {
     for most in [Priority::Fifo, Priority::Nice, Priority::Plain] {
         let done = thread::spawn(move || priority::raise(Duty::Short, most))

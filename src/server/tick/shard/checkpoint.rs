@@ -1,6 +1,7 @@
 //! A world that goes on from another state.
 
 use super::Shard;
+use super::bounds::Shares;
 use crate::server::engine::FigureKey;
 use crate::server::telemetry::metrics::CheckpointTimer;
 use crate::server::tick::scene::{Input, Player, Scene};
@@ -88,6 +89,7 @@ impl Shard {
         }
         // From here on this is the world.
         self.scene = scene;
+        self.shares = Shares::default();
         let _ = self.scene.apply(Input::Pace(pace)); // never refused
         self.follow_again();
         if let Some(journal) = &self.journal {

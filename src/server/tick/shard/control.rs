@@ -2,7 +2,7 @@
 
 use super::Shard;
 use crate::server::ingest::mailbox::DriverId;
-use crate::server::tick::leases::{Lease, Offer, controlled, fenced};
+use crate::server::tick::leases::{Lease, Offer, controlled, fenced, token_hash};
 use crate::server::tick::scene::Input;
 use crate::wire::status::Fault;
 use crate::wire::types::{Acquire, ControlInfo, ControlKey, EventKind, KeptLease, Transfer};
@@ -158,7 +158,7 @@ impl Shard {
         let detail = format!("{} to {whom}", lease.holder);
         lease.offer = Some(Offer {
             to: t.to,
-            token: t.token,
+            token: token_hash(&t.token),
             blend: t.blend,
             expires: now + t.lasts,
         });
@@ -183,7 +183,7 @@ impl Shard {
         let lease = self.leases.of(figure).ok_or_else(|| fenced(figure))?;
         let offered = lease.offer.as_ref().filter(|o| {
             let to = o.to.as_ref().is_none_or(|to| *to == who.principal);
-            to && o.expires > now && who.tokens.contains(&o.token)
+            to && o.expires > now && o.is_known_to(&who.tokens)
         });
         let offer = offered.ok_or_else(|| Fault::Aborted {
             reason: "CONTROL_FENCED",

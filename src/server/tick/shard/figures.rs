@@ -222,6 +222,7 @@ impl Shard {
         let key = self.scene.members()[i].key;
         self.end_undriven(key);
         self.scene.apply(Input::ResetFigure(key, place))?;
+        self.shares.forget(key);
         self.changed = true;
         self.figure(figure)
     }

@@ -1,6 +1,7 @@
 //! Loads and pushes.
 
 use super::Shard;
+use super::bounds::{Bound, Share};
 use crate::server::tick::scene::Input;
 use crate::wire::status::Fault;
 use crate::wire::types::{Disturbance, EventKind, FigureDisturbance};
@@ -13,17 +14,52 @@ impl Shard {
         figures.try_for_each(|figure| self.member(figure).map(|_| ()))
     }
 
+    /// What a batch is of the bound of its principal, if it has one.
+    ///
+    /// # Errors
+    /// More than that allows.
+    fn shares(
+        &mut self,
+        batch: &[FigureDisturbance],
+        bound: Option<&Bound>,
+    ) -> Result<Vec<Share>, Fault> {
+        let Some(bound) = bound else {
+            return Ok(Vec::new());
+        };
+        let (tick, dt) = (self.scene.world().tick(), self.scene.world().dt());
+        let mut shares = Vec::with_capacity(batch.len());
+        for d in batch {
+            let figure = self.scene.members()[self.member(&d.figure)?].key;
+            let from = d.tick.map_or(tick, |at| u64::try_from(at).unwrap_or(0));
+            let whose = (&bound.principal, figure);
+            shares.push(Share::of(&d.what, whose, (from, dt)));
+        }
+        self.shares.check(bound, &shares, tick)?;
+        Ok(shares)
+    }
+
     /// Checks a batch as [`Self::perturb`] does and returns what it would.
-    pub fn would_perturb(&self, batch: &[FigureDisturbance]) -> Result<u64, Fault> {
+    pub fn would_perturb(
+        &mut self,
+        batch: &[FigureDisturbance],
+        bound: Option<&Bound>,
+    ) -> Result<u64, Fault> {
         self.known(batch)?;
+        self.shares(batch, bound)?;
         self.scene.would_perturb(batch)?;
         Ok(self.scene.world().tick())
     }
 
     /// Applies a batch, all or nothing. Returns the tick at whose start it acts.
-    pub fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<u64, Fault> {
+    pub fn perturb(
+        &mut self,
+        batch: &[FigureDisturbance],
+        bound: Option<&Bound>,
+    ) -> Result<u64, Fault> {
         self.known(batch)?;
+        let shares = self.shares(batch, bound)?;
         self.scene.apply(Input::Perturb(batch.to_vec()))?;
+        self.shares.add(shares);
         for d in batch {
             // A force without end is no push.
             if let Disturbance::Force {
@@ -46,6 +82,7 @@ impl Shard {
         self.working()?;
         let key = self.scene.members()[self.member(figure)?].key;
         self.scene.apply(Input::ClearPerturbations(key))?;
+        self.shares.forget(key);
         Ok(self.scene.world().tick())
     }
 }
