@@ -653,7 +653,7 @@ mod tests {
 
     #[test]
     fn the_head_of_a_file_tells_what_memory_it_takes() {
-        let [short, long] = [100, 1000].map(|frames| recording(frames));
+        let [short, long] = [100, 1000].map(recording);
         let samples = 4 * 1000;
         let found = memory(long.as_bytes(), None);
         let least = SAMPLE_BYTES * samples;

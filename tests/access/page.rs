@@ -53,7 +53,7 @@ fn the_page_on_sharing_leads_to_a_shared_server() {
     for expected in [
         "serving",
         "worlds/studio-a-stage/grants/grant-1: user:cleo is driver of anna",
-        "worlds/studio-a-stage/grants/grant-2: user:dan is perturber",
+        "worlds/studio-a-stage/grants/grant-2: user:dan is perturber, forces up to 200 N, perturbations up to 2 per s",
         "worlds/studio-a-stage/grants/creator: user:ada is owner",
         "worlds/studio-a-stage/grants/grant-2 is gone",
         "refused",

@@ -115,8 +115,7 @@ async fn clients_see_in_which_way_a_figure_follows_its_clip() {
     server.stop().await;
 }
 
-/// What the figure says while a stream asks it to stand, to slide sideways for a second faster than feet can, and to
-/// stand there.
+/// What the figure says while a stream asks it to stand, and it is pushed after a second.
 async fn streamed(most_help: f64) -> Vec<pb::FigureStatus> {
     let server = TestServer::start().await;
     server.paused_world("w").await;
@@ -145,9 +144,7 @@ async fn streamed(most_help: f64) -> Vec<pb::FigureStatus> {
     };
     let body = Body::adult_man();
     let frame = |sequence: i64| {
-        let mut posture = at_ease(&body);
-        posture.root_position.y += (sequence as f64 / 60.0 - 1.0).clamp(0.0, 1.0);
-        let mut motion = figure_motion("a", &posture, &[0.0; 45], None);
+        let mut motion = figure_motion("a", &at_ease(&body), &[0.0; 45], None);
         motion.velocity.clear();
         pb::MotionFrame {
             sequence,
@@ -157,7 +154,10 @@ async fn streamed(most_help: f64) -> Vec<pb::FigureStatus> {
     };
     let mut client = server.client.motions();
     let mut out = Vec::new();
-    for step in 0..100 {
+    for step in 0..200 {
+        if step == 20 {
+            push(&server).await;
+        }
         let request = pb::PushMotionRequest {
             header: Some(header.clone()),
             batch: Some(pb::MotionBatch {

@@ -3,7 +3,7 @@
 use crate::support::{TestServer, refusal};
 use sinew::wire::pb;
 use std::sync::Arc;
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::{SyncSender, sync_channel};
 use std::time::Duration;
 use tonic::Code;
 
@@ -13,7 +13,7 @@ const SOON: Duration = Duration::from_secs(20);
 /// Keeps a worker of a pool busy until what this gives is dropped.
 macro_rules! hold {
     ($server:expr, $pool:ident) => {{
-        let (held, wait) = channel::<()>();
+        let (held, wait) = sync_channel::<()>(1);
         let app = $server.app.clone();
         let work = move |_: &sinew::server::workers::Turn| {
             let _ = wait.recv();
@@ -23,7 +23,7 @@ macro_rules! hold {
         while $server.app.$pool.running() == 0 {
             tokio::task::yield_now().await;
         }
-        let held: Sender<()> = held;
+        let held: SyncSender<()> = held;
         held
     }};
 }

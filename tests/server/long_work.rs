@@ -106,7 +106,7 @@ async fn what_was_sent_counts_until_the_work_has_used_it() {
         ("max_conversions", "1"),
     ];
     let server = TestServer::with(&settings).await;
-    let (go, wait) = std::sync::mpsc::channel::<()>();
+    let (go, wait) = std::sync::mpsc::sync_channel::<()>(1);
     let pool = server.app.conversions.clone();
     let busy = tokio::spawn(async move {
         let work = move |_: &Turn| {

@@ -966,7 +966,7 @@ mod tests {
         }
         assert_eq!(count(&log), rows - 2 * 20, "after {calls} calls");
         // All at once: what a process left that ended before it had swept.
-        log.unswept = vec![0..log.next_id];
+        log.unswept.push(0..log.next_id);
         assert!(log.cut(&limits).unwrap().unswept, "a call is bounded");
         assert!(!log.cut(&limits).unwrap().unswept);
         assert_eq!(count(&log), rows - 2 * 20);
