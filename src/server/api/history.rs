@@ -18,7 +18,7 @@ use crate::wire::status::Fault;
 use std::sync::Arc;
 use tonic::{Request, Response, Status};
 
-/// How often a state is looked for while others put the world elsewhere.
+/// How often a state is looked for while others restore the world.
 const SEEKS: usize = 4;
 
 /// The past of a world, if any is kept.
@@ -148,6 +148,8 @@ impl HistoryService for Api {
             let (client, origin) = (client(&request), origin(&request));
             let handle = api.world(&request, "name", &request.get_ref().name)?;
             let tick = not_negative("tick", request.get_ref().tick)?;
+            // One after the other: what one looks for would be of a past that another one changes.
+            let _alone = handle.seeking.lock().await;
             for _ in 0..SEEKS {
                 let journal = journal(&handle)?;
                 let begun_anew = journal.begun_anew();
@@ -173,7 +175,7 @@ impl HistoryService for Api {
             }
             Err(Fault::Aborted {
                 reason: "WORLD_RESTORED",
-                message: "others put the world elsewhere again and again meanwhile".to_owned(),
+                message: "others restored the world again and again meanwhile".to_owned(),
             })
         })
         .await

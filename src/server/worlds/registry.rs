@@ -41,6 +41,8 @@ pub struct WorldHandle {
     pub mailboxes: Arc<Mailboxes>,
     /// Its past, if that is kept.
     pub journal: Option<Arc<Journal>>,
+    /// Held by who looks for a state of that past to put the world into.
+    pub seeking: tokio::sync::Mutex<()>,
     /// Ends when the world does.
     pub closed: watch::Receiver<()>,
     /// Ticks per second.
@@ -691,6 +693,7 @@ impl Registry {
             },
             mailboxes,
             journal,
+            seeking: tokio::sync::Mutex::default(),
             closed,
             rate_hz,
             dropped: AtomicU64::new(0),
