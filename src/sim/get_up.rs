@@ -14,22 +14,21 @@ mod stages;
 
 use crate::sim::body::angles::anatomical_angles;
 use crate::sim::body::topology::{
-    CHEST, HEAD, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_TOES, L_UPPER_ARM, NV, R_FOOT, R_FOREARM,
-    R_HAND, R_SHANK, R_TOES, R_UPPER_ARM, SEGMENT_COUNT, SegmentId,
+    CHEST, HANDS, HEAD, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_TOES, L_UPPER_ARM, NV, R_FOOT,
+    R_FOREARM, R_HAND, R_SHANK, R_TOES, R_UPPER_ARM, SEGMENT_COUNT, SHANKS, SegmentId, TOES,
 };
 use crate::sim::body::{Body, Posture};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::curve::{arc, smootherstep};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::motion::builtin::REFERENCE_LEG;
 use crate::sim::motion::{PlanarTransform, Target, TargetPair};
 use goals::Goals;
-use params::layout::{
-    LYING_HEIGHT, NEAR_HEIGHT, ON_SIDE, PRONE, REFERENCE_LEG, TOUCH_HEIGHT, UPDATE_TIME,
-};
+use params::layout::{LYING_HEIGHT, NEAR_HEIGHT, ON_SIDE, PRONE, TOUCH_HEIGHT, UPDATE_TIME};
 use reference_pose::ReferencePoses;
 use serde::{Deserialize, Serialize};
-use solver::{BALL, HANDS, KNEE, SHANKS, Solver, TOES};
+use solver::{BALL, KNEE, Solver};
 use stages::{FloorContacts, Layout, Stage};
 use std::f64::consts::FRAC_PI_2;
 
@@ -99,16 +98,10 @@ fn inverse(place: PlanarTransform, p: Vec3) -> Vec3 {
 impl GetUpMotion {
     /// Of a body that has not begun yet.
     pub fn new(body: &Body) -> Self {
-        let o = [Vec3::zero(); 2];
         Self {
             layout: Layout {
                 scale: body.leg_length(0) / REFERENCE_LEG,
-                pelvis: Vec3::zero(),
-                roll: 0.0,
-                yaw: 0.0,
-                knees: o,
-                balls: o,
-                hands: o,
+                ..Layout::default()
             },
             place: PlanarTransform::default(),
             turns_over: false,
@@ -188,6 +181,11 @@ impl GetUpMotion {
         }
     }
 
+    /// What is on the floor.
+    fn down(&self) -> FloorContacts {
+        self.stages()[self.stage].down
+    }
+
     /// True if it is in one of its stages: what was read from a checkpoint may be anything.
     pub fn is_valid(&self) -> bool {
         self.stage < self.stages().len()
@@ -230,7 +228,7 @@ impl GetUpMotion {
 
     /// True if a segment that touches the floor carries: arms and feet on their way elsewhere slide.
     pub fn carries(&self, s: SegmentId) -> bool {
-        let down = self.stages()[self.stage].down;
+        let down = self.down();
         match s {
             _ if down.whole => true,
             L_UPPER_ARM | L_FOREARM | L_HAND => down.hands[0],
@@ -244,33 +242,30 @@ impl GetUpMotion {
 
     /// True while the trunk lies on the floor.
     pub fn lies(&self) -> bool {
-        let down = self.stages()[self.stage].down;
+        let down = self.down();
         down.whole || !down.balls
     }
 
     /// True while it rolls over.
     pub fn rolls(&self) -> bool {
-        self.stages()[self.stage].down.whole
+        self.down().whole
     }
 
     /// Segments that may slide over the floor.
     pub fn slides(&self) -> &[bool; SEGMENT_COUNT] {
+        const fn all_but(kept: &[SegmentId]) -> [bool; SEGMENT_COUNT] {
+            let mut out = [true; SEGMENT_COUNT];
+            let mut k = 0;
+            while k < kept.len() {
+                out[kept[k].index()] = false;
+                k += 1;
+            }
+            out
+        }
         const NONE: [bool; SEGMENT_COUNT] = [false; SEGMENT_COUNT];
-        const BUT_FEET: [bool; SEGMENT_COUNT] = {
-            let mut out = [true; SEGMENT_COUNT];
-            out[L_FOOT.index()] = false;
-            out[R_FOOT.index()] = false;
-            out[L_TOES.index()] = false;
-            out[R_TOES.index()] = false;
-            out
-        };
-        const BUT_HANDS: [bool; SEGMENT_COUNT] = {
-            let mut out = [true; SEGMENT_COUNT];
-            out[L_HAND.index()] = false;
-            out[R_HAND.index()] = false;
-            out
-        };
-        match self.stages()[self.stage].down {
+        const BUT_FEET: [bool; SEGMENT_COUNT] = all_but(&[L_FOOT, R_FOOT, L_TOES, R_TOES]);
+        const BUT_HANDS: [bool; SEGMENT_COUNT] = all_but(&HANDS);
+        match self.down() {
             FloorContacts { whole: true, .. } => &BUT_FEET,
             FloorContacts { slides: true, .. } => &BUT_HANDS,
             _ => &NONE,
@@ -338,7 +333,8 @@ impl GetUpMotion {
         let share = 1.0 - exp(-dt / UPDATE_TIME);
         let real = &terms.state.posture;
         self.layout.pelvis = inverse(self.place, real.root_position);
-        let heading = if self.stages()[self.stage].down.whole {
+        let down = self.down();
+        let heading = if down.whole {
             real.root_rotation.rotate(Vec3::Z)
         } else {
             real.root_rotation.rotate(Vec3::Y).cross(Vec3::Z)
@@ -346,7 +342,6 @@ impl GetUpMotion {
         let yaw = trig::atan2(heading.y, heading.x) - self.place.yaw;
         let off = trig::wrapped(yaw - self.layout.yaw);
         self.layout.yaw += share * off;
-        let down = self.stages()[self.stage].down;
         for side in 0..2 {
             let knee = self.real(with, terms, (SHANKS[side], KNEE));
             let ball = self.ball(with, terms, side);
@@ -374,7 +369,7 @@ impl GetUpMotion {
     fn target(&self) -> Target {
         let mut out = Target::still(self.posture);
         out.velocity = self.velocity;
-        let d = self.stages()[self.stage].down;
+        let d = self.down();
         out.planted = [d.balls && !d.knees && d.hands == [false; 2]; 2];
         self.place.apply_to(&mut out);
         out

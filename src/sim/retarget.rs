@@ -18,6 +18,7 @@ mod run_to_walk;
 mod scene;
 mod segments;
 mod size;
+mod stages;
 
 pub use report::{
     BalanceReport, Bridged, ClampedDof, FootReport, FrameReport, JointReport, MappedBone, Origin,
@@ -29,21 +30,16 @@ use super::motion::bvh::{Bvh, BvhHead};
 use super::motion::clip::{Clip, ClipError, MAX_SAMPLES};
 use super::motion::filter::renormalised;
 use super::motion::skeleton_map::map_skeleton;
-use super::plan::contact_labels::{label_feet, phases};
+use super::plan::contact_labels::phases;
 use super::plan::flight_phases;
-use super::plan::foot_lock::Sole;
 use super::plan::params::leg;
 use super::plan::prepare::{Draft, PrepareOptions, prepare};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
 use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Quat, Vec3};
-use feet::{Ground, fit_floor};
-use joints::Joints;
 use recording::Recording;
 use report::{mapped_bones, missing_segments};
-use root::{RootPath, follow_feet};
-use scene::{RecordedPaths, Scene};
-use size::{guess_up, measure, unit};
+use scene::Scene;
+use stages::{Fitted, Footage};
 
 /// Most frames of a clip: bounds time and memory (8 min at 120 Hz).
 pub const MAX_FRAMES: usize = 60_000;
@@ -243,145 +239,29 @@ pub fn retarget_unless(
         false => Ok(()),
     };
     let source_rate = check(bvh, options)?;
-    let mut map = map_skeleton(&bvh.joints)?;
     let mut warnings: Vec<String> = bvh.warnings.clone();
-    let mut take = Recording::read(bvh, &map)?;
-
-    // Frames that are no motion, then glitches.
-    let skipped_frames = take.skip_pose(source_rate, &mut warnings);
-    if take.len() < 2 {
-        return Err(RetargetError::TooShort(take.len()));
-    }
-    let bridged = take.bridge(bvh, source_rate, skipped_frames);
+    let mut file = Footage::read(bvh, source_rate, &mut warnings)?;
     go_on()?;
-    let (mut places, turns) = take.forward();
-
-    // Metres, z up; even samples, smooth.
-    let up = options
-        .file
-        .up
-        .unwrap_or_else(|| guess_up(&places, &take, &map));
-    let measured = measure(bvh, &places, &take, &map)?;
-    let (unit_m, stature) = unit(options.file.unit_m, measured.stature)?;
-    let root = RootPath::of(&take, &map, up, measured.leg);
-    if let Some(warning) = root.warning() {
-        let how = (root, up, measured.leg);
-        if follow_feet(&mut places, (&take, &map), how, source_rate)
-            || !Recording::has_positions(bvh, &map)
-        {
-            warnings.push(warning.into());
-        }
-    }
-    let rest = take.rest(bvh);
-    take.forget_frames();
-    let recorded = RecordedPaths {
-        places,
-        turns,
-        rest,
-        up,
-        unit_m,
-        source_rate,
-    };
+    let (size, recorded) = file.measured(bvh, options, &mut warnings)?;
     go_on()?;
-    let (mut scene, seen) = Scene::new(&take, &map, recorded, options)?;
+    let (mut scene, mut seen) = Scene::new(&file.take, &file.map, recorded, options)?;
     go_on()?;
-    let keeps_run = seen.keeps_run();
-    let fastest_run = seen.fastest_run();
     warnings.extend(seen.notes(source_rate));
-    let (mut feet, rate) = (seen.feet, scene.rate);
-    let sides_swapped = scene.settle_sides(&mut map);
+    let sides_swapped = scene.settle_sides(&mut file.map);
     if sides_swapped {
-        feet.swap(0, 1);
+        seen.feet.swap(0, 1);
         warnings.push("left and right were exchanged: the file names them the other way round than its feet and knees \
             point".into());
     }
 
-    // Scale, floor, heading.
-    let soles = [Sole::new(body, 0), Sole::new(body, 1)];
-    let leg = body.leg_length(0);
-    let scale = options.scale.unwrap_or(leg / (measured.leg * unit_m));
-    let calibration = scene.calibrate(&map);
-    let mut ankle = [0, 1].map(|s| scene.place(map.sides[s].foot).to_vec());
-    let feet_flat = [0, 1].map(|s| scene.flat_samples(&map, s, measured.leg * unit_m));
-    let mut foot = [0, 1].map(|s| {
-        scene.foot_frames(
-            &map,
-            s,
-            &feet_flat[s],
-            (&calibration, measured.leg * unit_m),
-        )
-    });
-    let ground = if options.floor {
-        fit_floor(&ankle, &feet_flat)
-    } else {
-        Ground {
-            level: Quat::identity(),
-            height: [soles[0].ankle_height / scale; 2],
-            slope: 0.0,
-        }
-    };
-    let pelvis_raw = scene.pelvis(&map, &calibration);
-    let (placing, origin) = Placing::new(&ground, scale, &pelvis_raw, options.keep_origin);
-    let floor_height = 0.5 * (ground.height[0] + ground.height[1]);
-    let ankle_height = soles[0].ankle_height;
-    for v in feet.iter_mut().flatten().flatten() {
-        *v = placing.turn.rotate(*v);
-    }
-    for s in 0..2 {
-        for v in &mut ankle[s] {
-            *v = placing.point(*v, ground.height[s]);
-            v.z += ankle_height;
-        }
-        for q in &mut foot[s] {
-            *q = placing.turn * *q;
-        }
-    }
-    let mut pelvis: Vec<Vec3> = pelvis_raw
-        .0
-        .iter()
-        .map(|v| {
-            let mut p = placing.point(*v, floor_height);
-            p.z += ankle_height;
-            p
-        })
-        .collect();
-
-    // Steps: those of a run that is to be walked are taken so.
-    if let Some(slowed) = &seen.slowed {
-        for v in feet.iter_mut().flatten().flatten() {
-            *v = (*v + placing.shift) * scale;
-        }
-        let others = ankle.iter_mut().chain(feet.iter_mut().flatten());
-        slowed.shorten_path(&mut pelvis, others);
-        slowed.damp_bounces(&mut pelvis, rate);
-        for v in feet.iter_mut().flatten().flatten() {
-            *v = *v * (1.0 / scale);
-        }
-    }
-    let mut label = label_feet([&feet[0], &feet[1]], rate);
-    if let Some(slowed) = &seen.slowed {
-        slowed.replace_flights(&mut ankle, &mut foot, &mut label, rate);
-    }
-
-    // Segments, then joints.
-    let turned = |q: Vec<Quat>| -> Vec<Quat> { q.into_iter().map(|q| placing.turn * q).collect() };
-    let directed =
-        |v: Vec<Vec3>| -> Vec<Vec3> { v.into_iter().map(|v| placing.turn.rotate(v)).collect() };
-    let frames = scene.frames(&map, &calibration);
-    let joints = Joints {
-        pelvis: turned(pelvis_raw.1),
-        abdomen: turned(frames.abdomen),
-        chest: turned(frames.chest),
-        head: frames.head.map(turned),
-        upper_arm: frames.upper_arm.map(turned),
-        forearm_axis: frames.forearm.map(directed),
-        hand: frames.hand.map(turned),
-        has_hand: [0, 1].map(|s| map.sides[s].hand.is_some()),
-    };
+    let mut fitted = Fitted::new(&scene, &file.map, &size, body, options);
+    let label = fitted.steps(&mut seen.feet, seen.slowed.as_ref(), scene.rate);
+    let (joints, knee_axis, knee_off_axis) = fitted.joints(&scene, &file.map);
     go_on()?;
+    let rate = scene.rate;
     drop(scene);
-    let (mut postures, arms) = joints.postures(&pelvis);
-    drop((joints, pelvis));
+    let (mut postures, arms) = joints.postures(&std::mem::take(&mut fitted.pelvis));
+    drop(joints);
     go_on()?;
     for p in &mut postures {
         p.root_rotation = renormalised(p.root_rotation);
@@ -391,34 +271,30 @@ pub fn retarget_unless(
     let mut draft = Draft {
         rate_hz: rate,
         postures,
-        knee_axis: frames.knee_axis.map(directed),
-        ankle,
-        foot,
+        knee_axis,
+        ankle: std::mem::take(&mut fitted.ankle),
+        foot: std::mem::take(&mut fitted.foot),
         label,
     };
-    if keeps_run {
-        let bare = PrepareOptions {
-            lock_feet: false,
-            balance: false,
-            runs: fastest_run.is_some(),
-            held: leg::HELD,
-        };
-        let recorded = prepare(body, &draft, bare).postures;
-        flight_phases::label_runs(body, &recorded, &mut draft.label, rate);
-        go_on()?;
-    }
-    let rate = rate * options.tempo;
-    draft.rate_hz = rate;
-    let phases = phases(&draft.label, rate);
-    let how = PrepareOptions {
-        lock_feet: options.preparation.lock_feet && options.floor,
-        balance: options.preparation.balance,
+    let fastest_run = seen.fastest_run();
+    let mut how = PrepareOptions {
+        lock_feet: false,
+        balance: false,
         runs: fastest_run.is_some(),
         held: leg::HELD,
     };
-    let prepared = prepare(body, &draft, how);
+    if seen.keeps_run() {
+        let recorded = prepare(body, &draft, how).postures;
+        flight_phases::label_runs(body, &recorded, &mut draft.label, rate);
+        go_on()?;
+    }
+    how.lock_feet = options.preparation.lock_feet && options.floor;
+    how.balance = options.preparation.balance;
+    let rate = rate * options.tempo;
+    draft.rate_hz = rate;
+    let phases = phases(&draft.label, rate);
+    let mut prepared = prepare(body, &draft, how);
     go_on()?;
-    let mut prepared = prepared;
     let made = (
         std::mem::take(&mut prepared.postures),
         std::mem::take(&mut prepared.planted),
@@ -431,40 +307,23 @@ pub fn retarget_unless(
 
     let mut report = RetargetReport {
         skeleton: SkeletonReport {
-            mapped: mapped_bones(bvh, &map),
-            missing: missing_segments(&map),
-            by_structure: map.by_structure,
+            mapped: mapped_bones(bvh, &file.map),
+            missing: missing_segments(&file.map),
+            by_structure: file.map.by_structure,
             sides_swapped,
         },
-        size: SizeReport {
-            unit_m,
-            unit_given: options.file.unit_m.is_some(),
-            up,
-            stature,
-            scale,
-        },
+        size: size.report(options, fitted.scale),
         frames: FrameReport {
             source_rate_hz: source_rate,
             rate_hz: rate,
-            skipped_frames,
-            bridged,
+            skipped_frames: file.skipped_frames,
+            bridged: file.bridged,
             smoothing_rms: seen.smoothing_rms,
         },
-        place: PlaceReport {
-            floor_offset: floor_height - ankle_height / scale,
-            floor_slope: ground.slope,
-            origin,
-        },
+        place: fitted.place_report(),
         joints: JointReport {
-            clamped: (0..DOF_COUNT)
-                .filter(|d| prepared.clamped[*d].0 > 0.0)
-                .map(|d| ClampedDof {
-                    dof: DOF_NAMES[d],
-                    max: prepared.clamped[d].0,
-                    fraction: prepared.clamped[d].1,
-                })
-                .collect(),
-            knee_off_axis: frames.knee_off_axis,
+            clamped: clamped_dofs(&prepared.clamped),
+            knee_off_axis,
             elbow_off_axis: arms.off_axis,
             wrist_bias: arms.wrist_bias,
             pronation_shift: arms.pronation_shift,
@@ -495,59 +354,18 @@ pub fn retarget_unless(
         },
         warnings,
     };
-    report.note_warnings(calibration.from_rest);
+    report.note_warnings(fitted.calibration.from_rest);
     let clip =
         Clip::from_postures(&options.name, rate, postures, planted)?.with_ends(lead_in, lead_out);
     Ok(Retargeted { clip, report })
 }
 
-/// One turn and shift for everything, from the recorded room to the body: level, heading and place of the first sample,
-/// size.
-struct Placing {
-    turn: Quat,
-    shift: Vec3,
-    scale: f64,
-}
-
-impl Placing {
-    /// With the recorded pelvis, places and rotations. With `keep_origin` heading and place stay those of the room.
-    fn new(
-        ground: &Ground,
-        scale: f64,
-        pelvis: &(Vec<Vec3>, Vec<Quat>),
-        keep_origin: bool,
-    ) -> (Self, Origin) {
-        let first = ground.level * pelvis.1[0];
-        let forward = first.rotate(Vec3::X);
-        let yaw = forward.y.atan2(forward.x);
-        let start = ground.level.rotate(pelvis.0[0]);
-        let origin = Origin {
-            x: start.x,
-            y: start.y,
-            yaw,
-        };
-        let (turn, shift) = if keep_origin {
-            // Place is kept in metres of the room; the path about it is in body size.
-            let share = 1.0 / scale - 1.0;
-            (ground.level, start * share)
-        } else {
-            let turn = Quat::exp(Vec3::Z * -yaw);
-            (turn * ground.level, -turn.rotate(start))
-        };
-        let shift = Vec3 { z: 0.0, ..shift };
-        let out = Self { turn, shift, scale };
-        (out, origin)
-    }
-
-    /// A recorded point, in body size over a floor that lies at `height` in the recording.
-    fn point(&self, v: Vec3, height: f64) -> Vec3 {
-        let p = self.turn.rotate(v) + self.shift;
-        Vec3 {
-            x: p.x * self.scale,
-            y: p.y * self.scale,
-            z: (p.z - height) * self.scale,
-        }
-    }
+/// The angles that had to be clamped.
+fn clamped_dofs(clamped: &[(f64, f64); DOF_COUNT]) -> Vec<ClampedDof> {
+    let all = clamped.iter().zip(DOF_NAMES);
+    all.filter(|((max, _), _)| *max > 0.0)
+        .map(|(&(max, fraction), dof)| ClampedDof { dof, max, fraction })
+        .collect()
 }
 
 /// Postures and planted feet with the way into the motion and out of it, and the lengths of both in samples. `made`

@@ -1,7 +1,7 @@
 //! The prepared motion: feet that stand still where they should, and the zero-moment point.
 
 use crate::recorded::{Fit, Preparation, RetargetOptions, Truth, fits, fitted, man};
-use sinew::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
+use sinew::sim::body::topology::{FEET, NV};
 use sinew::sim::body::{Body, Links, Posture};
 use sinew::sim::dynamics::{ExternalForces, Kinematics, RneaWorkspace, rnea};
 use sinew::sim::math::Vec3;
@@ -15,15 +15,11 @@ use sinew::sim::plan::foot_lock::Sole;
 const GRAVITY: f64 = 9.81;
 /// Height below which a point of a sole touches the floor, m.
 const TOUCHES: f64 = 0.005;
-const FOOT: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
-const TOES: [usize; 2] = [L_TOES.index(), R_TOES.index()];
 
 /// Contact points of a foot in the world: those of the foot, then those of the toes.
 pub fn sole(body: &Body, soles: &[Sole; 2], posture: &Posture, side: usize) -> Vec<Vec3> {
-    let poses = forward(body, posture);
-    let at = |segment: usize, p: &Vec3| poses[segment].0 + poses[segment].1.rotate(*p);
-    let foot = soles[side].foot_points().iter().map(|p| at(FOOT[side], p));
-    foot.chain(soles[side].toe_points().iter().map(|p| at(TOES[side], p)))
+    soles[side]
+        .points_at(side, &forward(body, posture))
         .collect()
 }
 
@@ -154,7 +150,10 @@ fn foothold_error(body: &Body, f: &Fit) -> f64 {
                 y: h.y,
                 z: 0.0,
             };
-            (forward(body, &posture)[FOOT[h.side]].0, place * scale)
+            (
+                forward(body, &posture)[FEET[h.side].index()].0,
+                place * scale,
+            )
         })
         .collect();
     let flat = |v: Vec3| (v.x * v.x + v.y * v.y).sqrt();

@@ -23,10 +23,6 @@ pub(super) use tables::limit_changes;
 pub const ARMATURE: f64 = 0.02;
 
 pub use super::age::AGE_RANGE;
-/// Statures accepted for adults, m; see [`height_range`] for children.
-pub const HEIGHT_RANGE: [f64; 2] = [1.4, 2.1];
-/// Body masses accepted for adults, kg; see [`mass_range`] for children.
-pub const MASS_RANGE: [f64; 2] = [35.0, 180.0];
 
 fn within(field: &'static str, value: f64, range: [f64; 2]) -> Result<(), BodyError> {
     // Written so that NaN fails.

@@ -87,6 +87,22 @@ mod ids {
 }
 pub use ids::*;
 
+/// Sign of the axis y of a body towards a side: 1 for the left one (0), −1 for the right one (1).
+pub const fn outward(side: usize) -> f64 {
+    if side == 0 { 1.0 } else { -1.0 }
+}
+
+/// Left and right thigh.
+pub const THIGHS: [SegmentId; 2] = [L_THIGH, R_THIGH];
+/// Left and right shank.
+pub const SHANKS: [SegmentId; 2] = [L_SHANK, R_SHANK];
+/// Left and right foot.
+pub const FEET: [SegmentId; 2] = [L_FOOT, R_FOOT];
+/// Left and right toes.
+pub const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
+/// Left and right hand.
+pub const HANDS: [SegmentId; 2] = [L_HAND, R_HAND];
+
 /// Segment names, in segment order.
 pub const SEGMENT_NAMES: [&str; SEGMENT_COUNT] = [
     "pelvis",

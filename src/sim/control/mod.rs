@@ -50,6 +50,12 @@ impl PointTarget {
         all.iter().all(|v| v.is_finite())
     }
 
+    /// Moves the point by as much at both times.
+    pub fn shift(&mut self, by: Vec3) {
+        self.now += by;
+        self.next += by;
+    }
+
     /// A point that rests at `p` (world, m).
     pub fn still(p: Vec3) -> Self {
         Self {

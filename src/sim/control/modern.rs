@@ -26,7 +26,7 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
 use crate::sim::report::Flags;
 use crate::sim::report::MAX_CONTACTS;
-use crate::sim::support::Polygon;
+use crate::sim::support::{Polygon, zmp_above};
 use multiversion::multiversion;
 use tasks::pendulum_time;
 
@@ -350,11 +350,7 @@ impl Controller for Modern {
             force += f;
             moment += (t.segment_position(p.segment) + p.r).cross(f);
         }
-        c.zmp = (force.z > 1.0).then(|| Vec3 {
-            x: -moment.y / force.z,
-            y: moment.x / force.z,
-            z: 0.0,
-        });
+        c.zmp = zmp_above(1.0, force, moment);
         c.margin = c.zmp.and_then(|z| input.support.margin(z));
         c.pivot = None;
         if input.support.main().is_none() && input.support.rests().is_empty() {

@@ -176,7 +176,7 @@ impl GetUp {
         off: Vec3,
         heights: &mut [f64; MAX_CONTACTS],
     ) {
-        self.off = (off.x * off.x + off.y * off.y).sqrt();
+        self.off = off.level();
         heights.fill(f64::INFINITY);
         for s in SegmentId::all().filter(|s| self.motion.carries(*s)) {
             let points = body

@@ -15,13 +15,14 @@ use crate::sim::body::topology::{
 };
 use crate::sim::body::{Body, Links, NV, Posture, SegmentId};
 use crate::sim::figure::params::load::{
-    LARGEST_LEAN, LARGEST_SHIFT, LEAN, ONSET_TIME, RATE_SPAN, SAME_LOAD, SHIFT_GAIN, SHIFT_ROUNDS,
+    LARGEST_LEAN, LARGEST_SHIFT, LEAN, ONSET_TIME, RATE_SPAN, SAME_LOAD, SHIFT_ROUNDS,
 };
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::arm_ik::{ARMS, Arm};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
 use crate::sim::motion::{Target, TargetPair};
+use crate::sim::plan::params::balance::PELVIS_LEAD;
 use arm::{Habit, Poses};
 use serde::{Deserialize, Serialize};
 
@@ -226,7 +227,7 @@ impl Lean<'_> {
         let mut shift = Vec3::zero();
         for _ in 0..SHIFT_ROUNDS {
             let off = goal - self.real.center(&forward(self.body, &out));
-            shift = (shift + Vec3 { z: 0.0, ..off } * SHIFT_GAIN).capped(LARGEST_SHIFT);
+            shift = (shift + off.horizontal() * PELVIS_LEAD).capped(LARGEST_SHIFT);
             out.root_position = posture.root_position + shift;
             for (left, foot, toes) in [(true, L_FOOT, L_TOES), (false, R_FOOT, R_TOES)] {
                 if let Joint::Hinge1(toe) = JOINT[toes.index()] {

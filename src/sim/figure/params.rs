@@ -155,8 +155,6 @@ pub mod load {
         ONSET_TIME: f64 = 0.2, "s", 0.05..=1, "docs/locomotion.md#loads";
         /// A load that differs by less than this, in kg and kg·m, from its effect has all of it.
         SAME_LOAD: f64 = 1e-6, "kg", 0..=1e-3, "numerical";
-        /// Pelvis and trunk move by this much more than the centre of mass, because the feet stay.
-        SHIFT_GAIN: f64 = 1.15, "1", 1..=1.5, "derivation";
         /// Rounds in which the shift of the pelvis is found: each leaves a tenth of the error.
         SHIFT_ROUNDS: usize = 3, "rounds", 1..=6, "numerical";
         /// Rates of a changed motion are differences over so long before and after a moment: short enough to be

@@ -2,11 +2,9 @@
 
 use crate::sim::params::Param;
 
-/// Where things are on the floor.
+/// Where things are on the floor. Lengths are those of the reference body of the built-in motions.
 pub mod layout {
     crate::sim::params::params! {
-        /// Leg length (hip to ankle) that distances are written for.
-        REFERENCE_LEG: f64 = 0.867, "m", 0.5..=1.2, "docs/locomotion.md#getting-up";
         /// Time constant with which what is on the floor counts as where it really is.
         UPDATE_TIME: f64 = 0.1, "s", 0.05..=1, "docs/locomotion.md#getting-up";
         /// A part lower than this is on the floor.
@@ -42,7 +40,7 @@ pub mod weights {
         COM: f64 = 10.0, "1", 1..=50, "docs/locomotion.md#getting-up";
         /// Joint angles of the reference pose.
         POSE: f64 = 0.01, "1", 0.001..=0.1, "docs/locomotion.md#getting-up";
-        /// Change of a rate within `STEADY_TIME`.
+        /// Change of a rate within `APPROACH`.
         STEADY: f64 = 1e-3, "1", 1e-4..=0.1, "docs/locomotion.md#getting-up";
         /// A rate.
         DAMPING: f64 = 3e-4, "1", 1e-5..=0.01, "docs/locomotion.md#getting-up";
@@ -60,8 +58,6 @@ pub mod solver {
     crate::sim::params::params! {
         /// Time constant with which goals and joint limits are approached.
         APPROACH: f64 = 0.05, "s", 0.03..=0.3, "docs/locomotion.md#getting-up";
-        /// Time that the weight of a change of rate refers to.
-        STEADY_TIME: f64 = 0.05, "s", 0.02..=0.2, "docs/locomotion.md#getting-up";
         /// Fastest joint.
         FASTEST: f64 = 5.0, "rad/s", 1..=10, "docs/locomotion.md#getting-up";
         /// Joints stay this far from their limits.

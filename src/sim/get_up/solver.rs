@@ -3,25 +3,19 @@
 use super::goals::{Aim, Goals};
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits, set_anatomical_angles};
 use crate::sim::body::topology::{
-    CHEST, DOF_COUNT, L_FOOT, L_HAND, L_SHANK, L_TOES, NV, PELVIS, R_FOOT, R_HAND, R_SHANK, R_TOES,
-    SEGMENT_COUNT, SegmentId,
+    CHEST, DOF_COUNT, FEET, HANDS, NV, PELVIS, SEGMENT_COUNT, SHANKS, SegmentId, TOES,
 };
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::get_up::params::layout::NEAR_HEIGHT;
 use crate::sim::get_up::params::solver::{
-    APPROACH, FASTEST, LIMIT_MARGIN, LIMIT_ROUNDS, RATE_TOLERANCE, STEADY_TIME,
+    APPROACH, FASTEST, LIMIT_MARGIN, LIMIT_ROUNDS, RATE_TOLERANCE,
 };
 use crate::sim::get_up::params::weights::{DAMPING, FINGERS, FLOOR, JOINT_LIMIT, STEADY};
 use crate::sim::math::dense::cholesky_solve_summed;
 use crate::sim::math::{Quat, Vec3};
 
-/// Left and right.
-pub const SHANKS: [SegmentId; 2] = [L_SHANK, R_SHANK];
-pub const FEET: [SegmentId; 2] = [L_FOOT, R_FOOT];
-pub const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
-pub const HANDS: [SegmentId; 2] = [L_HAND, R_HAND];
 /// Point of the shank on which a body kneels, and points of the toes under the ball of the foot.
 pub const KNEE: usize = 0;
 pub const BALL: [usize; 2] = [0, 1];
@@ -65,7 +59,7 @@ impl Solver {
             row.fill(0.0);
         }
         self.right.fill(0.0);
-        let steady = STEADY * (STEADY_TIME / dt) * (STEADY_TIME / dt);
+        let steady = STEADY * (APPROACH / dt) * (APPROACH / dt);
         for i in 0..NV {
             self.pull(i, v[i], steady);
             self.pull(i, 0.0, DAMPING);

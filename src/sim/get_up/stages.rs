@@ -7,7 +7,7 @@
 
 use super::goals::{Aim, Goals, swapped};
 use super::reference_pose::ReferencePoses;
-use crate::sim::body::topology::DOF_COUNT;
+use crate::sim::body::topology::{DOF_COUNT, outward};
 use crate::sim::get_up::params::layout::{ARMS_APART, HAND_STEP_HEIGHT, SHANK, WRIST_HEIGHT};
 use crate::sim::get_up::params::weights::{COM, FIRM, HAND, POSE};
 use crate::sim::math::Vec3;
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// Where everything is.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Layout {
     /// Length over that of the reference body.
     pub scale: f64,
@@ -56,39 +56,34 @@ pub struct FloorContacts {
     pub hands: [bool; 2],
 }
 
-const ROLLS: FloorContacts = FloorContacts {
-    whole: true,
-    slides: true,
-    ..LIES
-};
-const PUSHES: FloorContacts = FloorContacts {
-    balls: true,
-    ..ROLLS
-};
-const LIES: FloorContacts = FloorContacts {
-    whole: false,
-    slides: true,
-    knees: true,
-    balls: false,
-    hands: [false; 2],
-};
-const KNEELS: FloorContacts = FloorContacts {
-    whole: false,
-    slides: false,
-    knees: true,
-    balls: true,
-    hands: [true; 2],
-};
-const SLIDES: FloorContacts = FloorContacts {
-    slides: true,
-    ..KNEELS
-};
 const STANDS: FloorContacts = FloorContacts {
     whole: false,
     slides: false,
     knees: false,
     balls: true,
     hands: [false; 2],
+};
+const KNEELS: FloorContacts = FloorContacts {
+    knees: true,
+    hands: [true; 2],
+    ..STANDS
+};
+const SLIDES: FloorContacts = FloorContacts {
+    slides: true,
+    ..KNEELS
+};
+const LIES: FloorContacts = FloorContacts {
+    balls: false,
+    hands: [false; 2],
+    ..SLIDES
+};
+const ROLLS: FloorContacts = FloorContacts {
+    whole: true,
+    ..LIES
+};
+const PUSHES: FloorContacts = FloorContacts {
+    balls: true,
+    ..ROLLS
 };
 /// On the balls of the feet and these hands.
 const fn leans(hands: [bool; 2]) -> FloorContacts {
@@ -152,7 +147,7 @@ impl Layout {
     /// The same, with the hand of one side so far ahead of the feet.
     fn step(&self, mut goals: Goals, side: usize, x: f64) -> Goals {
         let feet = middle(self.balls);
-        let y = if side == 0 { 1.0 } else { -1.0 } * ARMS_APART;
+        let y = outward(side) * ARMS_APART;
         let to = self.flat(feet.x + x * self.scale, feet.y + y * self.scale);
         (goals.hands[side], goals.palms[side]) = to;
         goals
@@ -266,7 +261,7 @@ pub const UP: &[Stage] = &[
     stepping("right hand", |h, l| reach(h, l, 1, (-0.18, 0.72), 0.3), 1),
     stage("fold", 0.45, fold, leans([true; 2])),
     stage("rise", 1.0, rise, STANDS),
-    stage("stand", 0.5, stand, STANDS),
+    stage("stand", 0.5, rise, STANDS),
 ];
 
 /// Lying as it lies: the left foot set up, the right arm out of the way, the left one across.
@@ -477,8 +472,4 @@ fn rise(h: &Layout, l: &ReferencePoses) -> Goals {
         pose: pose_aims(&l.at_ease, 0.05),
         ..leaning(h, &soles(h))
     }
-}
-
-fn stand(h: &Layout, l: &ReferencePoses) -> Goals {
-    rise(h, l)
 }

@@ -87,6 +87,21 @@ impl Vec3<f64> {
     pub const fn from_array(a: [f64; 3]) -> Self {
         vec3(a[0], a[1], a[2])
     }
+    /// A point of the floor, or a direction along it.
+    #[inline(always)]
+    pub const fn on_floor([x, y]: [f64; 2]) -> Self {
+        vec3(x, y, 0.0)
+    }
+    /// Components along the floor as an array.
+    #[inline(always)]
+    pub const fn xy(self) -> [f64; 2] {
+        [self.x, self.y]
+    }
+    /// What it is on the floor: z is 0.
+    #[inline(always)]
+    pub const fn horizontal(self) -> Self {
+        vec3(self.x, self.y, 0.0)
+    }
     /// True if every component is finite.
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.z.is_finite()

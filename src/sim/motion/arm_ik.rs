@@ -68,6 +68,22 @@ impl Arm {
     }
 }
 
+/// Bends the elbow within its limits so that a point of the hand is so far from the shoulder: axis of the hinge, its
+/// angle, rad, and where the point is then, frame of the upper arm, m.
+pub(super) fn bend_elbow(
+    body: &Body,
+    arm: [SegmentId; 3],
+    point: Vec3,
+    distance: f64,
+) -> (Vec3, f64, Vec3) {
+    let [_, fore, hand] = arm.map(SegmentId::index);
+    let dof = DOF_START[fore];
+    let n = Vec3::from_array(DOF_AXIS[dof].vector());
+    let (a, b) = (body.joint_offset[fore], body.joint_offset[hand] + point);
+    let elbow = hinge_for_distance(a, b, n, distance).clamp(body.lower[dof], body.upper[dof]);
+    (n, elbow, a + Quat::exp(n * elbow).rotate(b))
+}
+
 /// Brings a point of a hand to a place; forearm and wrist are neither turned nor bent.
 ///
 /// * `point`: hand frame, m; `place`: chest frame, m; `pole`: where the elbow points, chest frame, any length.
@@ -75,14 +91,9 @@ impl Arm {
 /// The elbow stays within its limits; those of the shoulder are for the caller to check. Returns how the arm is held
 /// then, and the distance that is missing, m: 0 where the place is within reach. O(1), no allocation.
 pub fn reach(body: &Body, arm: [SegmentId; 3], point: Vec3, place: Vec3, pole: Vec3) -> (Arm, f64) {
-    let [upper, fore, hand] = arm.map(SegmentId::index);
-    let dof = DOF_START[fore];
-    let n = Vec3::from_array(DOF_AXIS[dof].vector());
-    let (a, b) = (body.joint_offset[fore], body.joint_offset[hand] + point);
-    let shoulder = body.joint_offset[upper];
+    let shoulder = body.joint_offset[arm[0].index()];
     let way = place - shoulder;
-    let elbow = hinge_for_distance(a, b, n, way.norm()).clamp(body.lower[dof], body.upper[dof]);
-    let hand = a + Quat::exp(n * elbow).rotate(b);
+    let (n, elbow, hand) = bend_elbow(body, arm, point, way.norm());
     let direction = way.normalized_or(-Vec3::Z);
     // The elbow lies off the line from shoulder to hand in direction × axis.
     let axis = pole.cross(direction);

@@ -18,6 +18,7 @@ pub const BUILTIN_NAMES: [&str; 7] = ["idle", "lift", "crate", "squat", "wave", 
 /// Samples per second of every built-in motion.
 pub const RATE: f64 = 120.0;
 
+pub use shape::REFERENCE_LEG;
 pub use standing::LiftEnd;
 
 /// Time at which the hand of `lift` is at rest on the object and starts to raise it, s.

@@ -12,15 +12,6 @@ use crate::sim::body::topology::{
 use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::math::{Mat3, Quat, Vec3, trig};
 
-/// What became of a leg target.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LegResult {
-    /// Distance between the wanted and the reached ankle position, m; 0 where the target is within reach.
-    pub shortfall: f64,
-    /// Knee flexion that was set, rad.
-    pub knee: f64,
-}
-
 /// Thigh, shank, foot and toes of one side.
 pub fn leg_segments(left: bool) -> [SegmentId; 4] {
     if left {
@@ -92,9 +83,9 @@ pub fn solve_leg(
     left: bool,
     world_from_foot: (Vec3, Quat),
     toe: f64,
-) -> LegResult {
+) {
     let axis = knee_axis(posture, left);
-    solve_leg_in_plane(body, posture, left, world_from_foot, toe, axis)
+    solve_leg_in_plane(body, posture, left, world_from_foot, toe, axis);
 }
 
 /// Like [`solve_leg`] with the knee's hinge axis as near as possible to `axis` (world, any length).
@@ -103,9 +94,8 @@ pub fn solve_leg(
 /// * `toe`: toe extension, rad; clamped to the body's limits.
 ///
 /// The knee flexes between its limits and never backwards. A target out of reach leaves the leg stretched (or fully
-/// bent) towards it, with the foot's orientation as wanted, and the distance missed in [`LegResult::shortfall`]. Hip
-/// and ankle angles are not held to their limits: whether they must be, and what gives way, is for the caller to say.
-/// O(1), no allocation.
+/// bent) towards it, with the foot's orientation as wanted. Hip and ankle angles are not held to their limits: whether
+/// they must be, and what gives way, is for the caller to say. O(1), no allocation.
 pub fn solve_leg_in_plane(
     body: &Body,
     posture: &mut Posture,
@@ -113,7 +103,7 @@ pub fn solve_leg_in_plane(
     world_from_foot: (Vec3, Quat),
     toe: f64,
     axis: Vec3,
-) -> LegResult {
+) {
     let [thigh, shank, foot, toes] = leg_segments(left).map(SegmentId::index);
     let (wanted, foot_rotation) = world_from_foot;
     let pelvis = posture.root_rotation;
@@ -149,10 +139,6 @@ pub fn solve_leg_in_plane(
         debug_assert_eq!(DOF_LEN[toes], 1);
     } else {
         unreachable!("the tree has ball hips and ankles and hinge knees and toes");
-    }
-    LegResult {
-        shortfall: (hip + world_from_thigh.rotate(reach) - wanted).norm(),
-        knee,
     }
 }
 
@@ -227,6 +213,28 @@ mod tests {
         posture
     }
 
+    /// What became of a leg target.
+    #[derive(Debug)]
+    struct LegResult {
+        /// Distance between the wanted and the reached ankle position, m.
+        shortfall: f64,
+        /// Knee flexion, rad.
+        knee: f64,
+    }
+
+    impl LegResult {
+        fn of(body: &Body, posture: &Posture, left: bool, wanted: Vec3) -> Self {
+            let [_, shank, foot, _] = leg_segments(left).map(SegmentId::index);
+            let Joint::Hinge1(k) = JOINT[shank] else {
+                panic!()
+            };
+            Self {
+                shortfall: (forward(body, posture)[foot].0 - wanted).norm(),
+                knee: posture.hinge[k],
+            }
+        }
+    }
+
     fn angle_between(a: Quat, b: Quat) -> f64 {
         (a.conjugate() * b).log().norm()
     }
@@ -274,7 +282,8 @@ mod tests {
                 let mut other = random_posture(&body, &mut random);
                 (other.root_position, other.root_rotation) =
                     (truth.root_position, truth.root_rotation);
-                let result = solve_leg(&body, &mut other, left, target, truth.hinge[t]);
+                solve_leg(&body, &mut other, left, target, truth.hinge[t]);
+                let result = LegResult::of(&body, &other, left, target.0);
                 assert!(result.shortfall < 1e-9, "{result:?}");
                 let found = forward(&body, &other)[foot];
                 assert!((found.0 - target.0).norm() < 1e-9);
@@ -284,9 +293,8 @@ mod tests {
                 // ill-conditioned.
                 let mut again = other;
                 let axis = knee_axis(&truth, left);
-                let result =
-                    solve_leg_in_plane(&body, &mut again, left, target, truth.hinge[t], axis);
-                if result.knee > 0.05 {
+                solve_leg_in_plane(&body, &mut again, left, target, truth.hinge[t], axis);
+                if LegResult::of(&body, &again, left, target.0).knee > 0.05 {
                     for (a, b) in forward(&body, &again)
                         .iter()
                         .zip(forward(&body, &truth))
@@ -327,7 +335,8 @@ mod tests {
             posture.hinge[k] = random.random_range(0.2..2.4); // off the stretched knee, which is not at 0 here
             let target = forward(&body, &posture)[foot];
             let mut other = posture;
-            let result = solve_leg(&body, &mut other, left, target, 0.0);
+            solve_leg(&body, &mut other, left, target, 0.0);
+            let result = LegResult::of(&body, &other, left, target.0);
             assert!(result.shortfall < 1e-9, "{result:?}");
             assert!((forward(&body, &other)[foot].0 - target.0).norm() < 1e-9);
             assert!((other.hinge[k] - posture.hinge[k]).abs() < 1e-7);
@@ -347,13 +356,9 @@ mod tests {
             z: -0.8,
         };
         let turned = Quat::exp(Vec3::Z * 0.3);
-        let result = solve_leg(
-            &body,
-            &mut posture,
-            true,
-            (hip + direction * 2.0, turned),
-            9.0,
-        );
+        let far = hip + direction * 2.0;
+        solve_leg(&body, &mut posture, true, (far, turned), 9.0);
+        let result = LegResult::of(&body, &posture, true, far);
         assert!((result.shortfall - (2.0 - length)).abs() < 1e-12);
         assert_eq!(result.knee, 0.0);
         let poses = forward(&body, &posture);
@@ -364,7 +369,8 @@ mod tests {
         // Too near: the knee stops at its limit, and a target in the hip itself is no trap.
         for near in [0.05, 1e-15, 0.0] {
             let target = (hip + direction * near, Quat::identity());
-            let result = solve_leg(&body, &mut posture, true, target, 0.0);
+            solve_leg(&body, &mut posture, true, target, 0.0);
+            let result = LegResult::of(&body, &posture, true, target.0);
             assert_eq!(result.knee, body.upper[DOF_START[L_SHANK.index()]]);
             assert!(result.shortfall > 0.1 && posture.is_finite());
         }
@@ -386,7 +392,8 @@ mod tests {
             };
             posture.root_rotation = Quat::exp(Vec3::Y * depth);
             for (side, target) in targets.iter().enumerate() {
-                let result = solve_leg(&body, &mut posture, side == 0, *target, 0.0);
+                solve_leg(&body, &mut posture, side == 0, *target, 0.0);
+                let result = LegResult::of(&body, &posture, side == 0, target.0);
                 assert!(result.shortfall < 1e-12 && result.knee > 0.0);
             }
             if let Some(last) = last {

@@ -7,6 +7,7 @@
 use super::foot_lock::{FootPlacement, Sole};
 use crate::sim::body::Body;
 use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT};
+use crate::sim::math::Vec3;
 use crate::sim::motion::GRAVITY;
 use crate::sim::plan::params::ankle;
 use crate::sim::strength::{MuscleScale, Strength};
@@ -88,7 +89,7 @@ impl AnkleTorqueLimit {
         }
         let rise = self.ankle / height.max(self.ankle);
         let lean = lean.map(|d| d * rise);
-        let far = (lean[0] * lean[0] + lean[1] * lean[1]).sqrt();
+        let far = Vec3::on_floor(lean).level();
         let share = (ankle::MOST_MOVED / far.max(ankle::MOST_MOVED)).min(1.0);
         let ahead = at.ahead();
         sole.each_corner(at, |p| {
@@ -105,7 +106,6 @@ impl AnkleTorqueLimit {
 mod tests {
     use super::*;
     use crate::sim::body::{Profile, Sex};
-    use crate::sim::math::Vec3;
     use crate::sim::math::polygon::{hull, margin};
 
     const AT: FootPlacement = FootPlacement {

@@ -44,6 +44,23 @@ pub fn runs<T: PartialEq + Copy>(flags: &[T]) -> Vec<(usize, usize, T)> {
     out
 }
 
+/// The [`runs`] of true values: `(start, end)`.
+pub(crate) fn stretches(on: &[bool]) -> impl Iterator<Item = (usize, usize)> + use<> {
+    let all = runs(on).into_iter().filter(|run| run.2);
+    all.map(|(start, end, _)| (start, end))
+}
+
+/// Takes out what lasts for fewer than so many samples between others: first gaps, then what they are between.
+pub(crate) fn remove_short(on: &mut [bool], shortest: f64) {
+    for value in [false, true] {
+        for (i, j, v) in runs(on) {
+            if v == value && i > 0 && j < on.len() && ((j - i) as f64) < shortest {
+                on[i..j].fill(!value);
+            }
+        }
+    }
+}
+
 /// Labels both feet.
 ///
 /// * `points`: for each foot the trajectories of its points (ankle, toe joint, toe tip; those the file has), m, z up,
@@ -84,17 +101,7 @@ fn label_foot(points: &[Vec<Vec3>], n: usize, rate_hz: f64) -> Vec<bool> {
             on[i] |= down;
         }
     }
-    let short = contact::SHORTEST * rate_hz;
-    for (i, j, v) in runs(&on) {
-        if !v && i > 0 && j < n && ((j - i) as f64) < short {
-            on[i..j].fill(true);
-        }
-    }
-    for (i, j, v) in runs(&on) {
-        if v && i > 0 && j < n && ((j - i) as f64) < short {
-            on[i..j].fill(false);
-        }
-    }
+    remove_short(&mut on, contact::SHORTEST * rate_hz);
     on
 }
 

@@ -2,13 +2,14 @@
 //! no foot slides.
 
 use super::foot_lock::Sole;
+use super::likeness::pelvis_unlike;
 use super::prepare::{Draft, PrepareOptions, prepare};
-use crate::sim::body::topology::{DOF_COUNT, L_FOOT, R_FOOT};
+use crate::sim::body::topology::{DOF_COUNT, FEET};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::clip::Clip;
 use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::params::{contact, leg, likeness};
+use crate::sim::plan::params::{contact, likeness};
 
 /// What two samples are compared by.
 struct Key {
@@ -27,11 +28,7 @@ fn unlike(a: &Key, b: &Key) -> Option<f64> {
     for (x, y) in a.rates.iter().zip(&b.rates) {
         sum += (likeness::RATE_SHARE * (x - y)).powi(2);
     }
-    // Tilt: where the vertical is in the pelvis.
-    let up = |p: &Posture| p.root_rotation.conjugate().rotate(Vec3::Z);
-    let tilt = up(&a.posture) - up(&b.posture);
-    let height = a.posture.root_position.z - b.posture.root_position.z;
-    sum += likeness::TILT_WEIGHT * tilt.dot(tilt) + likeness::HEIGHT_WEIGHT * height * height;
+    sum += pelvis_unlike(&a.posture, &b.posture);
     Some((sum / DOF_COUNT as f64).sqrt())
 }
 
@@ -52,17 +49,10 @@ fn find(clip: &Clip) -> Repeat {
     let keys: Vec<Key> = at
         .iter()
         .map(|&i| {
-            let t = clip.sample(i as f64 / clip.rate_hz());
-            let mut rates = [0.0; DOF_COUNT];
             // At its very ends a clip may be at rest.
-            let inner = (1..n.max(3) - 1).contains(&i);
-            let v = if inner {
-                t.velocity
-            } else {
-                clip.sample((i.clamp(1, n.max(3) - 2)) as f64 / clip.rate_hz())
-                    .velocity
-            };
-            rates.copy_from_slice(&v[6..]);
+            let t = clip.sample(i.clamp(1, n.max(3) - 2) as f64 / clip.rate_hz());
+            let mut rates = [0.0; DOF_COUNT];
+            rates.copy_from_slice(&t.velocity[6..]);
             Key {
                 posture: *clip.posture(i),
                 rates,
@@ -111,14 +101,6 @@ pub fn cycle(body: &Body, clip: &Clip) -> Option<Clip> {
     }
 }
 
-/// How a repeated motion is prepared: as any other, in all respects.
-const HOW: PrepareOptions = PrepareOptions {
-    lock_feet: true,
-    balance: true,
-    runs: true,
-    held: leg::HELD,
-};
-
 /// Feet on the floor: the planted ones, and those that a former preparation set free because the leg could not hold
 /// them exactly.
 pub(crate) fn relabel_prepared(
@@ -133,7 +115,7 @@ pub(crate) fn relabel_prepared(
         .map(|p| {
             let poses = forward(body, p);
             std::array::from_fn(|s| {
-                let (ankle, rotation) = poses[[L_FOOT, R_FOOT][s].index()];
+                let (ankle, rotation) = poses[FEET[s].index()];
                 (ankle, ankle.z + soles[s].lowest(rotation, 0.0))
             })
         })
@@ -163,7 +145,7 @@ fn through_standing(body: &Body, clip: &Clip) -> Option<Clip> {
     if draft.end_like(body, &first) == 0 {
         return None;
     }
-    let whole = prepare(body, &draft, HOW);
+    let whole = prepare(body, &draft, PrepareOptions::FULL);
     Clip::from_postures(clip.name(), rate, whole.postures, whole.planted).ok()
 }
 
@@ -189,7 +171,7 @@ fn closed(body: &Body, clip: &Clip, i: usize, j: usize) -> Option<Clip> {
     }
     let label = relabel_prepared(body, rate, &postures, &planted);
     let draft = Draft::of_postures(body, rate, postures, label);
-    let prepared = prepare(body, &draft, HOW);
+    let prepared = prepare(body, &draft, PrepareOptions::FULL);
     let lead = lead + around * round;
     let (mut postures, mut planted) = (prepared.postures, prepared.planted);
     postures.truncate(lead + round + 1);

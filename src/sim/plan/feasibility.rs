@@ -5,17 +5,17 @@
 //! the wrench that its acceleration needs lies in the friction cones of the feet that stand. How far it is from that
 //! says, before anything is simulated, how hard it will be to follow. Pure, offline; nothing here changes a motion.
 
-use super::contact_labels::runs;
+use super::contact_labels::stretches;
 use super::foot_lock::{FootPlacement, Sole};
 use super::pelvis_shift::mass_track;
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::topology::FEET;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::nnls::nnls;
 use crate::sim::math::polygon::{hull, margin};
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::params::{balance, contact, feasibility};
+use crate::sim::plan::params::{balance, feasibility, pelvis, stop};
 
 /// Root mean square and largest value of something over a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -75,11 +75,9 @@ pub fn consistency(
     let track = mass_track(body, &postures[..n], rate_hz);
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let weight = GRAVITY * body.segments.iter().map(|s| s.mass).sum::<f64>();
-    let seated = contact::SEATED * body.standing_root_height();
-    let feet: Vec<[Standing; 2]> = postures[..n]
-        .iter()
-        .map(|p| Standing::both(body, &soles, p))
-        .collect();
+    let seated = pelvis::SEATED * body.standing_root_height();
+    let feet = postures[..n].iter().map(|p| standing(body, &soles, p));
+    let feet: Vec<_> = feet.collect();
     let (mut outside, mut force, mut moment) = (Vec::new(), Vec::new(), Vec::new());
     let mut out = Consistency::default();
     let mut corners = Vec::new();
@@ -90,9 +88,10 @@ pub fn consistency(
         }
         corners.clear();
         for s in (0..2).filter(|s| label[i][*s]) {
-            soles[s].footprint(&feet[i][s].at, &mut corners);
-            out.floor.0 = out.floor.0.max(-feet[i][s].low);
-            out.floor.1 = out.floor.1.max(feet[i][s].low);
+            let (at, low) = &feet[i][s];
+            soles[s].footprint(at, &mut corners);
+            out.floor.0 = out.floor.0.max(-low);
+            out.floor.1 = out.floor.1.max(*low);
         }
         if label[i] == [false; 2] {
             out.flight += 1.0 / n as f64;
@@ -118,12 +117,10 @@ pub fn consistency(
     let mut sum = 0.0;
     for s in 0..2 {
         let on: Vec<bool> = label[..n].iter().map(|l| l[s]).collect();
-        for (i, j, _) in runs(&on).into_iter().filter(|r| r.2) {
-            let mean =
-                (i..j).fold(Vec3::zero(), |m, k| m + feet[k][s].at.place) * (1.0 / (j - i) as f64);
-            let far = (i..j)
-                .map(|k| (feet[k][s].at.place - mean).norm())
-                .fold(0.0, f64::max);
+        for (i, j) in stretches(&on) {
+            let place = |k: usize| feet[k][s].0.place;
+            let mean = (i..j).fold(Vec3::zero(), |m, k| m + place(k)) * (1.0 / (j - i) as f64);
+            let far = (i..j).map(|k| (place(k) - mean).norm()).fold(0.0, f64::max);
             out.stances += 1;
             sum += far;
             out.slip.1 = out.slip.1.max(far);
@@ -133,42 +130,20 @@ pub fn consistency(
     out
 }
 
-/// Force and moment that a motion asks for from nothing, root mean squares over weight (and 1 m) added.
-pub(crate) fn infeasibility(
-    body: &Body,
-    postures: &[Posture],
-    label: &[[bool; 2]],
-    rate_hz: f64,
-) -> f64 {
-    let asked = consistency(body, postures, label, rate_hz);
+/// Force and moment that a motion of samples at [`stop::RATE`] asks for from nothing, root mean squares over weight
+/// (and 1 m) added.
+pub(crate) fn infeasibility(body: &Body, postures: &[Posture], label: &[[bool; 2]]) -> f64 {
+    let asked = consistency(body, postures, label, stop::RATE);
     asked.force.rms + asked.moment.rms
 }
 
-/// Where a foot is, if it stands.
-struct Standing {
-    at: FootPlacement,
-    /// Height of its lowest point, m.
-    low: f64,
-}
-
-impl Standing {
-    fn both(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [Self; 2] {
-        let poses = forward(body, posture);
-        [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
-            let sole = &soles[usize::from(foot == R_FOOT)];
-            let lowest = |(at, q): (Vec3, Quat), points: &[Vec3]| {
-                points
-                    .iter()
-                    .map(|p| at.z + q.rotate(*p).z)
-                    .fold(f64::INFINITY, f64::min)
-            };
-            Self {
-                at: sole.footing(poses[foot.index()]),
-                low: lowest(poses[foot.index()], sole.foot_points())
-                    .min(lowest(poses[toes.index()], sole.toe_points())),
-            }
-        })
-    }
+/// Where each foot is, if it stands, and the height of its lowest point, m.
+fn standing(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [(FootPlacement, f64); 2] {
+    let poses = forward(body, posture);
+    [0, 1].map(|side| {
+        let at = soles[side].footing(poses[FEET[side].index()]);
+        (at, soles[side].lowest_at(side, &poses))
+    })
 }
 
 /// What is left of a wrench (force, moment about `com`) after the best forces in the friction cones at the corners of
@@ -176,11 +151,7 @@ impl Standing {
 fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, f64) {
     let mut columns = Vec::with_capacity(polygon.len() * feasibility::CONE_EDGES);
     for p in polygon {
-        let arm = Vec3 {
-            x: p[0] - com.x,
-            y: p[1] - com.y,
-            z: -com.z,
-        };
+        let arm = Vec3::on_floor(*p) - com;
         for k in 0..feasibility::CONE_EDGES {
             let (s, c) =
                 trig::sin_cos(std::f64::consts::TAU * k as f64 / feasibility::CONE_EDGES as f64);
@@ -234,11 +205,11 @@ mod tests {
         let body = Body::adult_man();
         let mut posture = at_ease(&body);
         let feet = forward(&body, &posture);
-        let feet = [L_FOOT, R_FOOT].map(|s| feet[s.index()]);
+        let feet = FEET.map(|s| feet[s.index()]);
         let soles = [Sole::new(&body, 0), Sole::new(&body, 1)];
         let mut corners = Vec::new();
-        for (sole, foot) in soles.iter().zip(Standing::both(&body, &soles, &posture)) {
-            sole.footprint(&foot.at, &mut corners);
+        for (sole, (at, _)) in soles.iter().zip(standing(&body, &soles, &posture)) {
+            sole.footprint(&at, &mut corners);
         }
         let front = corners
             .iter()

@@ -4,11 +4,10 @@
 //! same way, heel first: labels by the speed of the foot see the middle half of that. What does tell stance from flight
 //! is the body, whose mass falls freely in flight; a motion that is to be followed has to let it.
 
-use super::contact_labels::runs;
+use super::contact_labels::{remove_short, runs, stretches};
 use super::envelope::bent_below;
 use super::foot_lock::{FootPlacement, LockedFoot, Sole, Stance, StanceTurns};
 use super::pelvis_shift::{MassTrack, mass_track};
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::GRAVITY;
@@ -24,18 +23,6 @@ fn pace(at: impl Fn(usize) -> Vec3, (from, to): (usize, usize), n: usize, rate_h
     way.level() * rate_hz / (b - a).max(1) as f64
 }
 
-/// Takes out what lasts too short: first gaps, then stances.
-fn remove_short(on: &mut [bool], rate_hz: f64) {
-    for value in [false, true] {
-        for (i, j, v) in runs(on) {
-            let short = ((j - i) as f64) < run::SHORTEST * rate_hz;
-            if v == value && short && i > 0 && j < on.len() {
-                on[i..j].fill(!value);
-            }
-        }
-    }
-}
-
 /// Labels the feet where the body of `postures` runs, by what the floor carries.
 ///
 /// * `postures`: as recorded, in body scale, feet not locked; `label`: left and right foot on the floor, per sample;
@@ -47,13 +34,17 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
     if n < 8 {
         return;
     }
+    let shortest = contact::SHORTEST_TOLD * rate_hz;
     let track = mass_track(body, postures, rate_hz);
     let mut loaded: Vec<bool> = track.load.iter().map(|l| *l > run::STANCE_LOAD).collect();
-    remove_short(&mut loaded, rate_hz);
+    remove_short(&mut loaded, shortest);
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let points: Vec<[Vec<Vec3>; 2]> = postures
         .iter()
-        .map(|p| sole_points(body, &soles, p))
+        .map(|p| {
+            let poses = forward(body, p);
+            std::array::from_fn(|s| soles[s].points_at(s, &poses).collect())
+        })
         .collect();
     // Speed and height of the point of a foot that is most at rest.
     let rest = |i: usize, s: usize, height: f64| {
@@ -68,11 +59,11 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
     };
     let fast = |i: usize| pace(|k| track.com[k], (i, i), n, rate_hz) > run::SPEED;
     let fast: Vec<bool> = (0..n).map(fast).collect();
-    for (i, j, _) in runs(&fast).into_iter().filter(|r| r.2) {
+    for (i, j) in stretches(&fast) {
         let mut left: Vec<bool> = (i..j)
             .map(|k| rest(k, 0, run::HEIGHT_SPEED) < rest(k, 1, run::HEIGHT_SPEED))
             .collect();
-        remove_short(&mut left, rate_hz);
+        remove_short(&mut left, shortest);
         for k in i..j {
             let stands = usize::from(!left[k - i]);
             let arrives =
@@ -81,20 +72,6 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
             label[k][stands] = loaded[k] && !arrives;
         }
     }
-}
-
-/// Points of both soles, m.
-fn sole_points(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [Vec<Vec3>; 2] {
-    let poses = forward(body, posture);
-    [(L_FOOT, L_TOES, 0), (R_FOOT, R_TOES, 1)].map(|(foot, toes, side): (_, _, usize)| {
-        let at = |s: usize, p: &Vec3| poses[s].0 + poses[s].1.rotate(*p);
-        let foot = soles[side]
-            .foot_points()
-            .iter()
-            .map(|p| at(foot.index(), p));
-        let toes = soles[side].toe_points().iter().map(|p| at(toes.index(), p));
-        foot.chain(toes).collect()
-    })
 }
 
 /// Where a motion that runs flies, and how hard it pushes in between.
@@ -116,9 +93,9 @@ impl FlightPhases {
         let n = upper.len();
         let none: Vec<bool> = label.iter().map(|l| *l == [false; 2]).collect();
         let mut air = vec![false; n];
-        for (i, j, _) in runs(&none).into_iter().filter(|r| r.2) {
+        for (i, j) in stretches(&none) {
             let speed = pace(|k| upper[k].root_position, (i, j - 1), n, rate_hz);
-            if speed > run::SPEED && (j - i) as f64 >= run::SHORTEST * rate_hz {
+            if speed > run::SPEED && (j - i) as f64 >= contact::SHORTEST_TOLD * rate_hz {
                 air[i..j].fill(true);
             }
         }

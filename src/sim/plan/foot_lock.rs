@@ -13,6 +13,7 @@ pub use sole::{FootPlacement, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
 use super::contact_labels::runs;
+use crate::sim::body::topology::outward;
 use crate::sim::math::curve::{fade, smoothstep_to};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::low_pass;
@@ -50,6 +51,17 @@ pub struct RecordedFoot<'a> {
     pub rotations: &'a [Quat],
 }
 
+impl RecordedFoot<'_> {
+    /// Pose of a sample with toes extended by `toe`, rad.
+    fn pose(&self, i: usize, toe: f64) -> FootPose {
+        FootPose {
+            ankle: self.ankles[i],
+            rotation: self.rotations[i],
+            toe,
+        }
+    }
+}
+
 /// By how much a foot in stance is turned otherwise than it was recorded, rad per sample.
 #[derive(Clone, Debug)]
 pub struct StanceTurns {
@@ -70,6 +82,11 @@ impl StanceTurns {
             tip: vec![0.0; n],
         }
     }
+}
+
+/// Extension of the toes of a foot that swings with this pitch, rad.
+pub(in crate::sim::plan) fn swing_toe(pitch: f64) -> f64 {
+    (-pitch).clamp(0.0, swing::MOST_TOE)
 }
 
 /// Locks one foot.
@@ -93,19 +110,9 @@ pub fn lock_foot(
     let RecordedFoot { ankles, rotations } = recorded;
     let n = ankles.len();
     let track = Track::new(sole, ankles, rotations);
-    let toes: Vec<f64> = track
-        .pitch
-        .iter()
-        .map(|p| (-p).clamp(0.0, swing::MOST_TOE))
-        .collect();
+    let toes: Vec<f64> = track.pitch.iter().map(|p| swing_toe(*p)).collect();
     let mut out = LockedFoot {
-        poses: (0..n)
-            .map(|i| FootPose {
-                ankle: ankles[i],
-                rotation: rotations[i],
-                toe: toes[i],
-            })
-            .collect(),
+        poses: (0..n).map(|i| recorded.pose(i, toes[i])).collect(),
         planted: vec![false; n],
         placements: vec![FootPlacement::default(); n],
         slide_before: 0.0,
@@ -113,16 +120,12 @@ pub fn lock_foot(
     for &Stance { start: i, end: j } in stances {
         let (place, yaw) = track.anchor(i, j);
         let pitch = stance_pitch(&track.pitch[i..j], rate_hz);
-        let ball = Vec3 {
-            z: 0.0,
-            ..sole.toe_joint
-        };
+        let ball = sole.toe_joint.horizontal();
         let arm = |yaw: f64| Quat::exp(Vec3::Z * yaw).rotate(ball);
         // A foot that is turned outwards is so about its ball.
         let stays = place + arm(yaw);
         for k in i..j {
-            let out_turn = turns.toe_out[k];
-            let yaw = yaw + if side == 0 { out_turn } else { -out_turn };
+            let yaw = yaw + outward(side) * turns.toe_out[k];
             let at = FootPlacement {
                 place: stays - arm(yaw),
                 yaw,
@@ -203,13 +206,8 @@ fn swing(
     flies: [bool; 2],
     rate_hz: f64,
 ) {
-    let RecordedFoot { ankles, rotations } = recorded;
-    let (i, j, n) = (samples.start, samples.end, ankles.len());
-    let recorded_pose = |k: usize| FootPose {
-        ankle: ankles[k],
-        rotation: rotations[k],
-        toe: toes[k],
-    };
+    let (i, j, n) = (samples.start, samples.end, toes.len());
+    let recorded_pose = |k: usize| recorded.pose(k, toes[k]);
     let at = |k: usize, out: &LockedFoot| out.poses[k].offset_from(&recorded_pose(k));
     // Between two locks each offset is gone where the other begins; a swing that the recording breaks off has no other.
     let fade_time = ((swing::DEPARTURE * rate_hz) as usize).max(1);

@@ -27,12 +27,17 @@ pub fn unlike(a: &[Posture; 3], b: &[Posture; 3]) -> f64 {
         };
         sum += share * (angles[k] * angles[k] + rate * rate);
     }
+    sum += pelvis_unlike(p, q);
+    (sum / (DOF_COUNT - arms.len()) as f64).sqrt()
+}
+
+/// Unlikeness of tilt and height of the pelvis, squared, rad².
+pub(super) fn pelvis_unlike(p: &Posture, q: &Posture) -> f64 {
     // Tilt: where the vertical is in the pelvis.
     let up = |p: &Posture| p.root_rotation.conjugate().rotate(Vec3::Z);
     let tilt = up(p) - up(q);
     let height = p.root_position.z - q.root_position.z;
-    sum += likeness::TILT_WEIGHT * tilt.dot(tilt) + likeness::HEIGHT_WEIGHT * height * height;
-    (sum / (DOF_COUNT - arms.len()) as f64).sqrt()
+    likeness::TILT_WEIGHT * tilt.dot(tilt) + likeness::HEIGHT_WEIGHT * height * height
 }
 
 /// What it costs to go on at a moment of a stream that is like the one at which a motion is left, and whether a body
@@ -67,6 +72,5 @@ fn drift(a: &[Posture; 3], b: &[Posture; 3]) -> f64 {
         let turn = Quat::exp(Vec3::Z * -m[1].root_rotation.heading());
         turn.rotate(v)
     };
-    let d = speed(a) - speed(b);
-    (d.x * d.x + d.y * d.y).sqrt()
+    (speed(a) - speed(b)).level()
 }

@@ -7,6 +7,7 @@ pub mod envelope;
 pub mod feasibility;
 pub(crate) mod flight_phases;
 pub mod foot_lock;
+mod leg_reach;
 pub mod likeness;
 pub mod motion_transition;
 pub mod params;
@@ -20,15 +21,8 @@ pub use cycle::cycle;
 pub use stream::StreamPlan;
 
 use crate::sim::body::SegmentId;
-use crate::sim::body::topology::{JOINT, Joint, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES};
+use crate::sim::body::topology::{JOINT, Joint, TOES};
 use crate::sim::math::trig;
-
-/// Left and right foot.
-const FEET: [SegmentId; 2] = [L_FOOT, R_FOOT];
-/// Left and right thigh.
-const THIGHS: [SegmentId; 2] = [L_THIGH, R_THIGH];
-/// Left and right toes.
-const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 
 /// Index of the ball joint of a segment in a posture.
 fn ball_joint(segment: SegmentId) -> usize {
@@ -44,6 +38,20 @@ fn toe_hinge(side: usize) -> usize {
         Joint::Hinge1(h) => h,
         _ => unreachable!("the toes are on a hinge"),
     }
+}
+
+/// The least number from 0 to `most` that does not lack anything, from above after so many bisections.
+fn least_without(most: f64, halvings: usize, lacks: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (0.0, most);
+    for _ in 0..halvings {
+        let middle = 0.5 * (low + high);
+        if lacks(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
 }
 
 /// A vector of the floor turned by an angle, rad. The same bits on every machine.

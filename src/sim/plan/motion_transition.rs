@@ -19,9 +19,9 @@ pub use into_stream::{StreamBeginning, StreamEntry};
 pub(crate) use super::params::stop::RATE;
 pub(crate) use super::params::transition::{AHEAD, BEYOND, RUN_UP};
 
-use super::splice::Sample;
+use super::splice::{Sample, none_yet};
 use crate::sim::body::Body;
-use crate::sim::motion::clip::Clip;
+use crate::sim::motion::clip::{Clip, PlanarTransform};
 use crate::sim::motion::target::Target;
 use crate::sim::plan::params::{stop, transition};
 use candidates::{Features, moments};
@@ -39,6 +39,10 @@ pub struct NextClip {
     pub speed: f64,
     /// It repeats.
     pub looped: bool,
+}
+
+fn samples_in(seconds: f64) -> usize {
+    (seconds * stop::RATE).round() as usize
 }
 
 impl NextClip {
@@ -65,6 +69,11 @@ impl NextClip {
         } else {
             transition::MOST_SKIPPED.min(transition::MOST_SKIPPED_SHARE * long)
         }
+    }
+
+    /// The same in samples at [`stop::RATE`].
+    fn skipped_samples(&self) -> usize {
+        (self.skipped() / self.speed * stop::RATE) as usize
     }
 
     /// Samples at [`stop::RATE`] of the world from clip time `from` (s) on.
@@ -118,11 +127,6 @@ pub struct TransitionCandidates {
     found: AtomicUsize,
 }
 
-/// No way was found, as far as is known.
-fn none_yet() -> AtomicUsize {
-    AtomicUsize::new(usize::MAX)
-}
-
 impl std::fmt::Debug for TransitionCandidates {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("TransitionCandidates")
@@ -139,9 +143,8 @@ impl TransitionCandidates {
         (now, from): (usize, usize),
         next: NextClip,
     ) -> Self {
-        let long = (next.skipped() / next.speed * stop::RATE) as usize;
         // With a sample before and after, for rates.
-        let beginning = next.samples(-next.speed / stop::RATE, long + 3);
+        let beginning = next.samples(-next.speed / stop::RATE, next.skipped_samples() + 3);
         let (left, entered) = (Features::new(body, &known), Features::new(body, &beginning));
         let moments = moments(&left, from.max(now), &entered);
         Self {
@@ -158,7 +161,7 @@ impl TransitionCandidates {
     pub fn is_valid(&self) -> bool {
         let known = self.known.len();
         let seconds = transition::RUN_UP + transition::AHEAD + transition::BEYOND;
-        let skipped = (self.next.skipped() / self.next.speed * stop::RATE) as usize;
+        let skipped = self.next.skipped_samples();
         let fits = |m: &Moment| {
             m.left >= self.now.max(1)
                 && m.left < known.saturating_sub(1)
@@ -183,7 +186,7 @@ impl TransitionCandidates {
 
     /// The way at the `k`-th moment, and where it puts the origin of the clip; `None` if a body cannot go it, or if one
     /// before it is found already.
-    pub fn way(&self, k: usize) -> Option<(TransitionClip, crate::sim::motion::PlanarTransform)> {
+    pub fn way(&self, k: usize) -> Option<(TransitionClip, PlanarTransform)> {
         let moment = self.moments.get(k)?;
         if k > self.found.load(Ordering::Relaxed) {
             return None;

@@ -45,10 +45,41 @@ pub mod contact {
         LANDING_STEEPNESS: f64 = 0.8, "1", 0.5..=1.0, "docs/locomotion.md#streams";
         /// A foot of a stream that leaves the floor may be too steep for so long.
         LEAVING_TIME: i64 = 12, "samples", 1..=30, "docs/locomotion.md#streams";
-        /// A pelvis below this share of its standing height is not carried by the feet.
-        SEATED: f64 = 0.45, "1", 0.3..=0.6, "docs/locomotion.md#contact";
-        /// A pelvis below this share of its standing height sits or lies on the floor: no foot is locked.
+        /// Shortest stance and shortest flight where the load or a preparation tells them. Shorter than of labels by
+        /// speed: only what noise and what the preparation cut out is left.
+        SHORTEST_TOLD: f64 = 0.05, "s", 0.02..=0.1, "docs/locomotion.md#contact";
+    }
+}
+
+/// What the height of the pelvis says, in shares of that of a stand.
+pub mod pelvis {
+    crate::sim::params::params! {
+        /// Below it a body sits or lies on the floor: no foot is locked.
         LYING: f64 = 0.22, "1", 0.1..=0.4, "docs/locomotion.md#contact";
+        /// Below it a body is not carried by its feet.
+        SEATED: f64 = 0.45, "1", 0.3..=0.6, "docs/locomotion.md#contact";
+        /// Below it a body may be on a seat.
+        SEAT: f64 = 0.65, "1", 0.4..=0.8, "docs/locomotion.md#balance";
+        /// Below it a body does not walk.
+        UPRIGHT: f64 = 0.75, "1", 0.5..=0.95, "docs/locomotion.md#stops";
+        /// Above it a body is not on a seat.
+        NO_SEAT: f64 = 0.8, "1", 0.6..=1.0, "docs/locomotion.md#balance";
+    }
+}
+
+/// What plans and tracking share.
+pub mod common {
+    crate::sim::params::params! {
+        /// A body that is slower over the floor is at rest.
+        REST_SPEED: f64 = 0.1, "m/s", 0.02..=0.3, "docs/locomotion.md#stops";
+        /// A foot farther than this from where it belongs is misplaced.
+        MISPLACED_BY: f64 = 0.04, "m", 0.02..=0.1, "docs/locomotion.md#recovery";
+        /// The same of its heading.
+        MISPLACED_TURN: f64 = 0.2, "rad", 0.05..=0.5, "docs/locomotion.md#recovery";
+        /// Distance of the middle of the sole before the ankle.
+        SOLE_MIDDLE: f64 = 0.05, "m", 0.02..=0.1, "docs/locomotion.md#recovery";
+        /// The zero-moment point of a body that corrects an error stays this far inside the support.
+        ZMP_INSET: f64 = 0.01, "m", 0..=0.03, "docs/locomotion.md#balance";
     }
 }
 
@@ -251,10 +282,6 @@ pub mod balance {
         STREAM_NOW_TIME: f64 = 0.05, "s", 0.02..=0.3, "docs/locomotion.md#streams";
         /// Share of the present in what is expected beyond the window; the rest is as usual.
         STREAM_NOW_SHARE: f64 = 0.3, "1", 0..=1.0, "docs/locomotion.md#streams";
-        /// A pelvis below this share of its standing height may be on a seat.
-        SEAT: f64 = 0.65, "1", 0.4..=0.8, "docs/locomotion.md#balance";
-        /// A pelvis above this share of its standing height is not.
-        NO_SEAT: f64 = 0.8, "1", 0.6..=1.0, "docs/locomotion.md#balance";
         /// Feet that stay for so long before and after a moment do not step: hands may carry.
         STAYS: f64 = 0.5, "s", 0.2..=2.0, "docs/locomotion.md#balance";
         /// Cut-off of how much seat and hands may carry.
@@ -351,8 +378,6 @@ pub mod run {
         PACE_TIME: f64 = 0.05, "s", 0.02..=0.2, "docs/locomotion.md#runs";
         /// Least ground force over weight of a stance.
         STANCE_LOAD: f64 = 0.45, "1", 0.1..=0.9, "docs/locomotion.md#runs";
-        /// Shortest stance and shortest flight.
-        SHORTEST: f64 = 0.05, "s", 0.02..=0.1, "docs/locomotion.md#runs";
         /// A foot that comes down faster does not stand yet.
         ARRIVAL_SPEED: f64 = 1.6, "m/s", 0.5..=3.0, "docs/locomotion.md#runs";
         /// Speed that counts as much as a metre of height in which foot stands.
@@ -435,8 +460,6 @@ pub mod likeness {
 /// Steps out of a motion to a stand, and into one.
 pub mod stop {
     crate::sim::params::params! {
-        /// A pelvis below this share of its standing height does not walk.
-        UPRIGHT: f64 = 0.75, "1", 0.5..=0.95, "docs/locomotion.md#stops";
         /// Slower than this, with the capture point inside the soles, it stands.
         STANDING_SPEED: f64 = 0.35, "m/s", 0.1..=0.8, "docs/locomotion.md#stops";
         /// Distance inside the soles of the capture point of a body that stands.
@@ -495,10 +518,6 @@ pub mod stop {
         CROSS_ENDS: f64 = 0.35, "m", 0.2..=0.7, "docs/locomotion.md#stops";
         /// Most by which it crosses the line.
         MOST_CROSS: f64 = 0.12, "m", 0..=0.3, "docs/locomotion.md#stops";
-        /// Distance of the middle of the sole before the ankle.
-        SOLE_MIDDLE: f64 = 0.05, "m", 0.02..=0.1, "docs/locomotion.md#stops";
-        /// The zero-moment point stays this far inside the soles.
-        ZMP_INSET: f64 = 0.01, "m", 0..=0.04, "docs/locomotion.md#stops";
         /// The zero-moment point keeps the capture point this far inside the soles where it can.
         CAPTURE_INSET: f64 = 0.035, "m", 0..=0.06, "docs/locomotion.md#stops";
         /// The capture point counts as caught this far inside the soles.
@@ -519,8 +538,6 @@ pub mod stop {
         STRIDE_BEGINS: f64 = 0.35, "m", 0.1..=0.6, "docs/locomotion.md#stops";
         /// From this distance on the capture point is half-way when it lands.
         STRIDE_ENDS: f64 = 0.6, "m", 0.3..=1.0, "docs/locomotion.md#stops";
-        /// A foot this close to where it belongs stays.
-        HOME_DISTANCE: f64 = 0.04, "m", 0.01..=0.1, "docs/locomotion.md#stops";
         /// A foot turned by less from where it belongs stays.
         HOME_ANGLE: f64 = 0.15, "rad", 0.05..=0.4, "docs/locomotion.md#stops";
         /// Step in which turns to where the body moves are tried, as a share of the whole turn.
@@ -630,10 +647,6 @@ pub mod transition {
         SAME_HEADING: f64 = 0.02, "rad", 0..=0.1, "docs/locomotion.md#transitions";
         /// A foot that its leg cannot hold to this accuracy makes a transition useless.
         MOST_STRAY: f64 = 0.003, "m", 5e-4..=0.02, "docs/locomotion.md#transitions";
-        /// A clip begins as a figure stands only if no foot is farther away than this.
-        BEGIN_DISTANCE: f64 = 0.04, "m", 0.01..=0.1, "docs/locomotion.md#transitions";
-        /// A clip begins as a figure stands only if no foot is turned by more than this.
-        BEGIN_ANGLE: f64 = 0.2, "rad", 0.05..=0.5, "docs/locomotion.md#transitions";
         /// A clip begins as a figure stands only if the capture point is no farther away than this.
         BEGIN_CAPTURE: f64 = 0.05, "m", 0.01..=0.15, "docs/locomotion.md#transitions";
         /// A clip begins as a figure stands only if no joint differs by more than this.
@@ -672,9 +685,7 @@ pub mod stream {
         SAME: f64 = 1e-6, "rad", 1e-9..=1e-4, "docs/locomotion.md#streams";
         /// Samples that repeat one for so long break a stream off: as long as a velocity is continued in a silence.
         REPEATED_TIME: f64 = 0.1, "s", 0.05..=0.5, "docs/locomotion.md#streams";
-        /// A pelvis that was faster over the floor was in motion.
-        MOVING_SPEED: f64 = 0.1, "m/s", 0.02..=0.3, "docs/locomotion.md#streams";
-        /// Samples over which that speed is averaged, about.
+        /// Samples over which the speed of the pelvis is averaged, about.
         SPEED_AVERAGED: f64 = 4.0, "samples", 1..=20, "docs/locomotion.md#streams";
         /// What a second of delay costs where a stream is taken up: it matters where all moments are alike.
         DELAY_COST: f64 = 0.3, "1/s²", 0..=3.0, "docs/locomotion.md#streams";
@@ -682,9 +693,11 @@ pub mod stream {
 }
 
 /// All parameters of the plans by group.
-pub fn groups() -> [(&'static str, &'static [Param]); 13] {
+pub fn groups() -> [(&'static str, &'static [Param]); 15] {
     [
         ("contact", contact::ALL),
+        ("pelvis", pelvis::ALL),
+        ("common", common::ALL),
         ("stance", stance::ALL),
         ("pitch", pitch::ALL),
         ("swing", swing::ALL),

@@ -85,8 +85,7 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         let rate = (momentum[i + 1] - momentum[i - 1]) * (0.5 / h);
         out.load[i] = 1.0 + acc.z / GRAVITY;
         out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate);
-        out.omega2[i] = ((GRAVITY + acc.z) / c.z.max(balance::LEAST_HEIGHT))
-            .clamp(balance::LEAST_OMEGA2, balance::MOST_OMEGA2);
+        out.omega2[i] = pendulum_omega2(c.z, acc.z);
         // Near flight there is no zero-moment point to speak of; the centre of mass stands in.
         if out.load[i] > balance::LEAST_LOAD {
             out.zmp[i] = zero_moment_point(c, out.wrench[i]);
@@ -98,6 +97,20 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         out.wrench[i] = out.wrench[from];
     }
     out
+}
+
+/// Square of the frequency of a pendulum whose mass is so high (m) and accelerates upwards by `rising` (m/s²), 1/s².
+pub(super) fn pendulum_omega2(height: f64, rising: f64) -> f64 {
+    ((GRAVITY + rising) / height.max(balance::LEAST_HEIGHT))
+        .clamp(balance::LEAST_OMEGA2, balance::MOST_OMEGA2)
+}
+
+/// How far a zero-moment point that is outside by `distance` (m) for long tells of something else than feet that
+/// carries: 0 no, 1 for sure.
+pub(super) fn lasts_outside(distance: f64) -> f64 {
+    let begins = balance::OTHER_SUPPORT_BEGINS * balance::OTHER_SUPPORT;
+    let range = balance::OTHER_SUPPORT_RANGE * balance::OTHER_SUPPORT;
+    ((distance - begins) / range).clamp(0.0, 1.0)
 }
 
 /// Where on the floor (z = 0) the ground force acts without a level moment.
@@ -189,7 +202,6 @@ fn correction_shares(problem: &ShiftProblem<'_>, plain: &[[f64; 2]]) -> Vec<f64>
         rate_hz,
         ..
     } = problem;
-    let reach = balance::OTHER_SUPPORT;
     let outside = |(i, c): (usize, &SupportPhase)| match c {
         SupportPhase::Feet(p) => (-margin(p, plain[i])).clamp(0.0, balance::MOST_OUTSIDE),
         _ => 0.0,
@@ -198,11 +210,8 @@ fn correction_shares(problem: &ShiftProblem<'_>, plain: &[[f64; 2]]) -> Vec<f64>
     let mut lasting: Vec<f64> = support.iter().enumerate().map(outside).collect();
     low_pass(&mut lasting, balance::LASTING_CUTOFF, rate_hz);
     let share = |(i, c): (usize, &SupportPhase)| {
-        let u = ((lasting[i] - balance::OTHER_SUPPORT_BEGINS * reach)
-            / (balance::OTHER_SUPPORT_RANGE * reach))
-            .clamp(0.0, 1.0);
         let meant = if matches!(c, SupportPhase::Feet(_)) {
-            let leans = smoothstep_to(other_support[i].hands, u);
+            let leans = smoothstep_to(other_support[i].hands, lasts_outside(lasting[i]));
             (1.0 - other_support[i].seat) * (1.0 - leans)
         } else {
             0.0

@@ -19,7 +19,7 @@ use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::margin;
 use crate::sim::math::{Quat, Vec3};
-use crate::sim::plan::params::{balance, contact};
+use crate::sim::plan::params::{balance, leg, pelvis};
 use ankle_unloading::AnkleUnloading;
 use deep_flexion::{DeepFlexion, unfold};
 use joint_limits::{clamp_upper, into_limits};
@@ -29,7 +29,6 @@ pub(super) use support_phases::{
 };
 use support_phases::{within_reach, zmp_outside};
 use whole_body::assemble;
-pub(super) use whole_body::leg_geometry;
 
 /// A recorded motion in body scale, floor at z = 0: what the preparation starts from.
 #[derive(Clone, Debug)]
@@ -59,6 +58,16 @@ pub struct PrepareOptions {
     pub runs: bool,
     /// A planted foot that its leg cannot hold to this accuracy is declared free, m.
     pub held: f64,
+}
+
+impl PrepareOptions {
+    /// Everything that there is.
+    pub(super) const FULL: Self = Self {
+        lock_feet: true,
+        balance: true,
+        runs: true,
+        held: leg::HELD,
+    };
 }
 
 /// A motion that a body can follow.
@@ -173,7 +182,7 @@ impl<'a> Preparation<'a> {
         let mut upper = draft.postures.clone();
         let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
         clamp_upper(body, &mut upper, rate, &mut clamped);
-        let low = contact::LYING * body.standing_root_height();
+        let low = pelvis::LYING * body.standing_root_height();
         let upright = |i: usize| options.lock_feet && upper[i].root_position.z > low;
         let label: [Vec<bool>; 2] =
             std::array::from_fn(|s| (0..n).map(|i| draft.label[i][s] && upright(i)).collect());
@@ -282,7 +291,7 @@ impl<'a> Preparation<'a> {
             Some(f) => pelvis_shift_in_run(&problem, f.air()),
         };
         for s in &mut shift {
-            let far = (s[0] * s[0] + s[1] * s[1]).sqrt();
+            let far = Vec3::on_floor(*s).level();
             if far > balance::MOST_SHIFT {
                 *s = s.map(|x| x * balance::MOST_SHIFT / far);
             }
@@ -346,61 +355,43 @@ impl<'a> Preparation<'a> {
     }
 
     /// Brings the legs into their limits, which may free feet, and says what came of it all.
-    fn report(self, folded: DeepFlexion, zmp_before: ZmpOutside, depth_before: f64) -> Prepared {
-        let Self {
-            body,
-            draft,
-            soles,
-            mut clamped,
-            feet,
-            motion,
-            ..
-        } = self;
-        let Feet {
-            locked,
-            mut planted,
-            support,
-            ..
-        } = feet;
-        let Motion {
-            mut postures,
-            shift,
-            drop,
-            ..
-        } = motion;
-        let n = postures.len();
+    fn report(
+        mut self,
+        folded: DeepFlexion,
+        zmp_before: ZmpOutside,
+        depth_before: f64,
+    ) -> Prepared {
+        let (feet, motion) = (&mut self.feet, &mut self.motion);
         let held = into_limits(
-            body,
-            &mut postures,
-            &mut planted,
-            (&soles, &locked, self.options.held),
-            &mut clamped,
+            self.body,
+            &mut motion.postures,
+            &mut feet.planted,
+            (&self.soles, &feet.locked, self.options.held),
+            &mut self.clamped,
         );
-        let track = mass_track(body, &postures, draft.rate_hz);
-        let far = (0..n)
-            .filter(|i| match &support[*i] {
-                SupportPhase::Feet(p) => margin(p, track.zmp[*i]) < -balance::OTHER_SUPPORT,
-                SupportPhase::Other => true,
-                SupportPhase::Air => false,
-            })
-            .count();
-        let slide_before = locked[0].slide_before.max(locked[1].slide_before);
+        let n = motion.postures.len();
+        let track = mass_track(self.body, &motion.postures, self.draft.rate_hz);
+        let far = |i: &usize| match &feet.support[*i] {
+            SupportPhase::Feet(p) => margin(p, track.zmp[*i]) < -balance::OTHER_SUPPORT,
+            SupportPhase::Other => true,
+            SupportPhase::Air => false,
+        };
+        let carried = (0..n).filter(far).count();
+        let [left, right] = &feet.locked;
+        let shifts = motion.shift.iter().map(|s| Vec3::on_floor(*s).level());
         Prepared {
-            zmp: (zmp_before, zmp_outside(&track, &support)),
-            postures,
-            planted,
-            clamped,
-            slide: (slide_before, held.slide),
+            clamped: self.clamped,
+            slide: (left.slide_before.max(right.slide_before), held.slide),
             penetration: (depth_before, held.penetration),
-            shift_max: shift
-                .iter()
-                .map(|s| (s[0] * s[0] + s[1] * s[1]).sqrt())
-                .fold(0.0, f64::max),
-            drop_max: -drop.iter().copied().fold(0.0, f64::min),
+            zmp: (zmp_before, zmp_outside(&track, &feet.support)),
+            shift_max: shifts.fold(0.0, f64::max),
+            drop_max: -motion.drop.iter().copied().fold(0.0, f64::min),
             tilt_max: folded.tilt_max,
             raise_max: folded.raise_max,
-            carried: far as f64 / n.max(1) as f64,
+            carried: carried as f64 / n.max(1) as f64,
             freed: held.freed as f64 / (2 * n).max(1) as f64,
+            postures: self.motion.postures,
+            planted: self.feet.planted,
         }
     }
 }

@@ -18,12 +18,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
 pub(crate) const SEAM_OPTIONS: PrepareOptions = PrepareOptions {
-    lock_feet: true,
-    balance: true,
-    runs: true,
     // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in
     // place, and a stop has no time for that.
     held: leg::SEAM_HELD,
+    ..PrepareOptions::FULL
 };
 
 pub(crate) use super::params::stop::RUN_UP;
@@ -50,8 +48,8 @@ pub struct StopCandidates {
     easy: AtomicUsize,
 }
 
-/// No end is easy, as far as is known.
-fn none_yet() -> AtomicUsize {
+/// The number of the first way that serves: there is none, as far as is known.
+pub(super) fn none_yet() -> AtomicUsize {
     AtomicUsize::new(usize::MAX)
 }
 
@@ -206,7 +204,7 @@ impl KnownMotion {
         blend_from_played(&mut whole.postures, &self.known[cut..], now);
         let from = now.saturating_sub(4);
         let (postures, label) = (&whole.postures[from..], &draft.label[from..]);
-        let asked = infeasibility(body, postures, label, stop::RATE);
+        let asked = infeasibility(body, postures, label);
         let (mut all, mut planted): (Vec<_>, Vec<_>) = self.known[..cut].iter().copied().unzip();
         all.extend(whole.postures);
         planted.extend(whole.planted);
@@ -220,15 +218,8 @@ fn twice_as_fine(known: &[Sample]) -> Option<Vec<Sample>> {
     let (postures, planted) = known.iter().copied().unzip();
     let clip = Clip::from_postures("", stream::RATE, postures, planted).ok()?;
     let count = 2 * (known.len() - 1);
-    let at = |i: usize| clip.sample(i as f64 / stop::RATE);
-    Some(
-        (0..=count)
-            .map(|i| {
-                let t = at(i);
-                (t.posture, t.planted)
-            })
-            .collect(),
-    )
+    let samples = (0..=count).map(|i| clip.sample(i as f64 / stop::RATE));
+    Some(samples.map(|t| (t.posture, t.planted)).collect())
 }
 
 /// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now`
@@ -248,12 +239,8 @@ pub(crate) fn blend_from_played(postures: &mut [Posture], before: &[Sample], now
         if u >= 1.0 {
             break;
         }
-        let left: Vec<f64> = (0..off.len())
-            .map(|k| fade(off[k], (off[k] - last[k]) * span, 0.0, u))
-            .collect();
-        let mut e = off;
-        e.copy_from_slice(&left);
-        p.integrate(&e, 1.0);
+        let left = std::array::from_fn(|k| fade(off[k], (off[k] - last[k]) * span, 0.0, u));
+        p.integrate(&left, 1.0);
     }
 }
 

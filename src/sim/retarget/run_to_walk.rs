@@ -11,13 +11,13 @@ use crate::sim::math::curve::{arc, smootherstep};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::filter::{low_pass, low_pass_points, speeds};
-use crate::sim::plan::contact_labels::runs;
+use crate::sim::plan::contact_labels::{runs, stretches};
 use crate::sim::plan::params::run;
 use crate::sim::retarget::params::{run_detection, run_to_walk};
 
 /// Speed over the floor of the slow part of a way, the highest around each sample, m/s.
 pub(crate) fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
-    let mut way: Vec<Vec3> = way.iter().map(|p| Vec3 { z: 0.0, ..*p }).collect();
+    let mut way: Vec<Vec3> = way.iter().map(|p| p.horizontal()).collect();
     low_pass_points(&mut way, run_detection::PATH_CUTOFF, rate_hz);
     let speed = speeds(&way, rate_hz);
     let half = (run::PACE_TIME * rate_hz) as usize;
@@ -50,7 +50,7 @@ pub(super) fn leads(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) ->
     let mut lead: Vec<f64> = (0..n)
         .map(|i| {
             let ahead = slow[(i + 1).min(n - 1)] - slow[i.saturating_sub(1)];
-            let ahead = Vec3 { z: 0.0, ..ahead }.normalized_or(Vec3::X);
+            let ahead = ahead.horizontal().normalized_or(Vec3::X);
             (left[i] - right[i]).dot(ahead)
         })
         .collect();
@@ -192,8 +192,7 @@ impl RunToWalk {
     /// First and one past the last sample of each run, its last step included.
     fn stretches(&self) -> Vec<(usize, usize)> {
         let run: Vec<bool> = self.share.iter().map(|c| *c < run_to_walk::WHOLE).collect();
-        let runs = runs(&run).into_iter().filter(|r| r.2);
-        runs.map(|(i, j, _)| (i, j)).collect()
+        stretches(&run).collect()
     }
 
     /// Shortens the way: of the pelvis, and of everything in `others` (one path each) with it, so that what stood still
@@ -286,7 +285,7 @@ impl RunToWalk {
 fn close_flights(label: &mut [[bool; 2]], within: std::ops::Range<usize>, rate_hz: f64) {
     let n = label.len();
     let none: Vec<bool> = label.iter().map(|l| *l == [false; 2]).collect();
-    for (i, j, _) in runs(&none).into_iter().filter(|r| r.2) {
+    for (i, j) in stretches(&none) {
         if !within.contains(&i)
             || (j - i) as f64 > run_to_walk::LONGEST_FLIGHT * rate_hz
             || (i, j) == (0, n)
@@ -345,7 +344,7 @@ fn bend(
         if free < stands {
             let left = (stands - k) as f64 / (run_to_walk::REST_TIME * rate_hz);
             let way = ankle[stands] - ankle[k];
-            ankle[k] += Vec3 { z: 0.0, ..way } * smootherstep(1.0 - left);
+            ankle[k] += way.horizontal() * smootherstep(1.0 - left);
         }
     }
 }
@@ -364,7 +363,7 @@ impl Line {
     /// `None` if the way turns back on itself.
     fn new(way: &[Vec3], share: &[f64]) -> Option<Self> {
         let whole = *way.last()? - *way.first()?;
-        let ahead = Vec3 { z: 0.0, ..whole }.normalized_or(Vec3::X);
+        let ahead = whole.horizontal().normalized_or(Vec3::X);
         let places: Vec<f64> = way.iter().map(|p| p.dot(ahead)).collect();
         if places.len() < 2 || places.windows(2).any(|w| w[1] <= w[0]) {
             return None;

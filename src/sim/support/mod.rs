@@ -18,7 +18,7 @@ pub use contact_set::{ContactSet, SupportPoint};
 pub use rest::{NO_VERTEX, Rest};
 pub use sharing::Sharing;
 pub use tipping::{Pivot, is_stopped, pivot, tipping_acceleration, unblocked_pivot};
-pub use zmp::zmp;
+pub use zmp::{zmp, zmp_above};
 
 use crate::sim::body::topology::PELVIS;
 use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
@@ -179,11 +179,6 @@ impl Support {
     /// Main supporting segment S, the one with the largest load (with hysteresis); `None` in flight.
     pub fn main(&self) -> Option<SegmentId> {
         self.main
-    }
-
-    /// True if the segment is a support (toes that touch with their foot are not: they count with it).
-    pub fn is_support(&self, segment: SegmentId) -> bool {
-        self.points().iter().any(|p| p.support == segment)
     }
 
     /// Ground polygon: hull over all supports, those that are not on the ground from above; thin sets are edges and

@@ -12,9 +12,12 @@ pub const LEAST_NORMAL_FORCE: f64 = 1e-3;
 ///
 /// Equation (3) of the paper.
 pub fn zmp(force: Vec3, moment: Vec3) -> Option<Vec3> {
-    (force.z > LEAST_NORMAL_FORCE)
-        .then(|| vec3(-moment.y / force.z, moment.x / force.z, 0.0))
-        .filter(|z| z.is_finite())
+    zmp_above(LEAST_NORMAL_FORCE, force, moment).filter(|z| z.is_finite())
+}
+
+/// The same of a ground that pushes by more than `least`, N.
+pub fn zmp_above(least: f64, force: Vec3, moment: Vec3) -> Option<Vec3> {
+    (force.z > least).then(|| vec3(-moment.y / force.z, moment.x / force.z, 0.0))
 }
 
 /// What acts on a supporting foot besides the ground, and how the foot itself moves. World axes.

@@ -15,20 +15,21 @@
 //! `δ = e x/(1 − e^{−x})`, `x = ωD` ([`Capture::displacement_gain`]).
 
 use super::filter_gain;
-use super::foot_places::{FootPlace, horizontal, level, outward, turn};
+use super::foot_places::{FootPlace, turn};
 use super::leg_collision::foothold;
 use super::params::capture::{
-    CROSSING_FROM, CROSSING_GAIN, CROSSING_MOST, GAIN, INSET, LEAST_HEIGHT, LEAST_LOAD,
-    LONGEST_FORECAST, MOMENT_OFFSET, REACH_ACROSS, REACH_ALONG, SEPARATION, SMOOTHING_TIME,
+    CROSSING_FROM, CROSSING_GAIN, CROSSING_MOST, GAIN, LEAST_HEIGHT, LEAST_LOAD, LONGEST_FORECAST,
+    MOMENT_OFFSET, REACH_ACROSS, REACH_ALONG, SEPARATION, SMOOTHING_TIME,
 };
 use super::params::leg_collision::FOOTHOLD_DISTANCE;
-use crate::sim::body::topology::{L_FOOT, R_FOOT};
+use crate::sim::body::topology::{FEET, outward};
 use crate::sim::body::{Body, Links, Posture};
 use crate::sim::control::PointTarget;
 use crate::sim::dynamics::{Kinematics, Terms, center_of_mass, momentum};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::Target;
+use crate::sim::plan::params::common::ZMP_INSET;
 use crate::sim::support::Polygon;
 use serde::{Deserialize, Serialize};
 
@@ -91,7 +92,7 @@ impl Capture {
     /// Ankles and rotations of both feet in a posture.
     pub(super) fn feet(&mut self, posture: &Posture) -> [(Vec3, Quat); 2] {
         self.kin.set_posture(&self.links, posture);
-        [L_FOOT, R_FOOT].map(|s| {
+        FEET.map(|s| {
             (
                 posture.root_position + self.kin.position[s.index()],
                 Quat::from_mat3(&self.kin.rotation[s.index()]),
@@ -137,7 +138,7 @@ impl Capture {
     /// Sets the support that [`Capture::within`] uses.
     pub(super) fn set_stance(&mut self, points: impl Iterator<Item = [f64; 2]>) {
         self.stance.set_hull(points);
-        self.inner.set_inset(&self.stance, INSET);
+        self.inner.set_inset(&self.stance, ZMP_INSET);
     }
 
     /// The nearest point to `p` in the support that was set last.
@@ -167,7 +168,7 @@ impl Capture {
         polygon: &Polygon,
         zmp: [f64; 2],
     ) -> [f64; 2] {
-        self.inner.set_inset(polygon, INSET);
+        self.inner.set_inset(polygon, ZMP_INSET);
         self.acceleration(terms, self.within(zmp))
     }
 
@@ -208,7 +209,7 @@ impl Capture {
         let e = [c.x - r.x + (dc.x - dr.x) / w, c.y - r.y + (dc.y - dr.y) / w];
         self.error = e;
         let planned = [r.x - ff.x / w2, r.y - ff.y / w2];
-        self.inner.set_inset(polygon, INSET);
+        self.inner.set_inset(polygon, ZMP_INSET);
         let can = self.within(std::array::from_fn(|k| planned[k] + (1.0 + GAIN) * e[k]));
         // What the zero-moment point takes care of lies along the error, and is at most all of it.
         let along = (can[0] - planned[0]) * e[0] + (can[1] - planned[1]) * e[1];
@@ -218,8 +219,7 @@ impl Capture {
 
     /// Length of the error, m.
     pub fn off(&self) -> f64 {
-        let e = self.error;
-        (e[0] * e[0] + e[1] * e[1]).sqrt()
+        Vec3::on_floor(self.error).level()
     }
 
     /// The capture point `ξ`, m.
@@ -261,8 +261,7 @@ impl Capture {
         let load = (gravity + a.z).max(LEAST_LOAD);
         let w2 = load / c.z.max(LEAST_HEIGHT);
         let moved = [momentum_rate.y, -momentum_rate.x].map(|m| m / (terms.mass * load));
-        let far = (moved[0] * moved[0] + moved[1] * moved[1]).sqrt();
-        let far = far.max(MOMENT_OFFSET);
+        let far = Vec3::on_floor(moved).level().max(MOMENT_OFFSET);
         let moved = moved.map(|t| t * MOMENT_OFFSET / far);
         let middle = [c.x - moved[0], c.y - moved[1]];
         let push = self.disturbance;
@@ -310,11 +309,11 @@ pub(super) fn within_reach(
     shorter: f64,
 ) -> [f64; 2] {
     let (back, outward) = (turn(-home.yaw), outward(side));
-    let mut local = back.rotate(level(d));
+    let mut local = back.rotate(Vec3::on_floor(d));
     let pressed =
         (CROSSING_GAIN * (local.y.abs() - CROSSING_FROM)).clamp(0.0, SEPARATION + CROSSING_MOST);
     local.y = local.y.clamp(-REACH_ACROSS, REACH_ACROSS);
-    let planned = back.rotate(horizontal(home.at - stance));
+    let planned = back.rotate((home.at - stance).horizontal());
     local.x = if planned.x < 0.0 {
         local.x.clamp(-REACH_ALONG, shorter)
     } else {

@@ -1,13 +1,14 @@
 //! Stop after a motion that ends while the figure moves, or that is broken off: the step under way is finished, and the
 //! last posture turns into standing at ease.
 
-use super::foot_places::{FootPlaces, level, middle};
+use super::foot_places::{FootPlaces, middle};
 use super::params::common::STOP_TIME;
 use super::planned_to_world::Anchor;
 use super::{Purpose, RecoveryStep, StepTracker};
 use crate::sim::body::Posture;
 use crate::sim::body::topology::NV;
 use crate::sim::dynamics::Terms;
+use crate::sim::math::Vec3;
 use crate::sim::math::curve::smoothstep;
 use crate::sim::motion::{Target, TargetPair};
 use serde::{Deserialize, Serialize};
@@ -82,7 +83,7 @@ impl StepTracker {
         let home: FootPlaces = std::array::from_fn(|k| self.place_of(k, poses[k]));
         // The figure comes to stand at the foot that the body moves over, heading where both feet head.
         let xi = self.capture.point();
-        let far = |k: usize| level([now[k].at.x - xi[0], now[k].at.y - xi[1]]).norm();
+        let far = |k: usize| (now[k].at - Vec3::on_floor(xi)).level();
         let side = self.only_stance();
         let side = side.unwrap_or_else(|| usize::from(far(1) < far(0)));
         let before = self.anchor.transform();

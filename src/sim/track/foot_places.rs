@@ -1,12 +1,14 @@
 //! Places of feet: where they stand, where the plan has them, and which points they stand on.
 
 use super::params::contact::TOUCH_HEIGHT;
-use super::{FOOT, Footfall, Legs, StepTracker, TOES};
+use super::{Footfall, Legs, StepTracker};
+use crate::sim::body::topology::{FEET, TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::control::FootTarget;
 use crate::sim::dynamics::Terms;
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::leg_ik::forward;
+use crate::sim::plan::foot_lock::FootPlacement;
 use crate::sim::support::Support;
 
 /// Point of the floor under the flat ankle of a foot, and the heading of the foot.
@@ -33,38 +35,19 @@ impl FootPlace {
 /// Places of the left and of the right foot.
 pub(super) type FootPlaces = [FootPlace; 2];
 
-/// Sign of the axis `y` of a body towards the side of a foot: 1 left, −1 right.
-pub(super) fn outward(side: usize) -> f64 {
-    if side == 0 { 1.0 } else { -1.0 }
-}
-
 /// Rotation by `yaw` (rad) about the vertical.
 pub(super) fn turn(yaw: f64) -> Quat {
     Quat::exp(Vec3::Z * yaw)
 }
 
-/// A point of the floor.
-pub(super) fn level(p: [f64; 2]) -> Vec3 {
-    Vec3 {
-        x: p[0],
-        y: p[1],
-        z: 0.0,
-    }
-}
-
-/// The horizontal part of a vector.
-pub(super) fn horizontal(v: Vec3) -> Vec3 {
-    Vec3 { z: 0.0, ..v }
-}
-
 /// Touching points, on the floor, of the foot that stands while `side` swings. The swinging foot carries nothing any
 /// more, even while it still touches.
 pub(super) fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
-    let stance = [FOOT[1 - side], TOES[1 - side]];
+    let stance = [FEET[1 - side], TOES[1 - side]];
     let points = support.points().iter();
     points
         .filter(move |p| stance.contains(&p.segment))
-        .map(|p| [p.position.x, p.position.y])
+        .map(|p| p.position.xy())
 }
 
 /// The middle between two feet with the mean of their headings.
@@ -82,15 +65,10 @@ impl Legs {
         terms: &'a Terms,
         side: usize,
     ) -> impl Iterator<Item = Vec3> + 'a {
-        let sole = &self.soles[side];
-        let parts = [
-            (FOOT[side].index(), sole.foot_points()),
-            (TOES[side].index(), sole.toe_points()),
-        ];
-        let world = move |(s, points): (usize, &'a [Vec3])| {
-            points.iter().map(move |p| terms.point_world(s, *p))
-        };
-        parts.into_iter().flat_map(world)
+        let parts = self.soles[side].parts(side).into_iter();
+        parts.flat_map(move |(s, points)| {
+            points.iter().map(move |p| terms.point_world(s.index(), *p))
+        })
     }
 }
 
@@ -104,21 +82,21 @@ impl StepTracker {
     /// The same of a posture.
     pub fn stance_of(&self, body: &Body, posture: &Posture) -> (Vec3, f64) {
         let poses = forward(body, posture);
-        let places = std::array::from_fn(|k| self.place_of(k, poses[FOOT[k].index()]));
+        let places = std::array::from_fn(|k| self.place_of(k, poses[FEET[k].index()]));
         let FootPlace { at, yaw } = middle(&places);
         (at, yaw)
     }
 
     /// Place of a foot with this pose of the ankle.
     pub(super) fn place_of(&self, side: usize, pose: (Vec3, Quat)) -> FootPlace {
-        let (at, yaw) = self.legs.soles[side].footing(pose).place_and_yaw();
-        FootPlace { at, yaw }
+        let FootPlacement { place, yaw, .. } = self.legs.soles[side].footing(pose);
+        FootPlace { at: place, yaw }
     }
 
     /// Where the feet are.
     pub(super) fn places(&self, terms: &Terms) -> FootPlaces {
         [0, 1].map(|side| {
-            let s = FOOT[side].index();
+            let s = FEET[side].index();
             let rotation = Quat::from_mat3(&terms.segment_rotation(s));
             self.place_of(side, (terms.segment_position(s), rotation))
         })
@@ -162,6 +140,6 @@ impl StepTracker {
 
     /// Ankle of a foot, world, m.
     pub(super) fn ankle(terms: &Terms, side: usize) -> Vec3 {
-        terms.segment_position(FOOT[side].index())
+        terms.segment_position(FEET[side].index())
     }
 }

@@ -5,11 +5,12 @@
 //! nearer than some distance to that side, and so the whole other side, unless far enough before or behind. Legs that
 //! cross do so the higher the further across, so they have to be the further apart along `x`.
 
-use super::foot_places::{FootPlace, outward, turn};
+use super::foot_places::{FootPlace, turn};
 use super::params::leg_collision::{
     AVOIDED_FROM, AVOIDED_FULLY, CLEARING_TIME, CROSSED_LENGTH, CROSSED_SLANT, FOOT_LAG, ROUNDING,
     SLANT_FRONT, SLANT_REAR, SPARE, STRIP_FRONT, STRIP_REAR, SWING_DISTANCE,
 };
+use crate::sim::body::topology::outward;
 use crate::sim::math::Vec3;
 
 /// The stance leg as seen from a foot that swings past it.

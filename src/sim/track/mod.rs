@@ -37,8 +37,8 @@ pub use step_plan::{Footfall, StepPlan};
 
 use super::plan::StreamPlan;
 use super::plan::foot_lock::Sole;
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::body::{Body, Posture, SegmentId};
+use super::plan::params::common::REST_SPEED;
+use crate::sim::body::{Body, Posture};
 use crate::sim::control::{FootTarget, PointTarget, com_law};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::Vec3;
@@ -48,7 +48,7 @@ use crate::sim::motion::{PlanarTransform, TargetPair};
 use crate::sim::support::Support;
 use clip_end::Stop;
 use foot_places::{stance_points, turn};
-use params::common::{LEAST_SPEED, SETTLED_OFFSET, SETTLED_SPEED};
+use params::common::{LEAST_SPEED, SETTLED_OFFSET};
 use params::flight::ANNOUNCED;
 use planned_to_world::Anchor;
 use serde::{Deserialize, Serialize};
@@ -56,9 +56,6 @@ use step_decision::{UnplannedStep, is_misplaced};
 use step_timing::StepTiming;
 use support_recovery::SupportRecovery;
 use swing::follow_com;
-
-const FOOT: [SegmentId; 2] = [L_FOOT, R_FOOT];
-const TOES: [SegmentId; 2] = [L_TOES, R_TOES];
 
 /// State of one foot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -350,12 +347,9 @@ impl StepTracker {
     /// Distance of the capture point from where a motion that steps has it, or from where that will be with the
     /// foothold to which a foot is led, m; `None` while the figure follows no such motion.
     pub fn off_plan(&self) -> Option<f64> {
-        let [x, y] = self.capture.error;
+        let error = Vec3::on_floor(self.capture.error);
         let swings = self.feet.iter().filter(|foot| !foot.down);
-        let led = swings.map(|foot| {
-            let (dx, dy) = (x - foot.shift[0], y - foot.shift[1]);
-            (dx * dx + dy * dy).sqrt()
-        });
+        let led = swings.map(|foot| (error - Vec3::on_floor(foot.shift)).level());
         (self.is_stepping() || self.leans_to_jump()).then(|| led.fold(self.capture.off(), f64::min))
     }
 
@@ -366,20 +360,19 @@ impl StepTracker {
 
     /// True while it makes planned steps on its way over the floor and is so far off it that those have to change.
     pub fn is_far_off_plan(&self) -> bool {
-        let moves = self.clock.last_speed > SETTLED_SPEED && !self.is_airborne();
+        let moves = self.clock.last_speed > REST_SPEED && !self.is_airborne();
         self.is_stepping() && moves && self.capture.off() > params::step_timing::ERROR
     }
 
     /// True if it stands: no step is under way or to come, its feet are where they should be, and the body is slow
     /// enough and near enough to its place to begin something else.
     pub fn is_settled(&self, terms: &Terms) -> bool {
-        let v = terms.com_velocity;
         let goes_on = self.followed.is_some() && !self.is_stopping();
         let to_come = |side: usize| !self.feet[side].down || self.next(side).is_some();
         let steps = self.recovers() || goes_on && (0..2).any(to_come);
         !steps
             && !self.recovery.misplaced
-            && (v.x * v.x + v.y * v.y).sqrt() < SETTLED_SPEED
+            && terms.com_velocity.level() < REST_SPEED
             && self.capture.off() < SETTLED_OFFSET
     }
 
@@ -430,7 +423,7 @@ impl StepTracker {
         let now = time - self.clock.lag;
         self.clock.phase = clip_time(now);
         let over = self.plan().is_some_and(|p| p.is_over(self.clock.phase));
-        if over && !self.is_stopping() && self.clock.last_speed > SETTLED_SPEED {
+        if over && !self.is_stopping() && self.clock.last_speed > REST_SPEED {
             let last = pair(now, now).now.posture;
             self.begin_stop(terms, &last, Purpose::RecoverOnOwnSide);
         }
@@ -456,7 +449,7 @@ impl StepTracker {
         }
         if !over {
             let v = &out.now.velocity;
-            self.clock.last_speed = (v[3] * v[3] + v[4] * v[4]).sqrt();
+            self.clock.last_speed = Vec3::on_floor([v[3], v[4]]).level();
         }
         let mut planted = planted.unwrap_or(out.next.planted);
         if let Some(step) = self.recovery.step.swing_mut() {
@@ -486,9 +479,7 @@ impl StepTracker {
         if self.is_live() {
             // Balance is kept where the motion goes, not where it still is. Limbs take time to get there, and the error
             // that this makes must not be driven out over the foot that has just landed.
-            let rest = self.anchor.rest();
-            tasks.com.now += rest;
-            tasks.com.next += rest;
+            tasks.com.shift(self.anchor.rest());
         }
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);

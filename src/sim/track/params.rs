@@ -4,11 +4,7 @@ use crate::sim::params::Param;
 
 /// Numbers that all of tracking shares.
 pub mod common {
-    use crate::sim::params::params;
-
-    params! {
-        /// A body slower than this is settled.
-        SETTLED_SPEED: f64 = 0.1, "m/s", 0.02..=0.3, "docs/locomotion.md#stops";
+    crate::sim::params::params! {
         /// A capture point nearer to its planned place than this is settled.
         SETTLED_OFFSET: f64 = 0.03, "m", 0.01..=0.1, "docs/locomotion.md#stops";
         /// Least speed of a plan, clip seconds per second.
@@ -24,9 +20,7 @@ pub mod common {
 
 /// The map from the plan to the world.
 pub mod world_map {
-    use crate::sim::params::params;
-
-    params! {
+    crate::sim::params::params! {
         /// Time constant with which the plan moves to a new anchor.
         SETTLING_TIME: f64 = 0.04, "s", 0.01..=0.3, "docs/locomotion.md#contact";
         /// Share of the heading error of a landed foot that the plan takes over.
@@ -38,9 +32,7 @@ pub mod world_map {
 
 /// Contact by events.
 pub mod contact {
-    use crate::sim::params::params;
-
-    params! {
+    crate::sim::params::params! {
         /// A sole lower than this touches the floor.
         TOUCH_HEIGHT: f64 = 0.004, "m", 0.001..=0.02, "docs/locomotion.md#contact";
         /// A foot may land this long before its time; earlier touches are scuffs.
@@ -62,9 +54,7 @@ pub mod contact {
 
 /// Flight phases.
 pub mod flight {
-    use crate::sim::params::params;
-
-    params! {
+    crate::sim::params::params! {
         /// A flight is announced to the controller this long before it begins.
         ANNOUNCED: f64 = 0.2, "s", 0.1..=0.5, "docs/locomotion.md#runs";
         /// A body that is to jump from a stand leans for so long before take-off.
@@ -84,13 +74,9 @@ pub mod flight {
 
 /// The capture point and the displacement of planned footholds.
 pub mod capture {
-    use crate::sim::params::params;
-
-    params! {
+    crate::sim::params::params! {
         /// Gain `k` of the zero-moment point `p = p_ref + (1 + k) e`.
         GAIN: f64 = 1.0, "1", 0.0..=3.0, "docs/locomotion.md#capture-point";
-        /// The zero-moment point stays this far inside the support polygon.
-        INSET: f64 = 0.01, "m", 0.0..=0.03, "docs/locomotion.md#balance";
         /// Largest displacement of a foothold along its heading.
         REACH_ALONG: f64 = 0.30, "m", 0.1..=0.6, "docs/locomotion.md#capture-point";
         /// Largest displacement of a foothold across its heading, and of one that lands early against its stride.
@@ -118,9 +104,7 @@ pub mod capture {
 
 /// Swinging feet.
 pub mod swing {
-    use crate::sim::params::params;
-
-    params! {
+    crate::sim::params::params! {
         /// Time over which a lifting foot gives up its offset from the plan.
         RELEASE_TIME: f64 = 0.25, "s", 0.1..=0.5, "docs/locomotion.md#contact";
         /// Share of a swing in which the foot is led to its displaced foothold.
@@ -141,9 +125,7 @@ pub mod swing {
 
 /// The leg that stands as an obstacle to the one that swings.
 pub mod leg_collision {
-    use crate::sim::params::params;
-
-    params! {
+    crate::sim::params::params! {
         /// Least distance of two ankles side by side in a swing.
         SWING_DISTANCE: f64 = 0.09, "m", 0.05..=0.15, "docs/locomotion.md#recovery";
         /// The same of a foothold. Feet that stand may be nearer to each other than legs that move.
@@ -177,9 +159,7 @@ pub mod leg_collision {
 
 /// Time and place of the next step, chosen together.
 pub mod step_timing {
-    use crate::sim::params::params;
-
-    params! {
+    crate::sim::params::params! {
         /// A capture point nearer to the plan's than this leaves the time of the step as it is: undisturbed clips are.
         ERROR: f64 = 0.2, "m", 0.05..=0.3, "docs/locomotion.md#step-timing";
         /// Number of intervals between the planned rate and the fastest one.
@@ -199,9 +179,7 @@ pub mod step_timing {
 
 /// Steps that no plan has.
 pub mod recovery {
-    use crate::sim::params::params;
-
-    params! {
+    crate::sim::params::params! {
         /// A capture point this far outside the support asks for a step: arms and trunk bring back what is less.
         LOST_MARGIN: f64 = 0.02, "m", 0.0..=0.1, "docs/locomotion.md#recovery";
         /// Beyond this distance no step helps.
@@ -241,24 +219,16 @@ pub mod recovery {
         BEYOND: f64 = 0.12, "m", 0.0..=0.2, "docs/locomotion.md#one-foot";
         /// Width of a stance on both feet, in leg lengths.
         STANCE_WIDTH: f64 = 0.18, "1", 0.1..=0.3, "docs/locomotion.md#one-foot";
-        /// Distance of the middle of the sole before the ankle.
-        SOLE_MIDDLE: f64 = 0.05, "m", 0.02..=0.1, "docs/locomotion.md#recovery";
         /// Speed at which the body is moved over one foot.
         SHIFT_SPEED: f64 = 0.25, "m/s", 0.05..=0.5, "docs/locomotion.md#recovery";
         /// A shift of the body shorter than this is over.
         SHIFT_DONE: f64 = 1e-3, "m", 1e-6..=1e-2, "numerical";
-        /// A foot farther than this from where the motion has it is misplaced.
-        MISPLACED_BY: f64 = 0.04, "m", 0.02..=0.1, "docs/locomotion.md#recovery";
-        /// The same of its heading.
-        MISPLACED_TURN: f64 = 0.2, "rad", 0.05..=0.5, "docs/locomotion.md#recovery";
     }
 }
 
 /// Loss of balance in a long stance on one foot.
 pub mod support_recovery {
-    use crate::sim::params::params;
-
-    params! {
+    crate::sim::params::params! {
         /// The capture point is off its planned place by more than this. It grows threefold while a foot comes down.
         ERROR: f64 = 0.045, "m", 0.02..=0.1, "docs/locomotion.md#one-foot";
         /// And outside the sole by more than this.
@@ -282,12 +252,7 @@ pub mod support_recovery {
 
 /// Stances of a clip or a stream.
 pub mod step_plan {
-    use crate::sim::params::params;
-
-    params! {
-        /// Shortest stance and shortest gap between stances. Shorter than of contact labels, which are already steady:
-        /// only what the preparation cut out is left.
-        SHORTEST: f64 = 0.05, "s", 0.02..=0.1, "docs/locomotion.md#contact";
+    crate::sim::params::params! {
         /// A foot this close to the floor carries the body if no other does.
         NEAR_FLOOR: f64 = 0.03, "m", 0.01..=0.1, "docs/locomotion.md#contact";
         /// A body falls while the floor would give less than this share of its weight.

@@ -6,7 +6,7 @@
 //! of heading moves nothing far away.
 
 use super::filter_gain;
-use super::foot_places::{horizontal, turn};
+use super::foot_places::turn;
 use super::params::world_map::{HEADING_GAIN, HEADING_RETURN, SETTLING_TIME};
 use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::PlanarTransform;
@@ -32,9 +32,9 @@ impl Anchor {
     pub fn between(planned: (Vec3, f64), real: (Vec3, f64)) -> Self {
         let yaw = trig::wrapped(real.1 - planned.1);
         Self {
-            planned: horizontal(planned.0),
-            at: horizontal(real.0),
-            goal: horizontal(real.0),
+            planned: planned.0.horizontal(),
+            at: real.0.horizontal(),
+            goal: real.0.horizontal(),
             yaw,
             yaw_goal: yaw,
         }
@@ -42,14 +42,14 @@ impl Anchor {
 
     /// What is mapped to `mapped` (world, m) now approaches `real`; the heading stays.
     pub fn pin(&mut self, mapped: Vec3, real: Vec3) {
-        self.planned += turn(-self.yaw).rotate(horizontal(mapped - self.at));
-        self.at = horizontal(mapped);
-        self.goal = horizontal(real);
+        self.planned += turn(-self.yaw).rotate((mapped - self.at).horizontal());
+        self.at = mapped.horizontal();
+        self.goal = real.horizontal();
     }
 
     /// Image of a planned point, m.
     pub fn point(&self, p: Vec3) -> Vec3 {
-        let q = turn(self.yaw).rotate(horizontal(p - self.planned));
+        let q = turn(self.yaw).rotate((p - self.planned).horizontal());
         Vec3 {
             x: self.at.x + q.x,
             y: self.at.y + q.y,
@@ -75,9 +75,9 @@ impl Anchor {
     /// Re-anchors the plan: a foot planned at `planned` with heading `planned_yaw` stands at `actual` with heading
     /// `actual_yaw`.
     pub fn land(&mut self, planned: Vec3, planned_yaw: f64, actual: Vec3, actual_yaw: f64) {
-        self.at = self.point(horizontal(planned));
-        self.planned = horizontal(planned);
-        self.goal = horizontal(actual);
+        self.at = self.point(planned.horizontal());
+        self.planned = planned.horizontal();
+        self.goal = actual.horizontal();
         let off = trig::wrapped(actual_yaw - planned_yaw - self.yaw);
         self.yaw_goal = (1.0 - HEADING_RETURN) * (self.yaw + HEADING_GAIN * off);
     }

@@ -5,20 +5,22 @@
 //! point `p` of the stance foot. The unloaded foot swings, across the other one if the body falls to that side. A step
 //! is a function of the state and of a few numbers of memory; nothing allocates.
 
-use super::foot_places::{FootPlaces, horizontal, level, outward, turn};
+use super::foot_places::{FootPlaces, turn};
 use super::params::capture::LONGEST_FORECAST;
 use super::params::common::{FREEZE_TIME, LOWERING_SPEED};
 use super::params::contact::LATEST;
 use super::params::recovery::{
     ARC_HEIGHT, BEYOND, CROSSED_LENGTH, FARTHEST_ACROSS, FARTHEST_ASIDE, FARTHEST_BACKWARD,
     FARTHEST_FORWARD, FOOTHOLD_DISTANCE, HANGING_HEIGHT, LANDS_AFTER, RAISED_STEP_TIME,
-    RETURN_STEP_TIME, SOLE_HALF_WIDTH, SOLE_MIDDLE, STANCE_WIDTH, STEP_TIME,
+    RETURN_STEP_TIME, SOLE_HALF_WIDTH, STANCE_WIDTH, STEP_TIME,
 };
+use crate::sim::body::topology::outward;
 use crate::sim::control::{FootTarget, PointTarget, RotationTarget};
 use crate::sim::math::curve::{arc, smootherstep};
 use crate::sim::math::exp::exp;
 use crate::sim::math::{Vec3, trig};
 use crate::sim::plan::foot_lock::Sole;
+use crate::sim::plan::params::common::SOLE_MIDDLE;
 use serde::{Deserialize, Serialize};
 
 /// What a step is for.
@@ -77,7 +79,7 @@ impl RecoveryStep {
             purpose,
             start: ankle,
             start_yaw: yaw,
-            goal: horizontal(ankle),
+            goal: ankle.horizontal(),
             goal_yaw: yaw,
             behind: false,
         }
@@ -127,11 +129,11 @@ impl RecoveryStep {
         let remaining = (self.duration() - self.since).clamp(0.0, LONGEST_FORECAST);
         let grows = exp(aim.omega * remaining);
         let landing = std::array::from_fn(|k| aim.zmp[k] + (aim.xi[k] - aim.zmp[k]) * grows);
-        let stance = horizontal(now[1 - side].at);
+        let stance = now[1 - side].at.horizontal();
         let back = turn(-yaw);
         let outward = outward(side);
         // From here on as seen from the stance foot: `x` ahead, `y` to the side of the swinging foot.
-        let local = back.rotate(level(landing) - stance);
+        let local = back.rotate(Vec3::on_floor(landing) - stance);
         let apart = back.rotate(home[side].at - home[1 - side].at).y * outward;
         let mut x = local.x - SOLE_MIDDLE;
         let wanted = local.y * outward;
@@ -159,7 +161,7 @@ impl RecoveryStep {
         let y = y.clamp(-FARTHEST_ACROSS * aim.leg, FARTHEST_ASIDE * aim.leg) * outward;
         // A goal that changes late makes the foot trip.
         if remaining > FREEZE_TIME {
-            self.goal = turn(yaw).rotate(level([x, y])) + stance;
+            self.goal = turn(yaw).rotate(Vec3::on_floor([x, y])) + stance;
         }
     }
 

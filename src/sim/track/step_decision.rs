@@ -1,17 +1,18 @@
 //! When a step is made that no plan has, and which: to catch the body, to uncross the feet, to bring them back.
 
-use super::foot_places::{FootPlace, FootPlaces, horizontal, level, outward, stance_points};
-use super::params::common::{SETTLED_OFFSET, SETTLED_SPEED};
+use super::foot_places::{FootPlace, FootPlaces, stance_points};
+use super::params::common::SETTLED_OFFSET;
 use super::params::recovery::{
-    ASTRAY, FOOTHOLD_DISTANCE, HOPELESS_MARGIN, LOST_MARGIN, MISPLACED_BY, MISPLACED_TURN,
-    SHIFT_DONE, SHIFT_SPEED, SOLE_MIDDLE,
+    ASTRAY, FOOTHOLD_DISTANCE, HOPELESS_MARGIN, LOST_MARGIN, SHIFT_DONE, SHIFT_SPEED,
 };
 use super::recovery_step::{Aim, Purpose, RecoveryStep};
 use super::step_plan::StepPlan;
-use super::{FOOT, Landing, StepTracker, TOES, TaskTargets};
+use super::{Landing, StepTracker, TaskTargets};
+use crate::sim::body::topology::{FEET, TOES, outward};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::polygon::Closest;
 use crate::sim::math::{Vec3, trig};
+use crate::sim::plan::params::common::{MISPLACED_BY, MISPLACED_TURN, REST_SPEED, SOLE_MIDDLE};
 use crate::sim::support::Support;
 use serde::{Deserialize, Serialize};
 
@@ -102,10 +103,9 @@ impl StepTracker {
         // The centre of mass goes over the foot that is to stand alone, and back.
         let over = self.recovery.step.unloaded().map(|k| &now[1 - k]);
         let wanted = over.map(|foot| sole_middle(foot) - tasks.com.now);
-        let way = horizontal(wanted.unwrap_or_default() - self.recovery.shift);
+        let way = (wanted.unwrap_or_default() - self.recovery.shift).horizontal();
         self.recovery.shift += way.capped(SHIFT_SPEED * dt);
-        tasks.com.now += self.recovery.shift;
-        tasks.com.next += self.recovery.shift;
+        tasks.com.shift(self.recovery.shift);
 
         let Some(step) = self.recovery.step.swing_mut() else {
             return;
@@ -153,9 +153,9 @@ impl StepTracker {
     ) -> UnplannedStep {
         let (before, xi, margin) = (self.recovery.step, self.capture.point(), nearest.margin);
         let mut supports = support.points().iter().map(|p| p.support);
-        let falls = level(xi) - level(nearest.point);
+        let falls = Vec3::on_floor(xi) - Vec3::on_floor(nearest.point);
         let held = support.holds(falls);
-        let on_feet = supports.all(|s| FOOT.contains(&s) || TOES.contains(&s));
+        let on_feet = supports.all(|s| FEET.contains(&s) || TOES.contains(&s));
         if held || !on_feet || margin < -HOPELESS_MARGIN {
             return before;
         }
@@ -165,7 +165,7 @@ impl StepTracker {
         };
         // The foot that carries less swings.
         let carried =
-            |side: usize| support.load()[FOOT[side].index()] + support.load()[TOES[side].index()];
+            |side: usize| support.load()[FEET[side].index()] + support.load()[TOES[side].index()];
         let uncrosses = self.uncrossing_foot(now, xi);
         let side = uncrosses.unwrap_or_else(|| usize::from(carried(1) <= carried(0)));
         let beside = now[1 - side].local(now[side].at).y * outward(side);
@@ -190,14 +190,14 @@ impl StepTracker {
             return before;
         }
         if let UnplannedStep::Unloading(side) = before {
-            let way = level(xi) - horizontal(sole_middle(&now[1 - side]));
+            let way = Vec3::on_floor(xi) - sole_middle(&now[1 - side]).horizontal();
             return if way.norm() < SETTLED_OFFSET {
                 swings(side, Purpose::Return, Some(side))
             } else {
                 before
             };
         }
-        let settled = terms.com_velocity.norm() < SETTLED_SPEED
+        let settled = terms.com_velocity.norm() < REST_SPEED
             && self.capture.off() < SETTLED_OFFSET
             && self.recovery.shift.norm() < SHIFT_DONE;
         let misplaced = (0..2).find(|k| settled && is_misplaced(&now[*k], &home[*k]));

@@ -1,18 +1,19 @@
 //! Step plans: when and where the feet of a clip or of a stream stand, in order, also over the seam of a loop.
 
 use super::params::step_plan::{
-    FALLING_LOAD, LOAD_SAMPLES, NEAR_FLOOR, PAUSE_AFTER, PAUSE_BEFORE, SHORTEST, STREAM_REST_AFTER,
+    FALLING_LOAD, LOAD_SAMPLES, NEAR_FLOOR, PAUSE_AFTER, PAUSE_BEFORE, STREAM_REST_AFTER,
     STREAM_REST_BEFORE,
 };
-use super::{FOOT, TOES};
-use crate::sim::body::{Body, Posture, SegmentId};
+use crate::sim::body::topology::FEET;
+use crate::sim::body::{Body, Posture};
 use crate::sim::math::Vec3;
 use crate::sim::motion::Clip;
 use crate::sim::motion::clip::{MAX_SAMPLES, PlanarTransform};
 use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::contact_labels::runs;
+use crate::sim::plan::contact_labels::{remove_short, stretches};
 use crate::sim::plan::foot_lock::Sole;
 use crate::sim::plan::motion_transition::TransitionClip;
+use crate::sim::plan::params::contact::SHORTEST_TOLD;
 use crate::sim::plan::pelvis_shift::mass_track;
 use crate::sim::plan::stream;
 use crate::sim::plan::stream::StreamPlan;
@@ -75,7 +76,7 @@ struct Lead {
 fn falling(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<bool> {
     let mut falls = vec![false; samples.len()];
     let off: Vec<bool> = samples.iter().map(|s| s.1 == [false; 2]).collect();
-    for (i, j, _) in runs(&off).into_iter().filter(|r| r.2) {
+    for (i, j) in stretches(&off) {
         let from = i.saturating_sub(LOAD_SAMPLES);
         let near = &samples[from..(j + LOAD_SAMPLES).min(samples.len())];
         let postures: Vec<Posture> = near.iter().map(|s| *s.0).collect();
@@ -98,33 +99,13 @@ fn supporting_feet(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64)
             return planted;
         }
         let poses = forward(body, posture);
-        let height = |s: SegmentId, points: &[Vec3]| {
-            let (at, q) = poses[s.index()];
-            let heights = points.iter().map(|p| at.z + q.rotate(*p).z);
-            heights.fold(f64::INFINITY, f64::min)
-        };
-        let [left, right] = [0, 1].map(|k| {
-            height(FOOT[k], soles[k].foot_points()).min(height(TOES[k], soles[k].toe_points()))
-        });
+        let [left, right] = [0, 1].map(|k: usize| soles[k].lowest_at(k, &poses));
         [
             left < NEAR_FLOOR && left <= right,
             right < NEAR_FLOOR && right < left,
         ]
     };
     samples.iter().zip(falls).map(supporting).collect()
-}
-
-/// Takes out what is too short for a step: first gaps of a stance, then stances.
-fn remove_short(planted: &mut [[bool; 2]], side: usize, rate_hz: f64) {
-    let shortest = (SHORTEST * rate_hz) as usize;
-    for short in [false, true] {
-        let label: Vec<bool> = planted.iter().map(|p| p[side]).collect();
-        for (i, j, on) in runs(&label) {
-            if on == short && j - i < shortest && i > 0 && j < label.len() {
-                planted[i..j].iter_mut().for_each(|p| p[side] = !short);
-            }
-        }
-    }
 }
 
 impl StepPlan {
@@ -140,26 +121,25 @@ impl StepPlan {
         };
         let n = ((duration - begin) * rate).round() as usize + 1;
         let samples: Vec<_> = clip.samples().skip(skipped).take(n).collect();
-        let mut planted = supporting_feet(body, &samples, rate);
+        let planted = supporting_feet(body, &samples, rate);
         let stances = [0, 1].map(|side| {
-            remove_short(&mut planted, side, rate);
             let sole = Sole::new(body, side);
             let stance = |(start, end): (usize, usize)| {
                 // The middle of a stance is its flattest part.
                 let poses = forward(body, samples[(start + end - 1) / 2].0);
-                let (place, yaw) = sole.footing(poses[FOOT[side].index()]).place_and_yaw();
+                let at = sole.footing(poses[FEET[side].index()]);
                 // A sample speaks for the half-interval on either side of it.
                 let time = |sample: usize| begin + (sample as f64 - 0.5) / rate;
                 Footfall {
                     on: if start == 0 { begin } else { time(start) },
                     off: if end == n { duration } else { time(end) },
-                    place,
-                    yaw,
+                    place: at.place,
+                    yaw: at.yaw,
                 }
             };
-            let label: Vec<bool> = planted.iter().map(|p| p[side]).collect();
-            let stands = runs(&label).into_iter().filter(|run| run.2);
-            stands.map(|(start, end, _)| stance((start, end))).collect()
+            let mut label: Vec<bool> = planted.iter().map(|p| p[side]).collect();
+            remove_short(&mut label, (SHORTEST_TOLD * rate).floor());
+            stretches(&label).map(stance).collect()
         });
         Self {
             stances,
@@ -371,7 +351,7 @@ impl StepPlan {
         };
         let off = (0..2).filter_map(stands_until).reduce(f64::max)?;
         let on = f64::min(self.earliest(0, t), self.earliest(1, t));
-        (on > off + SHORTEST && on < f64::INFINITY).then_some((off, on))
+        (on > off + SHORTEST_TOLD && on < f64::INFINITY).then_some((off, on))
     }
 
     /// Last lift-off of a foot at or before time `t`, s; the beginning of the clip if there was none.

@@ -13,7 +13,7 @@
 
 use super::StepTracker;
 use super::capture_point::within_reach;
-use super::foot_places::{level, stance_points};
+use super::foot_places::stance_points;
 use super::params::capture::REACH_ACROSS;
 use super::params::contact::FASTEST_RATE;
 use super::params::step_timing::{
@@ -101,7 +101,7 @@ impl StepTracker {
             Some(PlannedLanding {
                 side,
                 on: f.on,
-                offset: level([xi[0] - place.x, xi[1] - place.y]),
+                offset: Vec3::on_floor(xi) - place.horizontal(),
             })
         });
     }
@@ -128,10 +128,7 @@ impl StepTracker {
         let stands = stance.map_or(0.0, |now| self.until(now.off).max(0.0));
         let home = self.mapped(&f);
         let offset = self.turned(landing.offset);
-        let [swing, stance] = [side, 1 - side].map(|k| {
-            let ankle = Self::ankle(terms, k);
-            level([ankle.x, ankle.y])
-        });
+        let [swing, stance] = [side, 1 - side].map(|k| Self::ankle(terms, k).horizontal());
         let goal = home.at + offset;
         let gain = self.displacement_gain(side, &f);
         self.capture.set_stance(stance_points(support, side));
@@ -140,11 +137,11 @@ impl StepTracker {
             let time = planned / rate;
             let zmp = self.capture.zmp_for([goal.x, goal.y], time);
             let xi = self.capture.after(self.capture.within(zmp), time);
-            let d = level([xi[0] - goal.x, xi[1] - goal.y]) * gain;
+            let d = Vec3::on_floor([xi[0] - goal.x, xi[1] - goal.y]) * gain;
             let catches = home.at + d;
             // A body off its plan by a walking speed cannot keep its stride: along it, too, the leg's reach counts.
-            let mut place =
-                home.at + level(within_reach([d.x, d.y], home, stance, side, REACH_ACROSS));
+            let mut place = home.at
+                + Vec3::on_floor(within_reach([d.x, d.y], home, stance, side, REACH_ACROSS));
             let (way, air) = (place - swing, (time - stands / rate).max(0.0));
             if k > 0 && way.norm() > FOOT_SPEED * air {
                 place = swing + way * (FOOT_SPEED * air / way.norm());

@@ -10,31 +10,26 @@
 
 use super::StepTracker;
 use super::capture_point::within_reach;
-use super::foot_places::{FootPlace, FootPlaces, horizontal, level, outward, stance_points, turn};
+use super::foot_places::{FootPlace, FootPlaces, stance_points, turn};
 use super::params::capture::REACH_ALONG;
-use super::params::common::{SETTLED_OFFSET, SETTLED_SPEED};
+use super::params::common::SETTLED_OFFSET;
 use super::params::recovery::{ASTRAY, SHIFT_DONE, SHIFT_SPEED, STANCE_WIDTH};
 use super::params::support_recovery::{
     ERROR, LONGEST, OBSERVED_PACE, OUTSIDE, PASSING_TIME, PLANNED_STEP_ERROR, PLANNED_STEP_TIME,
     SLOWING_TIME, STREAM_LIFTS,
 };
 use super::recovery_step::RecoveryStep;
-use crate::sim::body::topology::{
-    DOF_LEN, DOF_START, L_FOOT, L_SHANK, L_THIGH, L_TOES, NV, R_FOOT, R_SHANK, R_THIGH, R_TOES,
-};
-use crate::sim::body::{Posture, SegmentId};
+use crate::sim::body::Posture;
+use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, outward};
 use crate::sim::control::{FootTarget, PointTarget, RotationTarget};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::Vec3;
 use crate::sim::math::curve::smoothstep;
 use crate::sim::motion::TargetPair;
+use crate::sim::motion::leg_ik::leg_segments;
+use crate::sim::plan::params::common::REST_SPEED;
 use crate::sim::support::Support;
 use serde::{Deserialize, Serialize};
-
-const LEG: [[SegmentId; 4]; 2] = [
-    [L_THIGH, L_SHANK, L_FOOT, L_TOES],
-    [R_THIGH, R_SHANK, R_FOOT, R_TOES],
-];
 
 /// The foot that was put down, and the plan that waits for it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -128,7 +123,7 @@ impl SupportRecovery {
         for (target, share) in [(&mut out.now, from), (&mut out.next, to)] {
             let way = target.posture.joint_difference(at_ease);
             let mut turns = [0.0; NV];
-            for s in LEG[self.leg] {
+            for s in leg_segments(self.leg == 0) {
                 let dofs = DOF_START[s.index()]..DOF_START[s.index()] + DOF_LEN[s.index()];
                 for d in dofs {
                     turns[6 + d] = share * way[d];
@@ -151,18 +146,17 @@ impl SupportRecovery {
         } else {
             self.shift = wanted;
         }
-        com.now += self.shift;
-        com.next += self.shift;
+        com.shift(self.shift);
     }
 
     fn wanted_shift(&self, omega: f64) -> Vec3 {
-        horizontal(self.velocity * ((1.0 - self.pace) / omega))
+        (self.velocity * ((1.0 - self.pace) / omega)).horizontal()
     }
 
     /// Begins the shift where the body is: `off` its place as the motion has it, m.
     pub(super) fn begin_shift_at(&mut self, off: Vec3) {
         if self.is_active() {
-            self.shift = horizontal(off);
+            self.shift = off.horizontal();
         }
     }
 
@@ -188,7 +182,7 @@ impl StepTracker {
     ) {
         let lost = self.foot_to_put_down(terms);
         let xi = self.capture.point();
-        let held = |side: usize| support.holds(level(xi) - horizontal(now[1 - side].at));
+        let held = |side: usize| support.holds(Vec3::on_floor(xi) - now[1 - side].at.horizontal());
         let Some(side) = lost.filter(|side| !held(*side)) else {
             self.recovery.support.lost = 0.0;
             return;
@@ -226,7 +220,7 @@ impl StepTracker {
             let d = self.capture.left_over(remaining);
             let ankle = Self::ankle(terms, stance);
             let can = within_reach(d, self.mapped(&f), ankle, side, REACH_ALONG);
-            level([d[0] - can[0], d[1] - can[1]]).norm() > PLANNED_STEP_ERROR
+            Vec3::on_floor([d[0] - can[0], d[1] - can[1]]).norm() > PLANNED_STEP_ERROR
         });
         // The whole sole counts: a body on its toes can put the heel down.
         let corners = self.legs.sole_points(terms, stance);
@@ -241,7 +235,7 @@ impl StepTracker {
         let side = 1 - raised;
         let beside = |p: Vec3| now[side].local(p).y * outward(side);
         let crossed = beside(now[raised].at) > 0.0;
-        let falls = beside(level(xi)) > 0.0;
+        let falls = beside(Vec3::on_floor(xi)) > 0.0;
         (crossed && falls).then_some(side)
     }
 
@@ -272,7 +266,7 @@ impl StepTracker {
         let state = &self.recovery.support;
         let back = state.rest(self.capture.omega()) < SHIFT_DONE
             && (off < SETTLED_OFFSET || (held && off < ASTRAY))
-            && (live || terms.com_velocity.norm() < SETTLED_SPEED);
+            && (live || terms.com_velocity.norm() < REST_SPEED);
         let due = live && self.until(earliest) < STREAM_LIFTS;
         if self.recovery_step().is_none() && (back || due || since > LONGEST) {
             self.recovery.support.end();
@@ -333,7 +327,7 @@ mod tests {
             // While it slows down the shift is no faster than a body.
             let follows = !(10..=60).contains(&tick);
             let most = if follows { 0.02 } else { 0.08 };
-            assert!(level([off.x, off.y]).norm() < most, "{tick}: {off:?}");
+            assert!(off.level() < most, "{tick}: {off:?}");
             assert!(
                 !follows || (wait.pace, wait.last_pace) != (0.0, 0.0) || wait.rest(OMEGA) < 1e-9
             );

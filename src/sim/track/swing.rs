@@ -6,7 +6,7 @@
 //! what the sole lacks of its clearance.
 
 use super::capture_point::{smoothing, within_reach};
-use super::foot_places::{FootPlace, level, turn};
+use super::foot_places::{FootPlace, turn};
 use super::leg_collision::StanceLeg;
 use super::params::capture::REACH_ALONG;
 use super::params::common::{FREEZE_TIME, LOWERING_SPEED};
@@ -16,7 +16,8 @@ use super::params::swing::{
     CLEARANCE, CLEARANCE_SPEED, RELEASE_TIME, RETURN_MOST, RETURN_SHARE, SHIFT_SHARE, SHORTEST,
 };
 use super::step_plan::Footfall;
-use super::{FOOT, StepTracker, TaskTargets};
+use super::{StepTracker, TaskTargets};
+use crate::sim::body::topology::FEET;
 use crate::sim::control::{FootTarget, PointTarget};
 use crate::sim::dynamics::Terms;
 use crate::sim::math::curve::smootherstep;
@@ -31,7 +32,7 @@ impl StepTracker {
             if swings {
                 continue;
             }
-            let actual = Quat::from_mat3(&terms.kin.rotation[FOOT[side].index()]);
+            let actual = Quat::from_mat3(&terms.kin.rotation[FEET[side].index()]);
             let target = &mut foot.rotation;
             let off = actual.heading() - target.now.heading();
             let turn = turn(trig::wrapped(off));
@@ -84,7 +85,7 @@ impl StepTracker {
             // In an early step a foot lags by a tenth of a second unless its target has the velocity of the shift.
             let ahead = |t: f64| share(since + t * early.rate);
             let (next, after) = (ahead(dt), ahead(2.0 * dt));
-            let way = level(foot.shift);
+            let way = Vec3::on_floor(foot.shift);
             target.now_velocity += way * ((next - s) / dt);
             target.next_velocity += way * ((after - next) / dt);
             target.next += way * (next - s);
@@ -94,15 +95,14 @@ impl StepTracker {
             target.now_velocity = Vec3::Z * -LOWERING_SPEED;
             target.next_velocity = Vec3::Z * -LOWERING_SPEED;
         }
-        target.now += offset;
-        target.next += offset;
+        target.shift(offset);
         if let Some(f) = coming.filter(|_| self.feet[1 - side].down) {
             let stance = FootPlace {
                 at: Self::ankle(terms, 1 - side),
                 yaw: self.mapped(&f).yaw,
             };
             let leg = StanceLeg::new(stance, side);
-            if let Some(leg) = leg.crossed(level(foot.shift), foot.release, clip) {
+            if let Some(leg) = leg.crossed(Vec3::on_floor(foot.shift), foot.release, clip) {
                 let depth = leg.depth(Self::ankle(terms, side), Vec3::zero());
                 let foot = &mut self.feet[side];
                 let initial = *foot.initial_depth.get_or_insert(depth.max(0.0));
@@ -140,7 +140,7 @@ impl StepTracker {
             Some(early) => [early.place.x - home.at.x, early.place.y - home.at.y],
             None => {
                 let away = home.at - planned;
-                let pull = RETURN_SHARE.min(RETURN_MOST / level([away.x, away.y]).norm().max(1e-9));
+                let pull = RETURN_SHARE.min(RETURN_MOST / away.level().max(1e-9));
                 let gain = self.displacement_gain(side, f);
                 let mut d = self.capture.left_over(remaining).map(|e| gain * e);
                 d[0] -= pull * away.x;

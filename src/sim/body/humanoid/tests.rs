@@ -8,6 +8,10 @@ use super::tables::{MAN, WOMAN};
 use super::*;
 use crate::sim::math::Sym3;
 
+/// Statures and masses that adults may have, m and kg.
+const HEIGHT_RANGE: [f64; 2] = [1.4, 2.1];
+const MASS_RANGE: [f64; 2] = [35.0, 180.0];
+
 /// Origin of every segment in the zero pose, pelvis frame.
 fn origins(b: &Body) -> [Vec3; SEGMENT_COUNT] {
     let mut o = [Vec3::zero(); SEGMENT_COUNT];

@@ -295,8 +295,7 @@ impl Figure {
 
     /// True if it hardly moves, or stands in its motion.
     pub(super) fn is_slow(&self) -> bool {
-        let v = self.scratch.terms.com_velocity;
-        (v.x * v.x + v.y * v.y).sqrt() < SLOW || !self.desired.tracker.is_walking()
+        self.scratch.terms.com_velocity.level() < SLOW || !self.desired.tracker.is_walking()
     }
 
     /// States the ends of the motion.

@@ -8,6 +8,7 @@ use crate::sim::figure::torque_step::TorqueRange;
 use crate::sim::math::Vec3;
 use crate::sim::motion::GRAVITY;
 use crate::sim::report::Flags;
+use crate::sim::support::zmp_above;
 
 /// DOFs whose torque is at its limit, a bit each. Limits follow angles and rates within the tick.
 fn at_limit(torque: &[f64; DOF_COUNT], available: &TorqueRange) -> u64 {
@@ -56,17 +57,12 @@ impl Figure {
             .support_polygon
             .extend_from_slice(self.surroundings.support.polygon().corners());
         // Zero-moment point of the forces that acted, (3): z = (−N_y, N_x)/F_z about the world origin.
-        let (mut force, mut moment) = (0.0, (0.0, 0.0));
+        let (mut force, mut moment) = (Vec3::zero(), Vec3::zero());
         for c in &r.contacts {
-            let n = c.position.cross(c.force);
-            force += c.force.z;
-            moment = (moment.0 + n.x, moment.1 + n.y);
+            force += c.force;
+            moment += c.position.cross(c.force);
         }
-        r.balance.zmp = (force > 1e-3 * self.scratch.terms.mass).then(|| Vec3 {
-            x: -moment.1 / force,
-            y: moment.0 / force,
-            z: 0.0,
-        });
+        r.balance.zmp = zmp_above(1e-3 * self.scratch.terms.mass, force, moment);
         r.balance.margin = r
             .balance
             .zmp

@@ -8,6 +8,7 @@
 use super::RATE;
 use super::shape::{COM_AHEAD, Foot, Measures, Plan, posture};
 use super::standing::{at_ease, stand};
+use crate::sim::body::topology::outward;
 use crate::sim::body::{Body, Posture, SEGMENT_COUNT};
 use crate::sim::math::curve::ramp;
 use crate::sim::math::{Quat, Vec3};
@@ -140,7 +141,7 @@ fn footsteps(style: &Style, scale: f64) -> Vec<Step> {
 
 /// Pose of one foot at time `t`, and whether it is on the floor.
 fn foot(m: &Measures, style: &Style, steps: &[Step], side: usize, t: f64) -> (Foot, bool) {
-    let y = style.half_stance * m.scale * if side == 0 { 1.0 } else { -1.0 };
+    let y = style.half_stance * m.scale * outward(side);
     let mine = || steps.iter().filter(|s| s.side == side);
     let last = mine().rfind(|s| s.lift <= t);
     let next = mine().find(|s| s.lift > t);

@@ -1,18 +1,16 @@
 //! From the plan of one instant to a posture.
 
+use super::super::arm_ik::{ARMS, bend_elbow, joints};
 use super::super::leg_ik::{
-    center_of_mass, forward, hinge_for_distance, leg_segments, point_and_roll, solve_leg_in_plane,
+    center_of_mass, forward, leg_segments, point_and_roll, solve_leg_in_plane,
 };
 use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
-use crate::sim::body::topology::{
-    CHEST, DOF_AXIS, DOF_COUNT, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, PARENT, R_FOREARM,
-    R_HAND, R_UPPER_ARM,
-};
-use crate::sim::body::{Body, Posture};
+use crate::sim::body::topology::{CHEST, DOF_COUNT, DOF_START, L_FOOT, L_SHANK, PARENT, R_HAND};
+use crate::sim::body::{Body, Posture, SegmentId};
 use crate::sim::math::{Quat, Vec3};
 
 /// Leg length (hip to ankle) that distances in plans are written for, m.
-const REFERENCE_LEG: f64 = 0.867;
+pub const REFERENCE_LEG: f64 = 0.867;
 /// Where the balanced centre of mass lies in front of the ankles, reference body, m: mid-foot.
 pub const COM_AHEAD: f64 = 0.045;
 /// Shift of the pelvis at which balancing is done, m.
@@ -143,14 +141,8 @@ pub fn grip(body: &Body) -> Vec3 {
 /// Changes the right shoulder and elbow of `plan` so that the balanced posture grips `target` (world, m), with the
 /// elbow's hinge axis near `axis`. Balance and reach depend on each other and are solved in turn.
 pub fn reach_right(body: &Body, plan: &mut Plan, target: Vec3, axis: Vec3) {
-    let (upper, fore, hand) = (R_UPPER_ARM.index(), R_FOREARM.index(), R_HAND.index());
+    let [upper, fore, hand] = ARMS[1].map(SegmentId::index);
     debug_assert_eq!(PARENT[upper], CHEST.index());
-    let dof = DOF_START[fore];
-    let n = Vec3::from_array(DOF_AXIS[dof].vector());
-    let (a, b) = (
-        body.joint_offset[fore],
-        body.joint_offset[hand] + grip(body),
-    );
     for _ in 0..ROUNDS {
         let mut out = posture(body, plan);
         let poses = forward(body, &out);
@@ -160,15 +152,12 @@ pub fn reach_right(body: &Body, plan: &mut Plan, target: Vec3, axis: Vec3) {
         }
         let chest = poses[CHEST.index()].1;
         let to_target = target - poses[upper].0;
-        let elbow =
-            hinge_for_distance(a, b, n, to_target.norm()).clamp(body.lower[dof], body.upper[dof]);
-        let reach = a + Quat::exp(n * elbow).rotate(b);
+        let (n, elbow, reach) = bend_elbow(body, ARMS[1], grip(body), to_target.norm());
         let direction = to_target.normalized_or(-Vec3::Z);
         let world = point_and_roll(reach, n, direction, axis, chest.rotate(Vec3::X));
-        if let (Joint::Ball(s), Joint::Hinge2(e)) = (JOINT[upper], JOINT[fore]) {
-            out.ball[s] = (chest.conjugate() * world).normalized();
-            out.hinge[e] = elbow;
-        }
+        let (s, [e, _]) = joints(ARMS[1]);
+        out.ball[s] = (chest.conjugate() * world).normalized();
+        out.hinge[e] = elbow;
         let found = anatomical_angles(&out);
         for s in [upper, fore] {
             let d = DOF_START[s];

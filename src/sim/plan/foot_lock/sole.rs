@@ -2,13 +2,13 @@
 //! from that.
 
 use crate::sim::body::Body;
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::sim::body::topology::{DOF_START, FEET, SEGMENT_COUNT, SegmentId, TOES};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::plan::params::pitch;
 use serde::{Deserialize, Serialize};
 
 /// Pose of one foot: ankle position, `world_from_foot`, toe extension.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FootPose {
     /// Ankle, m.
     pub ankle: Vec3,
@@ -66,11 +66,6 @@ pub struct FootPlacement {
 }
 
 impl FootPlacement {
-    /// Point of the floor, m, and heading, rad.
-    pub fn place_and_yaw(&self) -> (Vec3, f64) {
-        (self.place, self.yaw)
-    }
-
     /// True where the heel is raised: nothing behind the ball of the foot carries.
     pub(in crate::sim::plan) fn is_on_ball(&self) -> bool {
         self.pitch <= -pitch::FLAT
@@ -78,15 +73,14 @@ impl FootPlacement {
 
     /// Direction in which the foot points, x and y.
     pub(in crate::sim::plan) fn ahead(&self) -> [f64; 2] {
-        let x = Quat::exp(Vec3::Z * self.yaw).rotate(Vec3::X);
-        [x.x, x.y]
+        Quat::exp(Vec3::Z * self.yaw).rotate(Vec3::X).xy()
     }
 }
 
 impl Sole {
     /// Sole of the left (`side` 0) or right (1) foot.
     pub fn new(body: &Body, side: usize) -> Self {
-        let (f, t) = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)][side];
+        let (f, t) = (FEET[side], TOES[side]);
         let foot = body.segment(f).contact_points.clone();
         let toes = body.segment(t).contact_points.clone();
         let toe_joint = body.joint_offset[t.index()];
@@ -103,7 +97,7 @@ impl Sole {
             y: 0.0,
             z: -ankle_height,
         };
-        let dof = crate::sim::body::topology::DOF_START[t.index()];
+        let dof = DOF_START[t.index()];
         Self {
             foot,
             toes,
@@ -114,14 +108,9 @@ impl Sole {
         }
     }
 
-    /// Contact points of the foot, foot frame, m.
-    pub fn foot_points(&self) -> &[Vec3] {
-        &self.foot
-    }
-
-    /// Contact points of the toes, toe frame, m.
-    pub fn toe_points(&self) -> &[Vec3] {
-        &self.toes
+    /// Segments of the left (`side` 0) or right (1) foot, each with its contact points, segment frame, m.
+    pub fn parts(&self, side: usize) -> [(SegmentId, &[Vec3]); 2] {
+        [(FEET[side], &self.foot), (TOES[side], &self.toes)]
     }
 
     /// Contact points of the foot and of the toes in the foot frame, toes extended by `toe` rad.
@@ -132,6 +121,25 @@ impl Sole {
                 .iter()
                 .map(move |p| self.toe_joint + foot_from_toes.rotate(*p)),
         )
+    }
+
+    /// Contact points of foot and toes of the left (`side` 0) or right (1) foot where segments have these poses, world,
+    /// m.
+    pub fn points_at<'a>(
+        &'a self,
+        side: usize,
+        poses: &'a [(Vec3, Quat); SEGMENT_COUNT],
+    ) -> impl Iterator<Item = Vec3> + 'a {
+        self.parts(side).into_iter().flat_map(|(segment, points)| {
+            let (at, q) = poses[segment.index()];
+            points.iter().map(move |p| at + q.rotate(*p))
+        })
+    }
+
+    /// Height of the lowest of [`Self::points_at`], m.
+    pub fn lowest_at(&self, side: usize, poses: &[(Vec3, Quat); SEGMENT_COUNT]) -> f64 {
+        let heights = self.points_at(side, poses).map(|p| p.z);
+        heights.fold(f64::INFINITY, f64::min)
     }
 
     /// Height of the lowest point of the sole relative to the ankle, m.
@@ -192,11 +200,10 @@ impl Sole {
     /// it is pitched. The same bits on every machine, since ticks use it.
     pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> FootPlacement {
         let x = rotation.rotate(Vec3::X);
-        let level = (x.x * x.x + x.y * x.y).sqrt();
-        let (yaw, pitch) = (trig::atan2(x.y, x.x), trig::atan2(x.z, level));
+        let (yaw, pitch) = (trig::atan2(x.y, x.x), trig::atan2(x.z, x.level()));
         let place = ankle - self.stand(Vec3::zero(), yaw, pitch).ankle;
         FootPlacement {
-            place: Vec3 { z: 0.0, ..place },
+            place: place.horizontal(),
             yaw,
             pitch,
             tip: 0.0,
@@ -231,10 +238,7 @@ impl Sole {
         } = *at;
         let heading = Quat::exp(Vec3::Z * yaw);
         let ball = self.toe_joint.x;
-        let mut push = |p: Vec3| {
-            let w = anchor + heading.rotate(p);
-            visit([w.x, w.y]);
-        };
+        let mut push = |p: Vec3| visit((anchor + heading.rotate(p)).xy());
         for p in &self.foot {
             let front = p.x > 0.5 * ball;
             if (!at.is_on_ball() || front) && (pitch < pitch::FLAT || !front) {

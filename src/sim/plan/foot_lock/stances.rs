@@ -16,12 +16,6 @@ pub struct Stance {
     pub end: usize,
 }
 
-/// Half of the time that a shuffle is given, s: the first of these that fits.
-const HALF_SHUFFLE: [f64; 3] = [
-    stance::HALF_SHUFFLE,
-    stance::HALF_QUICK_SHUFFLE,
-    stance::HALF_QUICKEST_SHUFFLE,
-];
 /// Foot point and heading per sample: where the flat ankle would stand on the floor.
 pub(super) struct Track {
     pub point: Vec<Vec3>,
@@ -46,11 +40,7 @@ impl Track {
             t.pitch.push(pitch);
             t.roll.push(trig::asin(q.rotate(Vec3::Y).z));
             let lift = sole.stand(Vec3::zero(), yaw, pitch).ankle;
-            t.point.push(Vec3 {
-                x: a.x - lift.x,
-                y: a.y - lift.y,
-                z: 0.0,
-            });
+            t.point.push((*a - lift).horizontal());
         }
         t
     }
@@ -60,14 +50,8 @@ impl Track {
         let margin = (end - start) * stance::PLACE_MARGIN / 100;
         let mid = start + margin..(end - margin).max(start + margin + 1);
         let of = |f: &dyn Fn(usize) -> f64| median(mid.clone().map(f).collect());
-        (
-            Vec3 {
-                x: of(&|i| self.point[i].x),
-                y: of(&|i| self.point[i].y),
-                z: 0.0,
-            },
-            of(&|i| self.yaw[i]),
-        )
+        let place = [of(&|i| self.point[i].x), of(&|i| self.point[i].y)];
+        (Vec3::on_floor(place), of(&|i| self.yaw[i]))
     }
 
     /// Distance of a sample from an anchor in units of [`stance::STRAY_DISTANCE`].
@@ -91,12 +75,13 @@ impl Track {
             out.push((start, end));
             return;
         }
-        let moved = |a: usize, b: usize| {
-            ((self.point[b] - self.point[a]).norm() / stance::STRAY_DISTANCE)
-                .max((self.yaw[b] - self.yaw[a]).abs() / stance::STRAY_ANGLE)
-        };
-        // Where the foot moves fastest over one shuffle's time.
-        for half in HALF_SHUFFLE {
+        let moved = |a: usize, b: usize| self.stray(b, self.point[a], self.yaw[a]);
+        // Where the foot moves fastest over one shuffle's time, the first that fits.
+        for half in [
+            stance::HALF_SHUFFLE,
+            stance::HALF_QUICK_SHUFFLE,
+            stance::HALF_QUICKEST_SHUFFLE,
+        ] {
             let half = (half * rate_hz) as usize;
             let at = (start + shortest + half..end.saturating_sub(half + shortest))
                 .filter(|i| other[i - half..=i + half].iter().all(|o| *o))
@@ -127,9 +112,7 @@ impl Track {
             out.push((start, end));
         }
     }
-}
 
-impl Track {
     /// Takes from the ends of a stance what only there is astray, while the other foot stands too: a foot that begins
     /// to turn away, or that is still coming, does not stand, and what stands does not pivot because of it.
     fn trim(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64) -> (usize, usize) {
@@ -149,9 +132,7 @@ impl Track {
         }
         (from, to)
     }
-}
 
-impl Track {
     /// Gives swings that are shorter than their way takes what they lack, of the time in which both feet are on the
     /// floor: from the stance before and from the one after, wherever the recorded foot is further from its anchor, and
     /// no more than half of what there is, since the other foot may need some as well. Labels see the fastest part of a
@@ -180,9 +161,7 @@ impl Track {
             (pieces[w - 1].1, pieces[w].0) = (end, begin);
         }
     }
-}
 
-impl Track {
     /// When the foot stands where its `label` says that it is on the floor, with the `other` foot's.
     pub fn pieces(&self, label: &[bool], other: &[bool], rate_hz: f64) -> Pieces {
         let mut pieces = Vec::new();

@@ -1,6 +1,6 @@
 //! Where a motion is like the beginning of another one.
 
-use crate::sim::body::topology::{L_FOOT, R_FOOT};
+use crate::sim::body::topology::FEET;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::GRAVITY;
@@ -44,7 +44,7 @@ impl<'a> Features<'a> {
         let soles = [Sole::new(body, 0), Sole::new(body, 1)];
         let of = |(posture, _): &Sample| {
             let poses = forward(body, posture);
-            let feet = [L_FOOT, R_FOOT].map(|f| poses[f.index()]);
+            let feet = FEET.map(|f| poses[f.index()]);
             let feet = [soles[0].footing(feet[0]), soles[1].footing(feet[1])];
             (center_of_mass(body, &poses), feet)
         };
@@ -71,13 +71,13 @@ impl<'a> Features<'a> {
         let v = (self.com[i + 1] - self.com[i - 1]) * (0.5 * stop::RATE / omega);
         let ahead = |q: Quat, long: f64| {
             let x = q.rotate(Vec3::X);
-            let level = (x.x * x.x + x.y * x.y).sqrt().max(1e-9);
-            [x.x, x.y].map(|c| long * c / level)
+            let level = x.level().max(1e-9);
+            x.xy().map(|c| long * c / level)
         };
         let foot = Quat::exp(Vec3::Z * self.feet[i][side].yaw);
         [
             from(self.com[i]),
-            [v.x, v.y],
+            v.xy(),
             from(self.feet[i][1 - side].place),
             ahead(self.posture(i).root_rotation, transition::PELVIS_HEADING),
             ahead(foot, transition::FOOT_HEADING),
@@ -97,8 +97,7 @@ fn nearest_turn(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
 }
 
 pub(super) fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (x, y) = (a[0] - b[0], a[1] - b[1]);
-    (x * x + y * y).sqrt()
+    (Vec3::on_floor(a) - Vec3::on_floor(b)).level()
 }
 
 /// Compares sample `i` of one motion with sample `j` of another: how they are like, and how much; `None` if they are

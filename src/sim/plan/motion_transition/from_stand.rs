@@ -6,16 +6,16 @@
 //! have.
 
 use super::candidates::{Features, far};
-use super::{NextClip, TransitionClip};
+use super::{NextClip, TransitionClip, samples_in};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::clip::Clip;
 use crate::sim::plan::cycle::relabel_prepared;
 use crate::sim::plan::foot_lock::FootPlacement;
-use crate::sim::plan::params::{balance, stop, transition};
+use crate::sim::plan::params::{balance, common, stop, transition};
 use crate::sim::plan::prepare::{Draft, prepare_in};
-use crate::sim::plan::splice::{SEAM_OPTIONS, Sample, blend_from_played};
+use crate::sim::plan::splice::{SEAM_OPTIONS, blend_from_played};
 use crate::sim::plan::turned_on_floor;
 
 impl NextClip {
@@ -32,8 +32,8 @@ impl NextClip {
         let begins = seen(&features.feet[1], features.com[1] + moves);
         let joints = stand.joint_difference(&samples[1].0);
         let rates = samples[1].0.joint_difference(&samples[2].0);
-        far(is.0, begins.0) < transition::BEGIN_DISTANCE
-            && trig::wrapped(begins.1 - is.1).abs() < transition::BEGIN_ANGLE
+        far(is.0, begins.0) < common::MISPLACED_BY
+            && trig::wrapped(begins.1 - is.1).abs() < common::MISPLACED_TURN
             && far(is.2, begins.2) < transition::BEGIN_CAPTURE
             && joints.iter().all(|e| e.abs() < transition::BEGIN_JOINT)
             && rates
@@ -43,16 +43,9 @@ impl NextClip {
 
     /// The way from standing like `stand` into the clip, which begins at clip time `first`, s. `None` if there is none.
     pub fn from_stand(&self, body: &Body, first: f64, stand: &Posture) -> Option<TransitionClip> {
-        let samples = |seconds: f64| (seconds * stop::RATE).round() as usize;
-        let (held, seen) = (
-            samples(stop::BLEND_TIME),
-            samples(stop::BLEND_TIME + stop::PREPARED_TIME),
-        );
-        let at = |k: usize| first + k as f64 * self.speed / stop::RATE;
-        let mut known: Vec<Sample> = (0..=seen)
-            .map(|k| self.sample(at(k)))
-            .map(|t| (t.posture, t.planted))
-            .collect();
+        let held = samples_in(stop::BLEND_TIME);
+        let seen = samples_in(stop::BLEND_TIME + stop::PREPARED_TIME);
+        let mut known = self.samples(first, seen + 1);
         let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
         let mut label = relabel_prepared(body, stop::RATE, &postures, &planted);
         known.reverse();

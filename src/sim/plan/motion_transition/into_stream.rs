@@ -99,7 +99,7 @@ impl StreamBeginning {
             let (postures, planted): (Vec<_>, Vec<_>) =
                 way.clip.samples().map(|(p, f)| (*p, f)).unzip();
             let label = relabel_prepared(body, stop::RATE, &postures, &planted);
-            let asks = infeasibility(body, &postures, &label, stop::RATE);
+            let asks = infeasibility(body, &postures, &label);
             if best.as_ref().is_none_or(|(least, _)| asks < *least) {
                 best = Some((asks, way));
             }

@@ -6,9 +6,9 @@
 //! support.
 
 use super::candidates::Moment;
-use super::{NextClip, TransitionClip};
+use super::{NextClip, TransitionClip, samples_in};
 use crate::sim::body::angles::clamp_to_limits;
-use crate::sim::body::topology::{DOF_START, L_THIGH, L_UPPER_ARM, NV};
+use crate::sim::body::topology::{DOF_START, FEET, L_THIGH, L_UPPER_ARM, NV};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::{fade, smootherstep};
 use crate::sim::math::{Vec3, trig};
@@ -19,17 +19,14 @@ use crate::sim::plan::cycle::relabel_prepared;
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::feasibility::infeasibility;
 use crate::sim::plan::foot_lock::{FootPlacement, FootPose, LockedFoot, Sole};
+use crate::sim::plan::leg_reach::leg_geometry;
 use crate::sim::plan::params::{balance, leg, stop, transition};
 use crate::sim::plan::pelvis_shift::{ShiftProblem, mass_track, pelvis_shift};
 use crate::sim::plan::prepare::{
-    StandingFeet, leg_geometry, limit_ankle_torques, other_support, planted_of, support_phases,
+    StandingFeet, limit_ankle_torques, other_support, planted_of, support_phases,
 };
 use crate::sim::plan::splice::Sample;
-use crate::sim::plan::{FEET, toe_hinge};
-
-fn samples_in(seconds: f64) -> usize {
-    (seconds * stop::RATE).round() as usize
-}
+use crate::sim::plan::toe_hinge;
 
 /// A difference before, at and after the seam, that fades from there on.
 struct FadingOffset<const N: usize>([[f64; N]; 3]);
@@ -237,9 +234,8 @@ impl SeamMotion<'_> {
                 return p;
             }
             p.root_position += Vec3 {
-                x: shift[i][0],
-                y: shift[i][1],
                 z: drop[i],
+                ..Vec3::on_floor(shift[i])
             };
             for (s, foot) in self.feet.iter().enumerate() {
                 let to = &foot.poses[i];
@@ -255,7 +251,7 @@ impl SeamMotion<'_> {
 
     /// By how much the pelvis comes down so that planted legs reach, m.
     fn drop(&self) -> Vec<f64> {
-        let legs = leg_geometry(self.body);
+        let legs = [0, 1].map(|side| leg_geometry(self.body, side));
         let lacks = |i: usize| {
             let p = &self.postures[i];
             let needs = legs.iter().zip(&self.feet).map(|((hip, length), foot)| {
@@ -379,7 +375,7 @@ pub(super) fn transition_at(
         postures[at - cut + k] = *seam.to(k);
     }
     let from = (held - cut).saturating_sub(4);
-    let asked = infeasibility(body, &postures[from..], &draft.label[from..], stop::RATE);
+    let asked = infeasibility(body, &postures[from..], &draft.label[from..]);
     if stray > transition::MOST_STRAY {
         return None;
     }

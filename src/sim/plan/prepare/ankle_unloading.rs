@@ -2,10 +2,9 @@
 
 use super::pelvis_yaw;
 use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::{DOF_START, L_THIGH, R_THIGH};
+use crate::sim::body::topology::{DOF_START, FEET, THIGHS};
 use crate::sim::body::{Body, Posture};
 use crate::sim::motion::filter::{low_pass, smooth_minimum};
-use crate::sim::plan::FEET;
 use crate::sim::plan::foot_lock::{Stance, StanceTurns};
 use crate::sim::plan::params::{leg, pitch};
 
@@ -67,7 +66,7 @@ impl AnkleUnloading {
                     .collect();
                 smooth_minimum(&raw, half).into_iter().map(|x| -x).collect()
             };
-            let hip = DOF_START[[L_THIGH, R_THIGH][s].index()];
+            let hip = DOF_START[THIGHS[s].index()];
             let StanceTurns {
                 heel_up,
                 toe_out,

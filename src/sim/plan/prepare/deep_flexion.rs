@@ -5,16 +5,16 @@
 //! chest forward again as far as it goes. What is then left, of knees and ankles, raises the pelvis. Both come and go
 //! smoothly, and the legs are solved again.
 
-use super::leg_geometry;
+use super::pelvis_yaw::turn_about;
 use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
-use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_COUNT, DOF_START};
+use crate::sim::body::topology::{DOF_COUNT, DOF_START, FEET, THIGHS};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::leg_ik::{forward, solve_leg};
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::foot_lock::{LockedFoot, Sole};
 use crate::sim::plan::params::leg;
-use crate::sim::plan::{FEET, THIGHS, ball_joint, toe_hinge};
+use crate::sim::plan::{least_without, toe_hinge};
 
 /// How far the pelvis gave way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -64,20 +64,13 @@ fn give_way(
 ) -> Posture {
     let mut posture = *like;
     let before = like.root_rotation;
-    let hips = leg_geometry(body);
-    let middle = (hips[0].0 + hips[1].0) * 0.5;
-    let left = before.rotate(hips[0].0 - hips[1].0).normalized_or(Vec3::Y);
-    let about = |angle: f64| Quat::exp(left * angle);
-    let (waist, thorax) = (ball_joint(ABDOMEN), ball_joint(CHEST));
-    let abdomen = before * like.ball[waist];
-    let chest = abdomen * like.ball[thorax];
+    let hips = THIGHS.map(|t| body.joint_offset[t.index()]);
+    let middle = (hips[0] + hips[1]) * 0.5;
+    let left = before.rotate(hips[0] - hips[1]).normalized_or(Vec3::Y);
     // Back is towards negative angles about the left.
-    let root = (about(-tilt) * before).normalized();
-    let abdomen = about(-0.5 * tilt) * abdomen;
-    posture.root_rotation = root;
+    turn_about(&mut posture, left, -tilt);
+    let root = posture.root_rotation;
     posture.root_position += before.rotate(middle) - root.rotate(middle) + Vec3::Z * raise;
-    posture.ball[waist] = (root.conjugate() * abdomen).normalized();
-    posture.ball[thorax] = (abdomen.conjugate() * chest).normalized();
     for (s, (pose, toe)) in feet.into_iter().enumerate() {
         solve_leg(body, &mut posture, s == 0, pose, toe);
     }
@@ -153,16 +146,8 @@ pub(super) fn unfold(
         if first <= leg::DEEP {
             continue;
         }
-        let (mut low, mut high) = (0.0, first.min(leg::MOST_RAISE));
-        for _ in 0..leg::RAISE_HALVINGS {
-            let middle = 0.5 * (low + high);
-            if depth(middle) > leg::DEEP {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        need[i] = high;
+        let most = first.min(leg::MOST_RAISE);
+        need[i] = least_without(most, leg::RAISE_HALVINGS, |raise| depth(raise) > leg::DEEP);
     }
     let raise = smooth(&need);
     for (i, posture) in postures.iter_mut().enumerate() {

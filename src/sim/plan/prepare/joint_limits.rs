@@ -2,8 +2,8 @@
 
 use crate::sim::body::angles::clamp_to_limits;
 use crate::sim::body::topology::{
-    BALL_COUNT, DOF_COUNT, DOF_START, HINGE_COUNT, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES,
-    R_FOOT, R_SHANK, R_THIGH, R_TOES,
+    BALL_COUNT, DOF_COUNT, DOF_START, FEET, HINGE_COUNT, JOINT, Joint, L_THIGH, SHANKS, THIGHS,
+    TOES,
 };
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
@@ -11,7 +11,7 @@ use crate::sim::motion::filter::{low_pass, low_pass_rotations};
 use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg};
 use crate::sim::plan::foot_lock::{LockedFoot, Sole};
 use crate::sim::plan::params::{leg, swing};
-use crate::sim::plan::{FEET, THIGHS, toe_hinge};
+use crate::sim::plan::toe_hinge;
 
 /// What is left of a lock when the legs are within their limits.
 #[derive(Default)]
@@ -69,7 +69,7 @@ pub(super) fn into_limits(
 /// A swinging leg whose hip does not reach as far back as it should is bent at the knee until its ankle is as high as
 /// `wanted`: its foot would be in the floor.
 fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, Quat)) {
-    let shank = [L_SHANK, R_SHANK][side].index();
+    let shank = SHANKS[side].index();
     let foot = FEET[side].index();
     let (Joint::Hinge1(k), Joint::Ball(f)) = (JOINT[shank], JOINT[foot]) else {
         unreachable!("the tree has hinge knees and ball ankles")
@@ -127,12 +127,12 @@ pub(super) fn clamp_upper(
     for p in postures.iter_mut() {
         let mut q = *p;
         // Legs of a draft mean nothing yet: keep them out of the count.
-        for s in [L_THIGH, R_THIGH, L_FOOT, R_FOOT] {
+        for s in THIGHS.into_iter().chain(FEET) {
             if let Joint::Ball(b) = JOINT[s.index()] {
                 q.ball[b] = Quat::identity();
             }
         }
-        for s in [L_SHANK, R_SHANK, L_TOES, R_TOES] {
+        for s in SHANKS.into_iter().chain(TOES) {
             if let Joint::Hinge1(h) = JOINT[s.index()] {
                 let d = DOF_START[s.index()];
                 q.hinge[h] = 0.5 * (body.lower[d] + body.upper[d]);

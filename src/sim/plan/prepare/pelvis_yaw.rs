@@ -2,21 +2,19 @@
 //! both directions.
 
 use crate::sim::body::angles::{clamp_to_limits, swing_twist};
-use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_START};
+use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_START, THIGHS, outward};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::smooth_minimum;
+use crate::sim::plan::ball_joint;
 use crate::sim::plan::foot_lock::Stance;
 use crate::sim::plan::params::leg;
-use crate::sim::plan::{THIGHS, ball_joint};
 
-/// Which way the hip of a foot that stays turns when the pelvis turns anticlockwise: the left one inwards, the right
-/// one outwards.
-const WAY: [f64; 2] = [1.0, -1.0];
 /// Adds to `yaw` (rad per sample, anticlockwise seen from above) what the hips of planted feet lack in rotation.
 ///
 /// Only in stances in which a hip turns further than from limit to limit: elsewhere another heading of the foot is
-/// enough. The hip of the other foot, if that is planted as well, is not turned beyond its limits. O(n · window).
+/// enough. The hip of the other foot, if that is planted as well, is not turned beyond its limits. When the pelvis
+/// turns anticlockwise the hip of a foot that stays turns inwards on the left and outwards on the right. O(n · window).
 pub(super) fn add(
     body: &Body,
     postures: &[Posture],
@@ -34,6 +32,7 @@ pub(super) fn add(
     let mut lacks = vec![0.0; postures.len()];
     for side in 0..2 {
         let other = 1 - side;
+        let (way, other_way) = (outward(side), outward(other));
         let half = 0.5 * (limits[side].1 - limits[side].0);
         for stance in stances[side] {
             let samples = stance.start..stance.end;
@@ -49,8 +48,8 @@ pub(super) fn add(
             for i in samples {
                 // The heading of the foot comes to share what is too much between both ends.
                 let a = rotation(side, i) - 0.5 * (least + most);
-                let lack = -WAY[side]
-                    * (a - a.clamp(leg::PLANTED_MARGIN - half, half - leg::PLANTED_MARGIN));
+                let lack =
+                    -way * (a - a.clamp(leg::PLANTED_MARGIN - half, half - leg::PLANTED_MARGIN));
                 lacks[i] += if planted[i][other] {
                     let a = rotation(other, i);
                     let (lower, upper) = limits[other];
@@ -58,7 +57,7 @@ pub(super) fn add(
                         (a - lower - leg::PLANTED_MARGIN).max(0.0),
                         (upper - leg::PLANTED_MARGIN - a).max(0.0),
                     );
-                    WAY[other] * (WAY[other] * lack).clamp(-down, up)
+                    other_way * (other_way * lack).clamp(-down, up)
                 } else {
                     lack
                 };
@@ -79,21 +78,24 @@ pub(super) fn add(
     }
 }
 
-/// Turns the pelvis by `yaw`, rad, about the vertical. Waist and thorax turn back by half of it each, so that the chest
-/// stays as far as their limits let it.
+/// Turns the pelvis by `yaw`, rad, about the vertical; the chest stays as far as the limits of waist and thorax let it.
 pub(super) fn turn(body: &Body, posture: &mut Posture, yaw: f64) {
-    if yaw == 0.0 {
-        return;
+    if yaw != 0.0 {
+        turn_about(posture, Vec3::Z, yaw);
+        clamp_to_limits(body, posture, leg::LIMIT_MARGIN);
     }
+}
+
+/// Turns the pelvis by `angle`, rad, about an axis of the world. Waist and thorax turn back by half of it each.
+pub(super) fn turn_about(posture: &mut Posture, axis: Vec3, angle: f64) {
     let (waist, thorax) = (ball_joint(ABDOMEN), ball_joint(CHEST));
-    let about = |angle: f64| Quat::exp(Vec3::Z * angle);
+    let about = |angle: f64| Quat::exp(axis * angle);
     let abdomen = posture.root_rotation * posture.ball[waist];
     let chest = abdomen * posture.ball[thorax];
-    let abdomen = about(0.5 * yaw) * abdomen;
-    posture.root_rotation = (about(yaw) * posture.root_rotation).normalized();
+    let abdomen = about(0.5 * angle) * abdomen;
+    posture.root_rotation = (about(angle) * posture.root_rotation).normalized();
     posture.ball[waist] = (posture.root_rotation.conjugate() * abdomen).normalized();
     posture.ball[thorax] = (abdomen.conjugate() * chest).normalized();
-    clamp_to_limits(body, posture, leg::LIMIT_MARGIN);
 }
 
 #[cfg(test)]

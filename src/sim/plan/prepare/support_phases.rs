@@ -1,14 +1,14 @@
 //! What carries the body in each sample, and how well what is planned stays over it.
 
 use crate::sim::body::angles::clamp_to_limits;
+use crate::sim::body::topology::FEET;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::{hull, margin};
 use crate::sim::motion::filter::{low_pass, percentile};
 use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::FEET;
 use crate::sim::plan::ankle_torque_limit::{AnkleTorqueLimit, Over};
 use crate::sim::plan::foot_lock::{LockedFoot, Sole};
-use crate::sim::plan::params::{ankle, balance, contact, leg};
+use crate::sim::plan::params::{ankle, balance, leg, pelvis};
 use crate::sim::plan::pelvis_shift::{MassTrack, OtherSupport, SupportPhase};
 
 /// How far the zero-moment point is outside the support polygon of planted feet, over the samples that feet carry.
@@ -82,7 +82,7 @@ pub(in crate::sim::plan) fn support_phases(
             for s in (0..2).filter(|s| feet.carries[i][*s]) {
                 feet.soles[s].footprint(&feet.locked[s].placements[i], &mut corners);
             }
-            if upper[i].root_position.z < contact::SEATED * standing {
+            if upper[i].root_position.z < pelvis::SEATED * standing {
                 SupportPhase::Other
             } else if corners.len() >= 3 {
                 SupportPhase::Feet(hull(&corners))
@@ -154,7 +154,7 @@ pub(in crate::sim::plan) fn other_support(
         x
     };
     let seat = upper.iter().map(|p| {
-        ((balance::NO_SEAT - p.root_position.z / standing) / (balance::NO_SEAT - balance::SEAT))
+        ((pelvis::NO_SEAT - p.root_position.z / standing) / (pelvis::NO_SEAT - pelvis::SEAT))
             .clamp(0.0, 1.0)
     });
     let stays = |i: usize| {

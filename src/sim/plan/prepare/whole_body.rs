@@ -2,28 +2,18 @@
 
 use super::ankle_unloading::AnkleUnloading;
 use super::{Draft, pelvis_yaw};
-use crate::sim::body::topology::{
-    JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH, R_TOES,
-};
+use crate::sim::body::topology::{JOINT, Joint, outward};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::smoothstep;
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::filter::{low_pass, low_pass_points, low_pass_rotations};
-use crate::sim::motion::leg_ik::solve_leg_in_plane;
-use crate::sim::plan::THIGHS;
+use crate::sim::motion::leg_ik::{leg_segments, solve_leg_in_plane};
 use crate::sim::plan::contact_labels::runs;
 use crate::sim::plan::envelope::smoothest_below;
 use crate::sim::plan::flight_phases::FlightPhases;
 use crate::sim::plan::foot_lock::LockedFoot;
+use crate::sim::plan::leg_reach::{leg_geometry, room_above};
 use crate::sim::plan::params::{leg, swing};
-
-/// Hip joint of each side in the pelvis frame, m, and length of the leg from hip to ankle, m.
-pub(in crate::sim::plan) fn leg_geometry(body: &Body) -> [(Vec3, f64); 2] {
-    [0, 1].map(|side| {
-        let thigh = THIGHS[side].index();
-        (body.joint_offset[thigh], body.leg_length(side))
-    })
-}
 
 /// Postures from upper body, feet and trunk shift: pelvis lowered until planted legs reach, legs solved.
 pub(super) fn assemble(
@@ -36,7 +26,7 @@ pub(super) fn assemble(
     flights: Option<&FlightPhases>,
 ) -> (Vec<Posture>, Vec<f64>) {
     let n = upper.len();
-    let legs = leg_geometry(body);
+    let legs = [0, 1].map(|side| leg_geometry(body, side));
     let mut out = upper.to_vec();
     let mut drop = vec![f64::INFINITY; n];
     for i in 0..n {
@@ -44,25 +34,10 @@ pub(super) fn assemble(
         out[i].root_position.x += shift[i][0];
         out[i].root_position.y += shift[i][1];
         for ((hip, length), foot) in legs.iter().zip(locked) {
-            let d = out[i].root_position + out[i].root_rotation.rotate(*hip) - foot.poses[i].ankle;
-            let most = leg::REACH * length;
-            let level = d.level();
-            let height = (most * most - level * level)
-                .max(leg::LEAST_HEIGHT2 * most * most)
-                .sqrt();
-            let need = height - d.z;
-            // A swinging leg must not be straight when it lands either; one that kicks or lies is its own affair.
-            let weight = if foot.planted[i] {
-                1.0
-            } else {
-                ((leg::SWING_FAR - level / most) / leg::SWING_FAR_RANGE).clamp(0.0, 1.0)
-            };
-            let need = if foot.planted[i] || need > 0.0 {
-                need
-            } else {
-                need.max(-leg::SWING_DROP) * weight
-            };
-            drop[i] = drop[i].min(need);
+            let line =
+                out[i].root_position + out[i].root_rotation.rotate(*hip) - foot.poses[i].ankle;
+            let room = room_above(line, leg::REACH * length, foot.planted[i]);
+            drop[i] = drop[i].min(room);
         }
     }
     let drop = match flights {
@@ -99,11 +74,7 @@ pub(super) fn assemble(
                 foot.ankle = hip + line * (most / far);
             }
             // Inwards is clockwise seen from above for the left leg: about the line pointing down, positive.
-            let inward = if s == 0 {
-                unloading.turn_in[s][i]
-            } else {
-                -unloading.turn_in[s][i]
-            };
+            let inward = outward(s) * unloading.turn_in[s][i];
             let axis =
                 Quat::exp(line.normalized_or(-Vec3::Z) * inward).rotate(draft.knee_axis[s][i]);
             solve_leg_in_plane(
@@ -122,42 +93,38 @@ pub(super) fn assemble(
     (out, drop)
 }
 
-/// From 0 where a foot is planted to 1 inside a flight, per sample.
-fn in_flight(locked: &[LockedFoot; 2], rate_hz: f64) -> Vec<f64> {
-    let planted = locked[0].planted.iter().zip(&locked[1].planted);
-    let grounded: Vec<bool> = planted.map(|(l, r)| *l || *r).collect();
-    let n = grounded.len();
-    let mut share = vec![0.0; n];
-    for (i, j, on) in runs(&grounded) {
-        if on || i == 0 || j == n {
-            continue;
-        }
+/// From 0 where it stands to 1 inside of where it does not, per sample; comes and goes within `edge` s.
+fn off_floor(stands: &[bool], edge: f64, rate_hz: f64) -> Vec<f64> {
+    let mut share = vec![0.0; stands.len()];
+    for (i, j, _) in runs(stands).into_iter().filter(|run| !run.2) {
         for (k, s) in share.iter_mut().enumerate().take(j).skip(i) {
-            let u = ((k + 1 - i).min(j - k) as f64 / (swing::FLIGHT_EDGE * rate_hz)).min(1.0);
+            let since = if i > 0 { k + 1 - i } else { usize::MAX };
+            let until = if j < stands.len() { j - k } else { usize::MAX };
+            let u = (since.min(until) as f64 / (edge * rate_hz)).min(1.0);
             *s = smoothstep(u);
         }
     }
     share
 }
 
+/// From 0 where a foot is planted to 1 inside a flight, per sample. What the motion begins or ends with is none.
+fn in_flight(locked: &[LockedFoot; 2], rate_hz: f64) -> Vec<f64> {
+    let planted = locked[0].planted.iter().zip(&locked[1].planted);
+    let grounded: Vec<bool> = planted.map(|(l, r)| *l || *r).collect();
+    let mut share = off_floor(&grounded, swing::FLIGHT_EDGE, rate_hz);
+    let first = grounded.iter().position(|on| *on);
+    let last = grounded.iter().rposition(|on| *on);
+    share[..first.unwrap_or(grounded.len())].fill(0.0);
+    share[last.unwrap_or(0)..].fill(0.0);
+    share
+}
+
 /// Low-pass of the joints of a leg while it swings: a knee that comes near to straight makes inverse kinematics jump.
 /// Planted legs stay.
 fn smooth_swings(postures: &mut [Posture], side: usize, planted: &[bool], rate_hz: f64) {
-    let leg = [
-        [L_THIGH, L_SHANK, L_FOOT, L_TOES],
-        [R_THIGH, R_SHANK, R_FOOT, R_TOES],
-    ][side];
     // From 0 where the foot is planted to 1 inside a swing.
-    let mut share = vec![0.0; postures.len()];
-    for (i, j, on) in runs(planted) {
-        for (k, s) in share.iter_mut().enumerate().take(j).skip(i) {
-            let since = if i > 0 { k + 1 - i } else { usize::MAX };
-            let until = if j < planted.len() { j - k } else { usize::MAX };
-            let u = (since.min(until) as f64 / (swing::JOINT_EDGE * rate_hz)).min(1.0);
-            *s = if on { 0.0 } else { smoothstep(u) };
-        }
-    }
-    for segment in leg {
+    let share = off_floor(planted, swing::JOINT_EDGE, rate_hz);
+    for segment in leg_segments(side == 0) {
         match JOINT[segment.index()] {
             Joint::Ball(b) => {
                 let mut q: Vec<Quat> = postures.iter().map(|p| p.ball[b]).collect();

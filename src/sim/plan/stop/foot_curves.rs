@@ -55,13 +55,15 @@ pub(super) fn pose(
         landed.map_or(from.feet[1 - side].place, |s| s.place)
     };
     let mine: Vec<&Step> = steps.iter().filter(|s| s.side == side).collect();
-    let pitch = yaw_pitch(from.feet[side].rotation).1;
+    let foot = &from.feet[side];
+    let pitch = yaw_pitch(foot.rotation).1;
+    let lifts = |k: usize| mine.get(k).map_or(f64::INFINITY, |s| s.off);
     let stance = |k: usize| {
-        let off = mine.get(k).map_or(f64::INFINITY, |s| s.off);
+        let off = lifts(k);
         let lifted = |place: Vec3| left_behind(place, other(off), from.heading);
         match k.checked_sub(1) {
             None => {
-                let place = from.feet[side].place;
+                let place = foot.place;
                 let last = if off.is_finite() {
                     lifted(place).min(pitch)
                 } else {
@@ -69,7 +71,7 @@ pub(super) fn pose(
                 };
                 Stance {
                     place,
-                    yaw: from.feet[side].yaw,
+                    yaw: foot.yaw,
                     on: 0.0,
                     off,
                     pitch: [pitch, pitch, last],
@@ -89,31 +91,24 @@ pub(super) fn pose(
             }
         }
     };
-    let begins = |k: usize| mine.get(k).map_or(f64::INFINITY, |s| s.off);
     let k = (0..=mine.len())
-        .find(|k| t <= begins(*k))
+        .find(|k| t <= lifts(*k))
         .unwrap_or(mine.len());
     let under_way = k
         .checked_sub(1)
         .map(|k| (k, mine[k]))
         .filter(|(_, s)| t < s.on);
     let Some((k, step)) = under_way else {
-        if k == 0 && !from.feet[side].down {
-            return (from.feet[side].ankle, from.feet[side].rotation, true);
+        if k == 0 && !foot.down {
+            return (foot.ankle, foot.rotation, true);
         }
         let (ankle, rotation) = stance(k).pose(sole, t);
         return (ankle, rotation, true);
     };
-    let in_air = k == 0 && !from.feet[side].down;
+    let in_air = k == 0 && !foot.down;
     // A foot in the air, and one that lifts at once, goes on as it moves, toe-up as it may be.
     let (start, rotation, velocity, spin) = if in_air || k == 0 && step.off <= 0.0 {
-        let (velocity, spin) = (from.feet[side].velocity, from.feet[side].spin);
-        (
-            from.feet[side].ankle,
-            from.feet[side].rotation,
-            velocity,
-            spin,
-        )
+        (foot.ankle, foot.rotation, foot.velocity, foot.spin)
     } else {
         let (ankle, rotation) = stance(k).pose(sole, step.off);
         (ankle, rotation, Vec3::zero(), Vec3::zero())

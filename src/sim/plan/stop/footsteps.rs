@@ -4,7 +4,8 @@
 //! feet they are brought side by side. Several ways are tried; the one is taken that asks least of a body.
 
 use super::initial_state::InitialState;
-use super::{flat, ground, level, turned};
+use super::turned;
+use crate::sim::body::topology::{FEET, outward};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::rise;
 use crate::sim::math::exp::exp;
@@ -12,18 +13,8 @@ use crate::sim::math::polygon::{Region, hull, margin};
 use crate::sim::math::{Vec3, trig};
 use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::FEET;
 use crate::sim::plan::foot_lock::{FootPlacement, Sole, turn, yaw_pitch};
-use crate::sim::plan::params::stop;
-
-/// A swing that is under way already lasts at least this long, s, and a swinging foot gets no faster than this on the
-/// average, m/s: the ways that are tried, the first one also where both feet are down.
-const SWINGS: [(f64, f64); 4] = [
-    (stop::SWING_REST, stop::FOOT_SPEED),
-    (stop::SWING_REST, stop::FAST_FOOT_SPEED),
-    (stop::LONG_SWING_REST, stop::FOOT_SPEED),
-    (stop::LONGEST_SWING_REST, stop::FOOT_SPEED),
-];
+use crate::sim::plan::params::{common, stop};
 
 /// One step of the end.
 #[derive(Clone, Copy, Debug)]
@@ -36,13 +27,28 @@ pub(super) struct Step {
 }
 
 /// Where the feet are in the plan.
+#[derive(Clone, Copy)]
 pub(super) struct Feet<'a> {
-    pub(super) place: [Vec3; 2],
-    pub(super) yaw: [f64; 2],
-    pub(super) soles: &'a [Sole; 2],
+    place: [Vec3; 2],
+    yaw: [f64; 2],
+    soles: &'a [Sole; 2],
 }
 
-impl Feet<'_> {
+/// Which feet are down while foot `side` swings.
+fn all_but(side: usize) -> [bool; 2] {
+    [side == 1, side == 0]
+}
+
+impl<'a> Feet<'a> {
+    /// As a motion ends.
+    pub(super) fn of(from: &InitialState, soles: &'a [Sole; 2]) -> Self {
+        Self {
+            place: from.feet.map(|f| f.place),
+            yaw: from.feet.map(|f| f.yaw),
+            soles,
+        }
+    }
+
     /// Hull of the soles that are down.
     pub(super) fn support(&self, down: [bool; 2]) -> Vec<[f64; 2]> {
         let mut corners = Vec::new();
@@ -59,7 +65,7 @@ impl Feet<'_> {
     }
 
     fn middle(&self, side: usize) -> Vec3 {
-        self.place[side] + turned(self.yaw[side], Vec3::X * stop::SOLE_MIDDLE)
+        self.place[side] + turned(self.yaw[side], Vec3::X * common::SOLE_MIDDLE)
     }
 }
 
@@ -87,10 +93,7 @@ impl StandingPose {
         };
         Self {
             posture: *posture,
-            home: feet.map(|f| Vec3 {
-                z: 0.0,
-                ..local(f.0)
-            }),
+            home: feet.map(|f| local(f.0).horizontal()),
             yaw: yaws.map(|y| turn(heading, y)),
             mass: local(center_of_mass(body, &poses)),
             pelvis: local(posture.root_position),
@@ -108,8 +111,9 @@ struct StepOptions {
     beyond: f64,
     /// Foot that steps first where both are down; otherwise the one that catches best.
     first: Option<usize>,
-    /// See [`SWINGS`].
+    /// A swing that is under way already lasts at least this long, s.
     rest: f64,
+    /// A swinging foot gets no faster than this on the average, m/s.
     speed: f64,
     /// Turn of the whole, rad.
     turn: f64,
@@ -120,7 +124,13 @@ impl StepOptions {
     ///
     /// * `spare`: the most that should be in hand beyond [`stop::CAUGHT_INSET`], s; `in_air`: a foot is in the air.
     fn all(spare: f64, in_air: bool, turn: f64) -> impl Iterator<Item = Self> {
-        let swings = if in_air { &SWINGS[..] } else { &SWINGS[..1] };
+        let swings = [
+            (stop::SWING_REST, stop::FOOT_SPEED),
+            (stop::SWING_REST, stop::FAST_FOOT_SPEED),
+            (stop::LONG_SWING_REST, stop::FOOT_SPEED),
+            (stop::LONGEST_SWING_REST, stop::FOOT_SPEED),
+        ];
+        let tried = if in_air { swings.len() } else { 1 };
         let hands: &[f64] = if spare > 0.0 {
             &[1.0, 0.5, 0.0]
         } else {
@@ -130,7 +140,8 @@ impl StepOptions {
             { hands.iter() }.flat_map(move |h| [0.0, stop::BEYOND_CAPTURE].map(|b| (h * spare, b)));
         let ways = ways.flat_map(|way| [None, Some(0), Some(1)].map(|first| (way, first)));
         ways.flat_map(move |((spare, beyond), first)| {
-            swings.iter().map(move |&(rest, speed)| Self {
+            let swings = swings.into_iter().take(tried);
+            swings.map(move |(rest, speed)| Self {
                 spare,
                 beyond,
                 first,
@@ -183,19 +194,15 @@ pub(super) fn footsteps(
     let tried = |way: StepOptions| {
         let mut stop = PendulumPlan {
             from,
-            feet: Feet {
-                place: from.feet.map(|f| f.place),
-                yaw: from.feet.map(|f| f.yaw),
-                soles,
-            },
+            feet: Feet::of(from, soles),
             stand,
             leg,
             omega,
             dt: 1.0 / rate_hz,
-            capture: ground(from.com + from.velocity * (1.0 / omega)),
+            capture: (from.com + from.velocity * (1.0 / omega)).horizontal(),
             way,
             steps: Vec::new(),
-            path: vec![ground(from.com)],
+            path: vec![from.com.horizontal()],
         };
         stop.run().then_some(stop)
     };
@@ -232,7 +239,7 @@ impl Support {
         let hull = feet.support(down);
         Self {
             capture: Region::inside(&hull, stop::CAPTURE_INSET),
-            pressure: Region::inside(&hull, stop::ZMP_INSET),
+            pressure: Region::inside(&hull, common::ZMP_INSET),
         }
     }
 }
@@ -259,18 +266,23 @@ impl PendulumPlan<'_> {
     /// Moves on by one sample with the zero-moment point at `p`: ξ̇ = ω (ξ − p), ċ = ω (ξ − c).
     fn advance(&mut self, p: [f64; 2]) {
         let grows = exp(self.omega * self.dt);
-        let p = level(p);
+        let p = Vec3::on_floor(p);
         self.capture = p + (self.capture - p) * grows;
         let c = self.mass();
         self.path.push(c + (self.capture - c) * (1.0 - 1.0 / grows));
     }
 
+    /// The zero-moment point within `support` that drives the capture point to `goal`.
+    fn drive(&self, support: &Support, goal: Vec3) -> [f64; 2] {
+        let off = self.capture - goal;
+        let wanted = self.capture + off * stop::LEAN_GAIN;
+        support.pressure.nearest(wanted.xy())
+    }
+
     /// The zero-moment point within `support` that keeps the capture point there, or slows it down most.
     fn hold(&self, support: &Support) -> [f64; 2] {
-        let off = self.capture - level(support.capture.nearest(flat(self.capture)));
-        support
-            .pressure
-            .nearest(flat(self.capture + off * stop::LEAN_GAIN))
+        let inside = support.capture.nearest(self.capture.xy());
+        self.drive(support, Vec3::on_floor(inside))
     }
 
     /// Stands on both feet for a while.
@@ -285,50 +297,24 @@ impl PendulumPlan<'_> {
     /// sooner if the leg gets no further and the other foot has the capture point.
     fn lean(&mut self, goal: Vec3, next: Option<usize>) {
         let support = Support::of(&self.feet, [true; 2]);
-        let other = next.map(|side| {
-            let mut down = [true; 2];
-            down[side] = false;
-            (self.feet.support(down), self.feet.place[side])
-        });
+        let other = next.map(|side| (self.feet.support(all_but(side)), self.feet.place[side]));
         for _ in 0..(stop::LEAN_TIME / self.dt) as usize {
-            let off = self.capture - goal;
-            if off.norm() < stop::LEAN_SETTLED {
+            if (self.capture - goal).norm() < stop::LEAN_SETTLED {
                 break;
             }
             let leaves = other.as_ref().is_some_and(|(sole, foot)| {
                 (*foot - self.mass()).norm() > stop::STRETCHED * self.leg
-                    && margin(sole, flat(self.capture)) > stop::CAPTURE_INSET
+                    && margin(sole, self.capture.xy()) > stop::CAPTURE_INSET
             });
             if leaves {
                 break;
             }
-            let p = support
-                .pressure
-                .nearest(flat(self.capture + off * stop::LEAN_GAIN));
-            self.advance(p);
+            self.advance(self.drive(&support, goal));
         }
     }
 
-    /// Foot `side` swings for `time` s while the other one carries the body, with the capture point at `goal` when it
-    /// lands if there is one.
-    fn swing(&mut self, side: usize, time: f64, place: Vec3, goal: Option<Vec3>) {
-        let off = self.now();
-        let mut down = [true; 2];
-        down[side] = false;
-        let support = Support::of(&self.feet, down);
-        let count = ((time / self.dt).round() as usize).max(1);
-        for left in (1..=count).rev() {
-            let p = match goal {
-                Some(goal) => {
-                    // ξ(t) = p + (ξ − p) e^{ωt}, solved for p.
-                    let grows = exp(self.omega * self.dt * left as f64);
-                    let p = (self.capture * grows - goal) * (1.0 / (grows - 1.0));
-                    support.pressure.nearest(flat(p))
-                }
-                None => self.hold(&support),
-            };
-            self.advance(p);
-        }
+    /// Foot `side`, which left the floor at time `off` (s), lands at `place`.
+    fn put(&mut self, side: usize, off: f64, place: Vec3) {
         self.steps.push(Step {
             side,
             off,
@@ -339,15 +325,34 @@ impl PendulumPlan<'_> {
         self.feet.yaw[side] = self.yaw(side);
     }
 
+    /// Foot `side` swings for `time` s while the other one carries the body, with the capture point at `goal` when it
+    /// lands if there is one.
+    fn swing(&mut self, side: usize, time: f64, place: Vec3, goal: Option<Vec3>) {
+        let off = self.now();
+        let support = Support::of(&self.feet, all_but(side));
+        let count = ((time / self.dt).round() as usize).max(1);
+        for left in (1..=count).rev() {
+            let p = match goal {
+                Some(goal) => {
+                    // ξ(t) = p + (ξ − p) e^{ωt}, solved for p.
+                    let grows = exp(self.omega * self.dt * left as f64);
+                    let p = (self.capture * grows - goal) * (1.0 / (grows - 1.0));
+                    support.pressure.nearest(p.xy())
+                }
+                None => self.hold(&support),
+            };
+            self.advance(p);
+        }
+        self.put(side, off, place);
+    }
+
     /// When and where foot `side` should land to catch the body: as soon as it gets there without hurry.
     ///
     /// * `ankle`: where it is; `least`: shortest time.
     ///
     /// Returns time, place, and how far inside the feet the capture point will be then, m.
     fn capture_step(&self, side: usize, ankle: Vec3, least: f64) -> (f64, Vec3, f64) {
-        let mut down = [true; 2];
-        down[side] = false;
-        let p = level(self.hold(&Support::of(&self.feet, down)));
+        let p = Vec3::on_floor(self.hold(&Support::of(&self.feet, all_but(side))));
         let away = self.capture - p;
         let landing = |time: f64| p + away * exp(self.omega * time);
         // Where it moves, more than it needs: a body stops less well than a pendulum.
@@ -368,14 +373,10 @@ impl PendulumPlan<'_> {
             time += stop::SWING_STEP;
         }
         let (_, time, place) = best;
-        let mut feet = Feet {
-            place: self.feet.place,
-            yaw: self.feet.yaw,
-            soles: self.feet.soles,
-        };
+        let mut feet = self.feet;
         feet.place[side] = place;
         feet.yaw[side] = self.yaw(side);
-        let inside = margin(&feet.support([true; 2]), flat(landing(time)));
+        let inside = margin(&feet.support([true; 2]), landing(time).xy());
         (time, place, inside)
     }
 
@@ -385,42 +386,27 @@ impl PendulumPlan<'_> {
         let heading = self.heading();
         let stance = self.feet.place[1 - side];
         let local = turned(-heading, wanted - stance);
-        let outward = if side == 0 { 1.0 } else { -1.0 };
+        let outward = outward(side);
         let apart = (self.stand.home[0].y - self.stand.home[1].y).abs();
         let (far, wide) = (stop::STEP_LENGTH * self.leg, stop::STEP_WIDTH * self.leg);
-        let x = (local.x - stop::SOLE_MIDDLE).clamp(-far, far);
+        let x = (local.x - common::SOLE_MIDDLE).clamp(-far, far);
         // Far before or behind the other foot there is room to cross.
         let room = ((x.abs() - stop::CROSS_BEGINS) / (stop::CROSS_ENDS - stop::CROSS_BEGINS))
             .clamp(0.0, 1.0);
         let closest = stop::LEAST_WIDTH * apart * (1.0 - room) - stop::MOST_CROSS * room;
-        let mut place = Vec3 {
-            x,
-            y: (local.y * outward).clamp(closest, wide.max(apart)) * outward,
-            z: 0.0,
-        };
-        if place.x.abs() < stop::STEP_LEVEL {
-            place.x = 0.0;
-        }
-        Vec3 {
-            z: 0.0,
-            ..stance + turned(heading, place)
-        }
+        let y = (local.y * outward).clamp(closest, wide.max(apart)) * outward;
+        let x = if x.abs() < stop::STEP_LEVEL { 0.0 } else { x };
+        (stance + turned(heading, Vec3::on_floor([x, y]))).horizontal()
     }
 
     /// Where foot `side` belongs beside the other one.
     fn beside(&self, side: usize) -> Vec3 {
-        let d = turned(
-            self.heading(),
-            self.stand.home[side] - self.stand.home[1 - side],
-        );
-        Vec3 {
-            z: 0.0,
-            ..self.feet.place[1 - side] + d
-        }
+        let way = self.stand.home[side] - self.stand.home[1 - side];
+        (self.feet.place[1 - side] + turned(self.heading(), way)).horizontal()
     }
 
     fn is_home(&self, side: usize) -> bool {
-        (self.feet.place[side] - self.beside(side)).norm() < stop::HOME_DISTANCE
+        (self.feet.place[side] - self.beside(side)).norm() < common::MISPLACED_BY
             && turn(self.feet.yaw[side], self.yaw(side)).abs() < stop::HOME_ANGLE
     }
 
@@ -435,7 +421,7 @@ impl PendulumPlan<'_> {
         let falls: f64 = self.path.windows(3).map(fall).sum();
         let hops = |w: &&[Step]| w[0].side == w[1].side && w[1].on - w[1].off < stop::CLOSING_TIME;
         let hops = self.steps.windows(2).filter(hops).count() as f64;
-        let mut at = [0, 1].map(|s| (ground(self.from.feet[s].ankle), self.from.feet[s].yaw));
+        let mut at = [0, 1].map(|s| (self.from.feet[s].ankle.horizontal(), self.from.feet[s].yaw));
         let mut hurry = 0.0;
         for s in &self.steps {
             let (place, yaw) = at[s.side];
@@ -452,7 +438,7 @@ impl PendulumPlan<'_> {
     fn is_caught(&self) -> bool {
         let away = self.capture - self.mass();
         let speed = self.omega * away.level();
-        margin(&self.feet.support([true; 2]), flat(self.capture))
+        margin(&self.feet.support([true; 2]), self.capture.xy())
             > stop::CAUGHT_INSET + self.way.spare * speed
     }
 
@@ -463,7 +449,7 @@ impl PendulumPlan<'_> {
         let drop = (from.com.z - (self.stand.mass.z - stop::LANDING_DROP)).max(0.0);
         let time = ((fall + (fall * fall + 2.0 * GRAVITY * drop).sqrt()) / GRAVITY)
             .clamp(2.0 * self.dt, stop::LONGEST_FLIGHT);
-        let velocity = ground(from.velocity);
+        let velocity = from.velocity.horizontal();
         for _ in 0..(time / self.dt).round() as usize {
             let c = self.mass() + velocity * self.dt;
             self.path.push(c);
@@ -476,14 +462,7 @@ impl PendulumPlan<'_> {
             .min(0.5 * stop::STEP_LENGTH * self.leg);
         let ahead = (self.capture - c).normalized_or(Vec3::X) * reach;
         let place = c + ahead + turned(self.heading(), Vec3::Y * self.stand.home[side].y);
-        self.steps.push(Step {
-            side,
-            off: 0.0,
-            on: self.now(),
-            place,
-        });
-        self.feet.place[side] = place;
-        self.feet.yaw[side] = self.yaw(side);
+        self.put(side, 0.0, place);
         side
     }
 
@@ -543,7 +522,7 @@ impl PendulumPlan<'_> {
         }
         let middle = (self.feet.place[0] + self.feet.place[1]) * 0.5;
         let stands = middle + turned(self.heading(), self.stand.mass);
-        self.lean(ground(stands), None);
+        self.lean(stands.horizontal(), None);
         self.both(stop::REST_TIME);
     }
 

@@ -1,7 +1,6 @@
 //! What an end starts from: where the last samples of a motion have the body, and how it moves.
 
 use super::footsteps::Feet;
-use super::{flat, ground};
 use crate::sim::body::topology::NV;
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::polygon::margin;
@@ -93,7 +92,7 @@ impl InitialState {
                 velocity: moved(&|i| draft.ankle[s][i]),
                 rotation,
                 spin: turned_by(&|i| draft.foot[s][i]),
-                place: ground(place),
+                place: place.horizontal(),
                 yaw,
                 down: down[s],
                 since,
@@ -117,20 +116,15 @@ impl InitialState {
 
     /// True if it is not at rest: what ends here would end in motion.
     pub(super) fn moves(&self) -> bool {
-        let v = self.pelvis_velocity;
-        v.level() > stop::MOVING_SPEED
+        self.pelvis_velocity.level() > stop::MOVING_SPEED
     }
 
     /// True if a body could stop here without a step.
     pub(super) fn stands(&self, soles: &[Sole; 2], omega: f64) -> bool {
-        let feet = Feet {
-            place: self.feet.map(|f| f.place),
-            yaw: self.feet.map(|f| f.yaw),
-            soles,
-        };
+        let feet = Feet::of(self, soles);
         let capture = self.com + self.velocity * (1.0 / omega);
         self.velocity.level() < stop::STANDING_SPEED
             && self.down() == [true; 2]
-            && margin(&feet.support(self.down()), flat(capture)) > stop::STANDING_MARGIN
+            && margin(&feet.support(self.down()), capture.xy()) > stop::STANDING_MARGIN
     }
 }

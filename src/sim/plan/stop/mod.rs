@@ -11,7 +11,7 @@ mod initial_state;
 
 use super::foot_lock::Sole;
 use super::prepare::Draft;
-use crate::sim::body::topology::NV;
+use crate::sim::body::topology::{FEET, NV};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::{min_jerk, smootherstep};
 use crate::sim::math::exp::exp;
@@ -19,30 +19,12 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::builtin::at_ease;
 use crate::sim::motion::filter::low_pass_points;
 use crate::sim::motion::leg_ik::{forward, knee_axis};
-use crate::sim::plan::FEET;
-use crate::sim::plan::params::{stance, stop};
+use crate::sim::plan::params::{pelvis, stance, stop};
 use footsteps::{Footsteps, StandingPose, footsteps, frequency};
 use initial_state::InitialState;
 
 fn turned(yaw: f64, v: Vec3) -> Vec3 {
     Quat::exp(Vec3::Z * yaw).rotate(v)
-}
-
-/// The same point on the floor.
-fn ground(v: Vec3) -> Vec3 {
-    Vec3 { z: 0.0, ..v }
-}
-
-fn level(p: [f64; 2]) -> Vec3 {
-    Vec3 {
-        x: p[0],
-        y: p[1],
-        z: 0.0,
-    }
-}
-
-fn flat(v: Vec3) -> [f64; 2] {
-    [v.x, v.y]
 }
 
 /// How a motion is to end.
@@ -74,7 +56,7 @@ fn steps_to_stand(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Opt
     };
     // A body that sits or lies is not led to a stand; one that squats stands on its feet.
     let stands = from.stands(&soles, frequency(&from, &stand));
-    if !stands && from.posture.root_position.z < stop::UPRIGHT * body.standing_root_height() {
+    if !stands && from.posture.root_position.z < pelvis::UPRIGHT * body.standing_root_height() {
         return None;
     }
     if stands && matches!(goal, Goal::AtRest) {
@@ -114,8 +96,8 @@ fn along_footsteps(
     // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
     let mut path = found.path.clone();
     low_pass_points(&mut path, stop::PATH_CUTOFF, rate);
-    let offset = ground(from.posture.root_position - from.com);
-    let end_offset = turned(found.heading, ground(stand.pelvis - stand.mass));
+    let offset = (from.posture.root_position - from.com).horizontal();
+    let end_offset = turned(found.heading, (stand.pelvis - stand.mass).horizontal());
     let mut out = Draft::empty(rate);
     for i in 1..path.len() {
         let t = i as f64 / rate;
@@ -231,37 +213,36 @@ impl Draft {
 
     /// Appends an end, if there is one. Returns how many samples that is.
     fn go_on(&mut self, end: Option<Self>) -> usize {
-        let count = end.as_ref().map_or(0, |e| e.postures.len());
-        if let Some(end) = end {
-            self.append(end);
-        }
-        count
-    }
-
-    fn append(&mut self, more: Self) {
-        self.postures.extend(more.postures);
-        self.label.extend(more.label);
-        let parts = more.knee_axis.into_iter().zip(more.ankle).zip(more.foot);
+        let Some(end) = end else {
+            return 0;
+        };
+        let count = end.postures.len();
+        self.postures.extend(end.postures);
+        self.label.extend(end.label);
+        let parts = end.knee_axis.into_iter().zip(end.ankle).zip(end.foot);
         for (s, ((axis, ankle), foot)) in parts.enumerate() {
             self.knee_axis[s].extend(axis);
             self.ankle[s].extend(ankle);
             self.foot[s].extend(foot);
         }
+        count
+    }
+
+    fn end(&mut self, body: &Body, goal: Goal<'_>, spare: f64) -> usize {
+        self.put_down();
+        let after = steps_to_stand(body, self, goal, spare);
+        self.go_on(after)
     }
 
     /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns how many
     /// samples it took.
     pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
-        self.put_down();
-        let after = steps_to_stand(body, self, Goal::Like(goal), 0.0);
-        self.go_on(after)
+        self.end(body, Goal::Like(goal), 0.0)
     }
 
     /// The same, but to rest in just that posture, however little that takes.
     pub fn end_at_rest(&mut self, body: &Body, goal: &Posture) -> usize {
-        self.put_down();
-        let after = steps_to_stand(body, self, Goal::Rest(goal), 0.0);
-        self.go_on(after)
+        self.end(body, Goal::Rest(goal), 0.0)
     }
 
     /// Continues a draft of whole postures to a stand, wherever that is. Returns how many samples it took; none if it
@@ -270,14 +251,8 @@ impl Draft {
     /// * `given`: the moment is given, or the motion poorly known: more is kept in hand than for a moment that was
     ///   chosen for being easy.
     pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
-        self.put_down();
-        let after = steps_to_stand(
-            body,
-            self,
-            Goal::Stand,
-            if given { stop::SPARE_TIME } else { 0.0 },
-        );
-        self.go_on(after)
+        let spare = if given { stop::SPARE_TIME } else { 0.0 };
+        self.end(body, Goal::Stand, spare)
     }
 
     /// Continues a draft of whole postures to a stand and lets it begin from one, where it does not stand, sit or lie
@@ -286,9 +261,7 @@ impl Draft {
         self.put_down();
         let after = steps_to_stand(body, self, Goal::AtRest, stop::SPARE_TIME);
         self.reverse();
-        self.put_down();
-        let before = steps_to_stand(body, self, Goal::Origin, stop::SPARE_TIME);
-        let before = self.go_on(before);
+        let before = self.end(body, Goal::Origin, stop::SPARE_TIME);
         self.reverse();
         (before, self.go_on(after))
     }

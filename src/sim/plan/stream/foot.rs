@@ -3,12 +3,11 @@
 use super::{H, RATE, is_sample};
 use crate::sim::math::curve::{fall, quintic, smoothstep_to};
 use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::plan::foot_lock::{FootOffset, FootPlacement, FootPose, Sole};
+use crate::sim::plan::foot_lock::{FootOffset, FootPlacement, FootPose, Sole, swing_toe};
+use crate::sim::plan::least_without;
 use crate::sim::plan::params::{contact, pitch, stance, swing};
 use serde::{Deserialize, Serialize};
 
-/// A foot that has stood for less than this is not taken off the floor again, samples.
-const SHORTEST: i64 = (stance::SHORTEST * RATE) as i64;
 /// Samples that labels are kept for.
 const KEPT: usize = 192;
 /// Stances that are kept.
@@ -112,23 +111,34 @@ fn stance_pitch(raw: f64, age: i64, rolled: bool) -> f64 {
 pub fn risen(sole: &Sole, at: &FootPlacement, lacks: &impl Fn(Vec3) -> f64) -> f64 {
     let left = |rise: f64| lacks(sole.stand(at.place, at.yaw, at.pitch - rise).ankle);
     let most = pitch::MOST_RISE.min(at.pitch.min(0.0) - contact::LEAST_PITCH);
-    let (mut low, mut high) = (0.0, most);
-    if left(low) <= 0.0 || most <= 0.0 || left(high) >= left(low) {
+    if left(0.0) <= 0.0 || most <= 0.0 || left(most) >= left(0.0) {
         return at.pitch;
     }
-    for _ in 0..pitch::RISE_HALVINGS {
-        let middle = 0.5 * (low + high);
-        if left(middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    at.pitch - high
+    at.pitch - least_without(most, pitch::RISE_HALVINGS, |rise| left(rise) > 0.0)
 }
 
-fn swing_toe(pitch: f64) -> f64 {
-    (-pitch).clamp(0.0, swing::MOST_TOE)
+impl Stance {
+    /// One from sample `start` on, of which nothing else is known.
+    fn since(start: i64) -> Self {
+        Self {
+            start,
+            end: i64::MAX,
+            place: Vec3::zero(),
+            yaw: 0.0,
+            settled: false,
+            rolled: false,
+        }
+    }
+
+    /// Where the foot stands in sample `j`, if it is pitched by `raw` (rad) as it came.
+    fn at(&self, j: i64, raw: f64) -> FootPlacement {
+        FootPlacement {
+            tip: 0.0,
+            place: self.place,
+            yaw: self.yaw,
+            pitch: stance_pitch(raw, j - self.start, self.rolled),
+        }
+    }
 }
 
 impl Foot {
@@ -149,12 +159,8 @@ impl Foot {
     /// A foot of which nothing is known.
     pub fn new() -> Self {
         let none = Stance {
-            start: 0,
             end: 0,
-            place: Vec3::zero(),
-            yaw: 0.0,
-            settled: false,
-            rolled: false,
+            ..Stance::since(0)
         };
         Self {
             on: [false; KEPT],
@@ -314,10 +320,12 @@ impl Foot {
         {
             return None;
         }
+        // A foot that has stood for less is not taken off the floor again.
+        let least = (stance::SHORTEST * RATE) as i64;
         let wanted = j - self.strayed - stance::STREAM_SHUFFLE / 2;
         let first = wanted
             .max(self.posed + stance::STREAM_NOTICE)
-            .max(st.start + SHORTEST)
+            .max(st.start + least)
             .min(j);
         let from = (first..j).rev().take_while(|i| carried(*i)).last();
         let from = from.unwrap_or(j);
@@ -331,14 +339,6 @@ impl Foot {
 
     /// A stance from sample `start` on, placed by what is known up to `last`: where the foot moves least.
     fn estimate(&self, start: i64, last: i64, standing: &impl Fn(i64) -> Standing) -> Stance {
-        let mut out = Stance {
-            start,
-            end: i64::MAX,
-            place: Vec3::zero(),
-            yaw: 0.0,
-            settled: false,
-            rolled: false,
-        };
         let first = standing(start);
         let (mut sum, mut place, mut yaw) = (0.0, Vec3::zero(), 0.0);
         for i in start..=last.min(start + stance::STREAM_AVERAGED).max(start) {
@@ -352,20 +352,17 @@ impl Foot {
             place += (s.place - first.place) * w;
             yaw += trig::wrapped(s.yaw - first.yaw) * w;
         }
-        out.place = first.place + place * (1.0 / sum);
-        out.yaw = first.yaw + yaw / sum;
-        out
+        Stance {
+            place: first.place + place * (1.0 / sum),
+            yaw: first.yaw + yaw / sum,
+            ..Stance::since(start)
+        }
     }
 
     /// Where it stands in sample `j`; `None` if it does not.
     pub fn anchor(&self, j: i64, standing: impl Fn(i64) -> Standing) -> Option<FootPlacement> {
         let st = &self.stances[self.stance_at(j)?];
-        Some(FootPlacement {
-            tip: 0.0,
-            place: st.place,
-            yaw: st.yaw,
-            pitch: stance_pitch(standing(j).pitch, j - st.start, st.rolled),
-        })
+        Some(st.at(j, standing(j).pitch))
     }
 
     /// First sample after `f` in which it stands, with that stance: settled up to sample `labelled`, as it seems up to
@@ -420,22 +417,13 @@ impl Foot {
             }
             let st = &mut self.stances[k];
             st.rolled |= now.pitch < pitch::DEAD_BAND;
-            let at = FootPlacement {
-                tip: 0.0,
-                place: st.place,
-                yaw: st.yaw,
-                pitch: stance_pitch(now.pitch, f - st.start, st.rolled),
-            };
+            let at = st.at(f, now.pitch);
             let pose = sole.stand(at.place, at.yaw, risen(sole, &at, &lacks));
             let o = pose.offset_from(&recorded);
-            let o0 = self.offset[0];
-            self.offset = if self.posed >= 0 {
-                let v: FootOffset = std::array::from_fn(|c| (o[c] - o0[c]) / H);
-                // Differences of differences would lead the swing astray.
-                [o, v, [0.0; 7]]
-            } else {
-                [o, [0.0; 7], [0.0; 7]]
-            };
+            let o0 = if self.posed >= 0 { self.offset[0] } else { o };
+            let v: FootOffset = std::array::from_fn(|c| (o[c] - o0[c]) / H);
+            // Differences of differences would lead the swing astray.
+            self.offset = [o, v, [0.0; 7]];
             self.posed = f;
             self.coming = None;
             return Posed {

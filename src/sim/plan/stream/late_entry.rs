@@ -6,7 +6,7 @@ use crate::sim::body::Posture;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::plan::likeness::Seam;
 use crate::sim::plan::motion_transition::StreamEntry;
-use crate::sim::plan::params::{stop, stream, transition};
+use crate::sim::plan::params::{pelvis, stop, stream, transition};
 use std::sync::Arc;
 
 impl StreamPlan {
@@ -29,9 +29,9 @@ impl StreamPlan {
             return false;
         };
         let [p, q] = [a, b].map(|r| center_of_mass(&self.body, &forward(&self.body, &r.posture)));
-        let (x, y) = (q.x - p.x, q.y - p.y);
-        let upright = a.posture.root_position.z > stop::UPRIGHT * self.body.standing_root_height();
-        upright && (x * x + y * y).sqrt() * RATE > stop::STANDING_SPEED * after as f64
+        let upright =
+            a.posture.root_position.z > pelvis::UPRIGHT * self.body.standing_root_height();
+        upright && (q - p).level() * RATE > stop::STANDING_SPEED * after as f64
     }
 
     /// The same stream, begun by a way into it from a stand: of the samples that wait, the first `lead` ones, the way,

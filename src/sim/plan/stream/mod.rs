@@ -19,7 +19,7 @@ mod whole_body;
 
 use super::ankle_torque_limit::AnkleTorqueLimit;
 use super::foot_lock::{FootPose, Sole};
-use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
+use crate::sim::body::topology::{FEET, NV, SEGMENT_COUNT, TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::math::curve::smootherstep;
 use crate::sim::math::exp::exp;
@@ -27,7 +27,7 @@ use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::clip::{Knot, PlanarTransform, between};
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::motion::target::Target;
-use crate::sim::plan::params::{contact, stream, transition};
+use crate::sim::plan::params::{contact, pelvis, stream, transition};
 use foot::Foot;
 pub use foot::Stance;
 use receding_horizon::Balance;
@@ -45,8 +45,6 @@ pub const WINDOW: (f64, f64) = (stream::SHORTEST_WINDOW, stream::LONGEST_WINDOW)
 /// Most stances of a foot that are known at a time.
 pub const MOST_STANCES: usize = foot::STANCES + 1;
 const H: f64 = 1.0 / RATE;
-/// The shortest window, samples.
-const SHORTEST_WINDOW: i64 = (WINDOW.0 * RATE) as i64;
 
 /// Samples between the newest one and the one that is labelled.
 const LABEL: i64 = stream::SMOOTH + 1 + contact::STREAM_STEADY;
@@ -116,11 +114,6 @@ struct Built {
 
 impl Sample {
     fn new(posture: &Posture, poses: [(Vec3, Quat); SEGMENT_COUNT]) -> Self {
-        let still = FootPose {
-            ankle: Vec3::zero(),
-            rotation: Quat::identity(),
-            toe: 0.0,
-        };
         Self {
             raw: *posture,
             received: Received {
@@ -138,7 +131,7 @@ impl Sample {
                 momentum: Vec3::zero(),
             },
             trust: 1.0,
-            feet: [still; 2],
+            feet: [FootPose::default(); 2],
             down: [false; 2],
             lift: [0.0; 2],
             drop: 0.0,
@@ -240,7 +233,7 @@ impl StreamPlan {
             ankle_limit: AnkleTorqueLimit::new(&body),
             timing: Timing {
                 window,
-                ahead: stream::POSED + (window - SHORTEST_WINDOW).min(stream::FORESEEN),
+                ahead: stream::POSED + (window - (WINDOW.0 * RATE) as i64).min(stream::FORESEEN),
                 weights,
             },
             input: Input {
@@ -473,10 +466,10 @@ impl StreamPlan {
         let poses = forward(&self.body, &raw);
         let mut sample = Sample::new(&raw, poses);
         let own = forward(&self.body, &given);
-        sample.received.points = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)].map(|(foot, toes)| {
-            let tip = self.soles[usize::from(foot == R_FOOT)].toe_tip();
-            let (at, q) = own[toes.index()];
-            [own[foot.index()].0, at, at + q.rotate(tip)]
+        sample.received.points = [0, 1].map(|side| {
+            let (at, q) = own[TOES[side].index()];
+            let tip = self.soles[side].toe_tip();
+            [own[FEET[side].index()].0, at, at + q.rotate(tip)]
         });
         sample.received.planted = planted;
         sample.received.broken = broken;
@@ -540,7 +533,7 @@ impl StreamPlan {
         let s = self.at_mut(i);
         (s.poses, s.com) = (poses, com);
         s.feet = std::array::from_fn(|k| {
-            let (ankle, rotation) = poses[[L_FOOT, R_FOOT][k].index()];
+            let (ankle, rotation) = poses[FEET[k].index()];
             FootPose {
                 ankle,
                 rotation,
@@ -578,7 +571,7 @@ impl StreamPlan {
     /// Settles which feet stand in sample `j`; `last` is the newest one that was looked at.
     fn label(&mut self, j: i64, last: i64) {
         let upright =
-            self.at(j).smooth.root_position.z > contact::SEATED * self.body.standing_root_height();
+            self.at(j).smooth.root_position.z > pelvis::SEATED * self.body.standing_root_height();
         for side in 0..2 {
             let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
             let other = &self.feet[1 - side];
@@ -592,7 +585,7 @@ impl StreamPlan {
 
     /// Place, heading and pitch of a foot of a smoothed sample, and how fast its place moves, m/s.
     fn standing(&self, side: usize, i: i64) -> foot::Standing {
-        let pose = |i: i64| self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
+        let pose = |i: i64| self.at(i).poses[FEET[side].index()];
         let [before, at] = [i - 1, i].map(|i| self.soles[side].footing(pose(i)));
         foot::Standing {
             place: at.place,

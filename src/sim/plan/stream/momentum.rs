@@ -11,7 +11,7 @@ use crate::sim::motion::GRAVITY;
 use crate::sim::motion::leg_ik::{center_of_mass, forward};
 use crate::sim::plan::ankle_torque_limit::Over;
 use crate::sim::plan::params::balance;
-use crate::sim::plan::pelvis_shift::zero_moment_point;
+use crate::sim::plan::pelvis_shift::{lasts_outside, pendulum_omega2, zero_moment_point};
 
 impl StreamPlan {
     /// Angular momentum of sample `i` by central differences.
@@ -42,20 +42,13 @@ impl StreamPlan {
     /// How far the zero-moment point of sample `j` is from where the feet could have it, as it came.
     pub(super) fn balance(&mut self, j: i64) {
         let (mut balanced, load) = self.balanced(j, |s| (s.com, s.momentum));
-        let inside = balanced.support.map(|s| s.nearest(balanced.zmp));
-        let way = inside.map_or([0.0; 2], |p| {
-            [p[0] - balanced.zmp[0], p[1] - balanced.zmp[1]]
-        });
+        let way = balanced.way_inside();
         // About a second: peaks of gait, which go there and back, are corrected, a chair is not.
         for (lasting, way) in self.balance.lasting.iter_mut().zip(way) {
             *lasting += (way - *lasting) * (1.0 - exp(-H));
         }
-        let [x, y] = self.balance.lasting;
-        let far = (x * x + y * y).sqrt();
-        let u = ((far - balance::OTHER_SUPPORT_BEGINS * balance::OTHER_SUPPORT)
-            / (balance::OTHER_SUPPORT_RANGE * balance::OTHER_SUPPORT))
-            .clamp(0.0, 1.0);
-        let trust = 1.0 - smoothstep(u);
+        let far = Vec3::on_floor(self.balance.lasting).level();
+        let trust = 1.0 - smoothstep(lasts_outside(far));
         self.at_mut(j).trust = trust;
         balanced.weight = trust * load * load;
         self.balance.horizon.push(balanced);
@@ -69,17 +62,16 @@ impl StreamPlan {
         let rate = (at(j + 1).1 - at(j - 1).1) * (0.5 * RATE);
         let mass: f64 = self.body.segments.iter().map(|s| s.mass).sum();
         let load = 1.0 + acc.z / GRAVITY;
-        let omega2 = ((GRAVITY + acc.z) / b.z.max(balance::LEAST_HEIGHT))
-            .clamp(balance::LEAST_OMEGA2, balance::MOST_OMEGA2);
+        let omega2 = pendulum_omega2(b.z, acc.z);
         let heading = self.at(j).smooth.root_rotation.heading();
-        let mut balanced = Balanced::new([b.x, b.y], omega2, heading);
+        let mut balanced = Balanced::new(b.xy(), omega2, heading);
         if load > balance::LEAST_LOAD && j >= 2 {
             let force = (acc + Vec3::Z * GRAVITY) * mass;
             let z = zero_moment_point(b, (force, rate));
             let way = (c - a) * (0.25 * RATE);
             let over = Over {
                 height: b.z,
-                speed: (way.x * way.x + way.y * way.y).sqrt(),
+                speed: way.level(),
                 lean: [b.x - z[0], b.y - z[1]],
                 load: None,
             };
@@ -111,12 +103,7 @@ impl StreamPlan {
         let com = center_of_mass(&self.body, &poses);
         let s = self.at_mut(i);
         s.built.poses = poses;
-        s.built.com = com
-            - Vec3 {
-                x: shift[0],
-                y: shift[1],
-                z: 0.0,
-            };
+        s.built.com = com - Vec3::on_floor(shift);
         let before = |k: i64| &self.at(i - k).built.poses;
         let sum = self.spin([before(2), before(1), before(0)]);
         if i < 4 {

@@ -43,16 +43,17 @@ impl Balanced {
         }
     }
 
-    /// The way from the zero-moment point as it came into the support, as far as that counts, m.
-    fn lacks(&self) -> [f64; 2] {
+    /// The way from the zero-moment point as it came into the support, m.
+    pub fn way_inside(&self) -> [f64; 2] {
         let inside = self.support.as_ref().map(|s| s.nearest(self.zmp));
-        let way = |k: usize| {
-            inside.map_or(0.0, |p| {
-                (p[k] - self.zmp[k])
-                    .clamp(-balance::STREAM_MOST_OUTSIDE, balance::STREAM_MOST_OUTSIDE)
-            })
-        };
-        std::array::from_fn(|k| self.weight * way(k))
+        inside.map_or([0.0; 2], |p| std::array::from_fn(|k| p[k] - self.zmp[k]))
+    }
+
+    /// The same as far as it counts, m.
+    fn lacks(&self) -> [f64; 2] {
+        let most = balance::STREAM_MOST_OUTSIDE;
+        self.way_inside()
+            .map(|way| self.weight * way.clamp(-most, most))
     }
 
     /// The same sample known better.
@@ -72,9 +73,9 @@ impl Balanced {
         let v: [f64; 2] = std::array::from_fn(|k| zmp[k] + self.debt[k]);
         let inside = self.support.as_ref().map_or(v, |s| s.nearest(v));
         let share = self.weight / (self.weight + 1.0);
+        let most = balance::STREAM_MOST_OUTSIDE;
         for k in 0..2 {
-            let way = (inside[k] - v[k])
-                .clamp(-balance::STREAM_MOST_OUTSIDE, balance::STREAM_MOST_OUTSIDE);
+            let way = (inside[k] - v[k]).clamp(-most, most);
             self.goal[k] = v[k] + share * way;
             self.debt[k] = v[k] - self.goal[k];
         }

@@ -2,7 +2,7 @@
 
 use super::{RATE, is_sample};
 use crate::sim::body::Posture;
-use crate::sim::plan::params::stream;
+use crate::sim::plan::params::{common, stream};
 use serde::{Deserialize, Serialize};
 
 /// True if nothing moved between two postures.
@@ -54,7 +54,7 @@ impl RepeatedSamples {
     pub(super) fn breaks_off(&self) -> bool {
         let [x, y] = self.velocity;
         self.repeated >= (stream::REPEATED_TIME * RATE) as i64
-            && x * x + y * y > stream::MOVING_SPEED * stream::MOVING_SPEED
+            && x * x + y * y > common::REST_SPEED * common::REST_SPEED
     }
 }
 

@@ -78,7 +78,7 @@ fn planted_feet_do_not_slide_and_the_motion_is_its_own_derivative() {
             );
         }
         let poses = forward(&body, &pair[1].posture);
-        for (side, foot) in [L_FOOT, R_FOOT].into_iter().enumerate() {
+        for (side, foot) in FEET.into_iter().enumerate() {
             let (ankle, rotation) = poses[foot.index()];
             let at = Sole::new(&body, side).footing((ankle, rotation)).place;
             if !pair[1].planted[side] {
@@ -221,7 +221,7 @@ fn standing_with(body: &Body, feet: [(f64, f64, f64); 2]) -> Posture {
     p.root_position.z -= 0.03;
     let poses = forward(body, &at_ease(body));
     for (side, (up, yaw, pitch)) in feet.into_iter().enumerate() {
-        let (ankle, rotation) = poses[[L_FOOT, R_FOOT][side].index()];
+        let (ankle, rotation) = poses[FEET[side].index()];
         let to = Quat::exp(Vec3::Z * yaw) * rotation * Quat::exp(Vec3::Y * -pitch);
         solve_leg(body, &mut p, side == 0, (ankle + Vec3::Z * up, to), 0.0);
     }
@@ -255,8 +255,8 @@ fn feet_that_turn_on_the_floor_are_set_down_anew_one_after_the_other() {
         assert!(out.iter().all(|t| t.planted != [false; 2]), "{window} s");
         assert!(lifted(0) > 5, "{window} s: {}", lifted(0));
         assert_eq!(lifted(1) > 5, both, "{window} s: {}", lifted(1));
-        let end = forward(&body, &out[out.len() - 1].posture)[L_FOOT.index()].1;
-        let off = end.heading() - forward(&body, &turning(399))[L_FOOT.index()].1.heading();
+        let end = forward(&body, &out[out.len() - 1].posture)[FEET[0].index()].1;
+        let off = end.heading() - forward(&body, &turning(399))[FEET[0].index()].1.heading();
         assert!(off.abs() < 0.45, "{window} s: {off}");
     }
 }

@@ -5,9 +5,10 @@ use super::foot::{self, Foot};
 use super::{H, Sample, StreamPlan};
 use crate::sim::body::Posture;
 use crate::sim::body::angles::clamp_to_limits;
-use crate::sim::body::topology::{L_FOOT, L_THIGH, R_FOOT, R_THIGH};
+use crate::sim::body::topology::FEET;
 use crate::sim::math::Vec3;
 use crate::sim::motion::leg_ik::{knee_axis, solve_leg_in_plane};
+use crate::sim::plan::leg_reach::{leg_geometry, room_above};
 use crate::sim::plan::params::{balance, leg};
 use serde::{Deserialize, Serialize};
 
@@ -41,7 +42,7 @@ impl StreamPlan {
         for side in 0..2 {
             let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
             let sole = &self.soles[side];
-            let raw = |i: i64| self.at(i).poses[[L_FOOT, R_FOOT][side].index()];
+            let raw = |i: i64| self.at(i).poses[FEET[side].index()];
             let standing = |i: i64| self.standing(side, i);
             let lacks = |ankle: Vec3| self.lacks(f, side, ankle);
             let posed = foot.pose(sole, f, (labelled, seen), raw, standing, lacks);
@@ -73,11 +74,9 @@ impl StreamPlan {
     /// Hip of a side in sample `i` without the lowering of the pelvis, m, and how far its ankle may be from it, m.
     fn hip(&self, i: i64, side: usize) -> (Vec3, f64) {
         let s = self.at(i);
-        let t = [L_THIGH, R_THIGH][side].index();
-        let length = self.body.leg_length(side);
-        let [x, y] = self.planned(i).map(|d| balance::PELVIS_LEAD * d);
-        let shift = Vec3 { x, y, z: 0.0 };
-        let offset = s.smooth.root_rotation.rotate(self.body.joint_offset[t]);
+        let (hip, length) = leg_geometry(&self.body, side);
+        let shift = Vec3::on_floor(self.planned(i).map(|d| balance::PELVIS_LEAD * d));
+        let offset = s.smooth.root_rotation.rotate(hip);
         (s.smooth.root_position + offset + shift, leg::REACH * length)
     }
 
@@ -99,18 +98,8 @@ impl StreamPlan {
         let of = |side: usize| {
             let (ankle, down) = ankle(s, side);
             let (hip, most) = self.hip(i, side);
-            let d = hip - ankle;
-            let along = (d.x * d.x + d.y * d.y).sqrt();
-            let height = (most * most - along * along)
-                .max(leg::LEAST_HEIGHT2 * most * most)
-                .sqrt();
-            let need = (height - d.z).min(0.0);
-            if down {
-                need
-            } else {
-                need.max(-leg::SWING_DROP)
-                    * ((leg::SWING_FAR - along / most) / leg::SWING_FAR_RANGE).clamp(0.0, 1.0)
-            }
+            let room = room_above(hip - ankle, most, down);
+            if room > 0.0 { 0.0 } else { room }
         };
         of(0).min(of(1))
     }
