@@ -11,6 +11,9 @@ const MAGIC: &[u8; 5] = b"SINEW";
 /// Magic, kind, format, checksum.
 const HEAD: usize = MAGIC.len() + 1 + 4 + 4;
 
+/// Extension of a file that is being written.
+const UNFINISHED: &str = "new";
+
 /// What the disk said about a file.
 pub(super) fn io_error(path: &Path, error: &std::io::Error) -> StoreError {
     let place = path.display();
@@ -53,7 +56,7 @@ pub(super) fn sync_directory(dir: &Path) -> Result<(), StoreError> {
 /// # Errors
 /// It could not be written; what was there before is still there.
 pub(super) fn write(path: &Path, kind: u8, format: u32, bytes: &[u8]) -> Result<(), StoreError> {
-    let fresh = path.with_extension("new");
+    let fresh = path.with_extension(UNFINISHED);
     let written = File::create(&fresh).and_then(|mut file| {
         file.write_all(&framed(kind, format, bytes))?;
         file.sync_all()?;
@@ -66,13 +69,14 @@ pub(super) fn write(path: &Path, kind: u8, format: u32, bytes: &[u8]) -> Result<
     sync_directory(path.parent().unwrap_or(Path::new(".")))
 }
 
-/// Reads a file whole.
+/// Reads a file whole. One that cannot be read is as lost as a damaged one, and no reason to do without the others.
 ///
 /// # Errors
-/// It cannot be read, is damaged, of another kind, or of a later format.
+/// It is damaged, of another kind, or of a later format.
 pub(super) fn read(path: &Path, kind: u8, format: u32) -> Result<Vec<u8>, StoreError> {
-    let mut bytes = std::fs::read(path).map_err(|e| io_error(path, &e))?;
     let damaged = |why: &str| StoreError::Damaged(format!("{}: {why}", path.display()));
+    let read = std::fs::read(path);
+    let mut bytes = read.map_err(|e| damaged(&format!("it cannot be read: {e}")))?;
     let head = bytes
         .first_chunk::<HEAD>()
         .ok_or_else(|| damaged("the file is cut off"))?;
@@ -96,6 +100,12 @@ pub(super) fn read(path: &Path, kind: u8, format: u32) -> Result<Vec<u8>, StoreE
     }
     bytes.drain(..HEAD);
     Ok(bytes)
+}
+
+/// Whether there is something of this name, be it readable or not.
+pub(super) fn is_there(path: &Path) -> bool {
+    let looked = path.symlink_metadata();
+    !looked.is_err_and(|e| e.kind() == ErrorKind::NotFound)
 }
 
 /// Removes a file; one that is not there is removed already.
@@ -122,15 +132,34 @@ pub(super) fn rename(from: &Path, to: &Path) -> Result<(), StoreError> {
     }
 }
 
+/// Removes what a process has left that ended while it wrote files of this directory. What cannot be removed is told,
+/// and stays: nobody reads it.
+///
+/// # Errors
+/// The directory cannot be read.
+pub(super) fn remove_unfinished(dir: &Path) -> Result<(), StoreError> {
+    for path in list(dir, UNFINISHED)? {
+        if let Err(error) = remove(&path) {
+            let path = path.display();
+            tracing::warn!(%path, %error, "half a file is not removed");
+        }
+    }
+    Ok(())
+}
+
 /// Files of a directory with an extension, by name.
 ///
 /// # Errors
 /// The directory cannot be read.
 pub(super) fn list(dir: &Path, extension: &str) -> Result<Vec<PathBuf>, StoreError> {
-    let entries = std::fs::read_dir(dir).map_err(|e| io_error(dir, &e))?;
+    let unreadable = |e: std::io::Error| StoreError::Directory {
+        path: dir.to_owned(),
+        why: format!("the directory cannot be read: {e}"),
+    };
+    let entries = std::fs::read_dir(dir).map_err(unreadable)?;
     let mut out = Vec::new();
     for entry in entries {
-        let path = entry.map_err(|e| io_error(dir, &e))?.path();
+        let path = entry.map_err(unreadable)?.path();
         if path.extension().is_some_and(|e| e == extension) {
             out.push(path);
         }

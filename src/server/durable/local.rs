@@ -4,38 +4,29 @@
 //! world exists, one earlier state of it, a clip, its content. What is written all the time is in one log
 //! ([`Log`](super::log::Log)), because one `fsync` then serves all worlds.
 
-use super::files::{self, Packed, Unpacked};
-use super::log::Log;
+use super::files;
+use super::log::{Log, set_aside};
 use super::marks::Marks;
+use super::records::{self, ClipFile};
 use super::store::{
-    CheckpointStore, ClipRecord, Durability, Entry, Found, History, Loss, RehearsalRecord,
-    Retention, StoreError, Usage, WorldKey, WorldRecord,
+    CheckpointStore, ClipRecord, Entry, Found, History, Loss, RehearsalRecord, Remedy, Retention,
+    StoreError, Usage, WorldKey, WorldRecord,
 };
-use bytes::Bytes;
 use sha2::{Digest, Sha256};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::fs::{File, TryLockError};
 use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
-/// Format of the directory.
-const FORMAT: u32 = 1;
 /// Age at which the earlier state of a world, which is kept beside the log in case that is lost, is written anew.
 const STATE_EVERY: Duration = Duration::from_secs(60);
 /// States that are written in one go, so that commits do not wait for long.
 const STATES_AT_ONCE: usize = 2;
 
-// Kinds of files.
-const DIRECTORY: u8 = b'D';
-const WORLD: u8 = b'W';
-const STATE: u8 = b'S';
-const CLIP: u8 = b'C';
-const CONTENT: u8 = b'M';
-const REHEARSAL: u8 = b'R';
-const END: u8 = b'E';
-
+/// Folders of a data directory.
+const FOLDERS: [&str; 5] = ["", "worlds", "clips", "contents", "rehearsals"];
 /// Extension of the file of a world that is being deleted.
 const GONE: &str = "gone";
 
@@ -50,46 +41,6 @@ pub struct LastEnd {
     pub damage: Vec<String>,
 }
 
-/// How far the log went: its last row, and that of each world. Rows of worlds that rest are followed by those of
-/// others, so that the last one alone would not tell.
-struct EndNote {
-    end: i64,
-    worlds: BTreeMap<WorldKey, i64>,
-}
-
-impl EndNote {
-    /// Checksum, length, rows.
-    fn to_bytes(&self) -> Vec<u8> {
-        let mut rest = Vec::with_capacity(12 + 16 * self.worlds.len());
-        rest.extend_from_slice(&(self.worlds.len() as u32).to_le_bytes());
-        rest.extend_from_slice(&self.end.to_le_bytes());
-        for (world, id) in &self.worlds {
-            rest.extend_from_slice(&world.0.to_le_bytes());
-            rest.extend_from_slice(&id.to_le_bytes());
-        }
-        let sum = crc32fast::hash(&rest).to_le_bytes();
-        [&sum[..], &rest].concat()
-    }
-
-    /// `None`: it is not what was written, as after a power cut.
-    fn read(bytes: &[u8]) -> Option<Self> {
-        let (sum, rest) = bytes.split_first_chunk::<4>()?;
-        let count = u32::from_le_bytes(*rest.first_chunk::<4>()?) as usize;
-        // What is behind it is from a time with more worlds.
-        let rest = rest.get(..count.checked_mul(16)?.checked_add(12)?)?;
-        if crc32fast::hash(rest).to_le_bytes() != *sum {
-            return None;
-        }
-        let (rows, _) = rest[12..].as_chunks::<16>();
-        let number = |bytes: &[u8]| u64::from_le_bytes(bytes.try_into().expect("eight bytes"));
-        let row = |r: &[u8; 16]| (WorldKey(number(&r[..8])), number(&r[8..]) as i64);
-        Some(Self {
-            end: number(&rest[4..12]) as i64,
-            worlds: rows.iter().map(row).collect(),
-        })
-    }
-}
-
 /// A directory with worlds and clips. It is locked as long as this lives.
 pub struct LocalStore {
     dir: PathBuf,
@@ -97,8 +48,8 @@ pub struct LocalStore {
     marks: Arc<Marks>,
     last_end: LastEnd,
     last_key: u64,
-    /// When and at which tick the earlier states were written.
-    states: HashMap<WorldKey, (Instant, u64)>,
+    /// When each earlier state was looked at last, and the tick of the one that is there.
+    states: HashMap<WorldKey, (Instant, Option<u64>)>,
     /// Held for its lock.
     _lock: File,
 }
@@ -109,11 +60,7 @@ impl LocalStore {
     /// # Errors
     /// A later version has written it, or it is damaged.
     pub fn check_format(dir: &Path) -> Result<(), StoreError> {
-        let format = dir.join("format");
-        match files::read(&format, DIRECTORY, FORMAT) {
-            Err(StoreError::Io(_)) if !format.exists() => Ok(()),
-            other => other.map(|_| ()),
-        }
+        records::check_format(&dir.join("format"))
     }
 
     /// Opens a directory, or makes one, and locks it.
@@ -121,43 +68,18 @@ impl LocalStore {
     /// # Errors
     /// It is no directory or cannot be written to, another server uses it, or a later version has written it.
     pub fn open(dir: &Path) -> Result<Self, StoreError> {
-        let unusable = |why: String| StoreError::Directory {
-            path: dir.to_owned(),
-            why,
-        };
-        if dir.exists() && !dir.is_dir() {
-            return Err(unusable("data_dir must be a directory".to_owned()));
-        }
-        for sub in ["", "worlds", "clips", "contents", "rehearsals"] {
-            std::fs::create_dir_all(dir.join(sub))
-                .map_err(|e| unusable(format!("the directory cannot be made: {e}")))?;
-        }
+        make(dir)?;
         let lock = lock(dir)?;
         Self::check_format(dir)?;
         let format = dir.join("format");
-        if !format.exists() {
-            files::write(&format, DIRECTORY, FORMAT, b"worlds and clips of sinew")?;
+        if !files::is_there(&format) {
+            records::write_format(&format)?;
         }
-        let mut last_end = LastEnd::default();
-        let end = dir.join("end");
-        let fresh = !dir.join("log.sqlite").exists();
-        last_end.orderly = fresh || files::read(&end, END, FORMAT).is_ok();
-        files::remove(&end)?;
-        let marks = Marks::open(&dir.join("stepping"))?;
-        if !last_end.orderly {
-            last_end.stepping = marks.found().to_vec();
+        for folder in FOLDERS {
+            files::remove_unfinished(&dir.join(folder))?;
         }
-        let log = match Log::open(&dir.join("log.sqlite")) {
-            Err(StoreError::Damaged(why)) => {
-                let aside = set_aside(dir)?;
-                last_end.damage.push(format!(
-                    "{why}; it is kept in {}, worlds come back from their earlier states",
-                    aside.display()
-                ));
-                Log::open(&dir.join("log.sqlite"))?
-            }
-            log => log?,
-        };
+        let (marks, mut last_end) = take_last_end(dir)?;
+        let log = open_log(dir, &mut last_end)?;
         let mut store = Self {
             dir: dir.to_owned(),
             log,
@@ -167,9 +89,6 @@ impl LocalStore {
             states: HashMap::new(),
             _lock: lock,
         };
-        if let Some(missing) = store.missing_end() {
-            store.last_end.damage.push(missing);
-        }
         store.finish_deletions()?;
         Ok(store)
     }
@@ -185,7 +104,7 @@ impl LocalStore {
     }
 
     fn world_path(&self, key: WorldKey, extension: &str) -> PathBuf {
-        self.dir.join("worlds").join(format!("{key}.{extension}"))
+        world_path(&self.dir, key, extension)
     }
 
     fn clip_path(&self, name: &str) -> PathBuf {
@@ -196,24 +115,6 @@ impl LocalStore {
     fn rehearsal_path(&self, clip: &str, figure: &str) -> PathBuf {
         let file = format!("{}-{}.rehearsal", file_name(clip), file_name(figure));
         self.dir.join("rehearsals").join(file)
-    }
-
-    fn read_rehearsal(path: &Path) -> Result<RehearsalRecord, StoreError> {
-        let bytes = files::read(path, REHEARSAL, FORMAT).map_err(|e| match e {
-            StoreError::Damaged(why) => {
-                StoreError::Damaged(format!("{why}: a clip has to be rehearsed again"))
-            }
-            other => other,
-        })?;
-        let mut fields = Unpacked(&bytes);
-        (|| {
-            Some(RehearsalRecord {
-                clip: fields.text()?.to_owned(),
-                figure: fields.text()?.to_owned(),
-                content: Bytes::copy_from_slice(fields.bytes()?),
-            })
-        })()
-        .ok_or_else(|| StoreError::Damaged(format!("{}: fields are missing", path.display())))
     }
 
     /// Forgets the rehearsals of a clip, damaged ones too.
@@ -233,71 +134,36 @@ impl LocalStore {
         self.dir.join("contents").join(name)
     }
 
-    /// Notes how far the log goes, without waiting for the disk: after a power cut the note may be behind the log,
-    /// never before it.
-    fn note_end(&self) -> Result<(), StoreError> {
-        let path = self.dir.join("log.end");
-        let note = EndNote {
-            end: self.log.end(),
-            worlds: self.log.ends().clone(),
-        };
-        let note = note.to_bytes();
-        let written = File::options()
-            .write(true)
-            .create(true)
-            .truncate(false)
-            .open(&path)
-            .and_then(|mut f| f.write_all(&note));
-        written.map_err(|e| files::io_error(&path, &e))
-    }
-
-    /// What a log that ends before its note has lost: SQLite leaves damaged ends of its write-ahead log out silently.
-    /// Whether worlds end before theirs shows when they are read.
-    fn missing_end(&mut self) -> Option<String> {
-        let note = std::fs::read(self.dir.join("log.end")).ok()?;
-        let note = EndNote::read(&note)?;
-        // A log that was begun anew has nothing of what was noted.
-        if !self.last_end.damage.is_empty() {
-            return None;
+    /// Writes states beside the log, in case the log is lost: so what fails here is told, and nothing else.
+    fn write_states(&mut self, worlds: impl IntoIterator<Item = WorldKey>) {
+        for world in worlds {
+            if let Err(error) = self.write_state(world) {
+                tracing::warn!(%world, %error, "the earlier state of a world is not written");
+            }
         }
-        // Rows of worlds that were deleted since are not missing: the note is written with commits only.
-        let there = |w: &WorldKey| self.world_path(*w, "world").exists();
-        let ends = note.worlds.iter().filter(|(w, _)| there(w));
-        let end = ends.map(|(_, id)| *id).max().unwrap_or(0);
-        self.log.expect(note.worlds);
-        (self.log.end() < end).then(|| {
-            format!(
-                "{}: the last {} rows of worlds are missing: the log is damaged",
-                self.dir.join("log.sqlite").display(),
-                end - self.log.end()
-            )
-        })
     }
 
-    /// Writes states beside the log, in case the log is lost.
-    fn write_states(&mut self) -> Result<(), StoreError> {
-        let mut worlds: Vec<WorldKey> = self.log.worlds().collect();
-        worlds.retain(|w| {
+    /// Worlds whose earlier states are old, some at a time.
+    fn states_due(&self) -> Vec<WorldKey> {
+        let due = |w: &WorldKey| {
             let state = self.states.get(w);
             state.is_none_or(|(at, _)| at.elapsed() >= STATE_EVERY)
-        });
-        for world in worlds.into_iter().take(STATES_AT_ONCE) {
-            self.write_state(world)?;
-        }
-        Ok(())
+        };
+        let worlds = self.log.worlds().filter(due);
+        worlds.take(STATES_AT_ONCE).collect()
     }
 
     fn write_state(&mut self, world: WorldKey) -> Result<(), StoreError> {
-        let written = self.states.get(&world).map(|(_, tick)| *tick);
+        let written = self.states.get(&world).and_then(|(_, tick)| *tick);
+        // Also if it fails: the others have their turns before it is tried again.
+        self.states.insert(world, (Instant::now(), written));
         let checkpoint = self.log.checkpoint(world)?;
-        let tick = checkpoint.as_ref().map_or(0, |c| c.0);
         if let Some((tick, bytes)) = checkpoint
             && written != Some(tick)
         {
-            let packed = Packed::default().bytes(&tick.to_le_bytes()).bytes(&bytes);
-            files::write(&self.world_path(world, "state"), STATE, FORMAT, &packed.0)?;
+            records::write_state(&self.world_path(world, "state"), tick, &bytes)?;
+            self.states.insert(world, (Instant::now(), Some(tick)));
         }
-        self.states.insert(world, (Instant::now(), tick));
         Ok(())
     }
 
@@ -309,80 +175,76 @@ impl LocalStore {
         files::remove(&self.world_path(key, GONE))
     }
 
-    /// Ends deletions that the process before this one has begun.
+    /// Ends deletions that the process before this one has begun. What cannot be deleted now is left to the next start:
+    /// a world that is marked as gone does not come back.
     fn finish_deletions(&mut self) -> Result<(), StoreError> {
         for path in files::list(&self.dir.join("worlds"), GONE)? {
-            let key = path.file_stem().and_then(|k| k.to_str());
-            if let Some(key) = key.and_then(WorldKey::parse) {
-                self.finish_deletion(key)?;
+            if let Some(key) = key_of(&path)
+                && let Err(error) = self.finish_deletion(key)
+            {
+                tracing::warn!(world = %key, %error, "what is left of a deleted world is not removed");
             }
         }
         Ok(())
     }
 
-    /// The state beside the log.
-    fn state(&self, world: WorldKey) -> Result<(u64, Bytes), StoreError> {
-        let path = self.world_path(world, "state");
-        let bytes = files::read(&path, STATE, FORMAT)?;
-        let mut fields = Unpacked(&bytes);
-        let tick = fields.bytes().and_then(|t| t.try_into().ok());
-        tick.map(u64::from_le_bytes)
-            .zip(fields.bytes())
-            .map(|(tick, bytes)| (tick, Bytes::copy_from_slice(bytes)))
-            .ok_or_else(|| StoreError::Damaged(format!("{}: fields are missing", path.display())))
-    }
-
-    fn read_world(path: &Path) -> Result<WorldRecord, StoreError> {
-        let bytes = files::read(path, WORLD, FORMAT)?;
-        let mut fields = Unpacked(&bytes);
-        (|| {
-            Some(WorldRecord {
-                key: WorldKey(u64::from_le_bytes(fields.bytes()?.try_into().ok()?)),
-                name: fields.text()?.to_owned(),
-                durability: Durability::by_name(fields.text()?)?,
-                quarantined: Some(fields.text()?.to_owned()).filter(|why| !why.is_empty()),
-                settings: Bytes::copy_from_slice(fields.bytes()?),
-            })
-        })()
-        .ok_or_else(|| StoreError::Damaged(format!("{}: fields are missing", path.display())))
+    /// A world by its file.
+    fn read_world(&self, path: &Path) -> Result<WorldRecord, StoreError> {
+        let world = records::read_world(path)?;
+        if *path != self.world_path(world.key, "world") {
+            // A copy, perhaps: of one number there are not two worlds.
+            let (path, key) = (path.display(), world.key);
+            return Err(StoreError::Damaged(format!(
+                "{path}: it is not called by its number, {key}"
+            )));
+        }
+        Ok(world)
     }
 
     fn read_clip(&self, path: &Path) -> Result<ClipRecord, StoreError> {
-        let bytes = files::read(path, CLIP, FORMAT)?;
-        let mut fields = Unpacked(&bytes);
-        let damaged = |why: &str| StoreError::Damaged(format!("{}: {why}", path.display()));
-        let (name, description, hash) =
-            (|| Some((fields.text()?, fields.bytes()?, fields.bytes()?)))()
-                .ok_or_else(|| damaged("fields are missing"))?;
-        let content = files::read(&self.content_path(hash), CONTENT, FORMAT);
-        let content = content.map_err(|e| damaged(&format!("clip {name:?} is lost: {e}")))?;
-        if Sha256::digest(&content)[..] != *hash {
-            return Err(damaged(&format!(
-                "clip {name:?} is lost: its content is another one"
-            )));
+        let ClipFile {
+            name,
+            description,
+            hash,
+        } = records::read_clip(path)?;
+        let lost = |why: &str| {
+            let path = path.display();
+            StoreError::Damaged(format!("{path}: clip {name:?} is lost: {why}"))
+        };
+        let content = records::read_content(&self.content_path(&hash));
+        let content = content.map_err(|e| lost(&e.to_string()))?;
+        if Sha256::digest(&content)[..] != hash {
+            return Err(lost("its content is another one"));
         }
         Ok(ClipRecord {
-            name: name.to_owned(),
-            description: Bytes::copy_from_slice(description),
+            name,
+            description,
             content: content.into(),
         })
     }
 
     /// Contents that clips refer to.
     fn contents(&self) -> Result<Vec<PathBuf>, StoreError> {
-        let mut used = Vec::new();
-        for path in files::list(&self.dir.join("clips"), "clip")? {
-            let bytes = files::read(&path, CLIP, FORMAT)?;
-            let mut fields = Unpacked(&bytes);
-            let hash = (|| {
-                fields.bytes()?;
-                fields.bytes()?;
-                fields.bytes()
-            })();
-            used.extend(hash.map(|h| self.content_path(h)));
-        }
-        Ok(used)
+        let clips = files::list(&self.dir.join("clips"), "clip")?;
+        let content = |path: &PathBuf| Ok(self.content_path(&records::read_clip(path)?.hash));
+        clips.iter().map(content).collect()
     }
+
+    /// From now on entries of this world are taken, and its number is not given again.
+    fn know(&mut self, world: WorldKey) {
+        self.last_key = self.last_key.max(world.0);
+        self.log.know(world);
+    }
+}
+
+fn world_path(dir: &Path, key: WorldKey, extension: &str) -> PathBuf {
+    dir.join("worlds").join(format!("{key}.{extension}"))
+}
+
+/// The number of the world that a file is called by.
+fn key_of(path: &Path) -> Option<WorldKey> {
+    let key = path.file_stem().and_then(|k| k.to_str());
+    key.and_then(WorldKey::parse)
 }
 
 /// What the file of something is called: names are as long as clients like, and of their letters.
@@ -390,6 +252,8 @@ fn file_name(name: &str) -> String {
     hex::encode(&Sha256::digest(name)[..16])
 }
 
+/// Reads files. One that is damaged or cannot be read is named and stays where it is: it may be readable another time,
+/// and a clip that is there keeps its content from being deleted.
 fn found<T>(
     paths: Vec<PathBuf>,
     read: impl Fn(&Path) -> Result<T, StoreError>,
@@ -406,6 +270,22 @@ fn found<T>(
         }
     }
     Ok(out)
+}
+
+/// Makes a directory and its folders, unless they are there.
+fn make(dir: &Path) -> Result<(), StoreError> {
+    let unusable = |why: String| StoreError::Directory {
+        path: dir.to_owned(),
+        why,
+    };
+    if dir.exists() && !dir.is_dir() {
+        return Err(unusable("data_dir must be a directory".to_owned()));
+    }
+    for folder in FOLDERS {
+        std::fs::create_dir_all(dir.join(folder))
+            .map_err(|e| unusable(format!("the directory cannot be made: {e}")))?;
+    }
+    Ok(())
 }
 
 fn lock(dir: &Path) -> Result<File, StoreError> {
@@ -438,26 +318,63 @@ fn lock(dir: &Path) -> Result<File, StoreError> {
     Ok(lock)
 }
 
-/// Moves a damaged log out of the way, where it can be looked at.
-fn set_aside(dir: &Path) -> Result<PathBuf, StoreError> {
-    let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
-    let aside = dir.join(format!("damaged-{}", since.unwrap_or_default().as_millis()));
-    std::fs::create_dir_all(&aside).map_err(|e| files::io_error(&aside, &e))?;
-    for name in ["log.sqlite", "log.sqlite-wal", "log.sqlite-shm"] {
-        let from = dir.join(name);
-        if from.exists() {
-            std::fs::rename(&from, aside.join(name)).map_err(|e| files::io_error(&from, &e))?;
+/// How the server before this one ended. Notes of that are gone afterwards: from here on an end is not orderly.
+fn take_last_end(dir: &Path) -> Result<(Marks, LastEnd), StoreError> {
+    let end = dir.join("end");
+    let fresh = !dir.join("log.sqlite").exists();
+    let orderly = fresh || records::is_end(&end);
+    files::remove(&end)?;
+    let marks = Marks::open(&dir.join("stepping"))?;
+    let mut last_end = LastEnd {
+        orderly,
+        ..LastEnd::default()
+    };
+    if !orderly {
+        last_end.stepping = marks.found().to_vec();
+    }
+    Ok((marks, last_end))
+}
+
+/// Opens the log, or begins another one if it is damaged as a whole.
+fn open_log(dir: &Path, last_end: &mut LastEnd) -> Result<Log, StoreError> {
+    let path = dir.join("log.sqlite");
+    let is_there = |w: WorldKey| files::is_there(&world_path(dir, w, "world"));
+    let mut before = None;
+    loop {
+        let opened = Log::open(&path).and_then(|mut log| {
+            let damage = log.compare_with_note(is_there)?;
+            Ok((log, damage))
+        });
+        let error = match opened {
+            Ok((log, damage)) => {
+                last_end.damage.extend(damage);
+                return Ok(log);
+            }
+            Err(error) => error,
+        };
+        match error.remedy(before.as_ref()) {
+            Remedy::Retry => before = Some(error),
+            Remedy::NewLog => {
+                let aside = set_aside(&path)?.display().to_string();
+                last_end.damage.push(format!(
+                    "{error}; it is kept in {aside}, worlds come back from their earlier states"
+                ));
+                // It has nothing of what was noted beside the old one.
+                return Log::open(&path);
+            }
+            Remedy::Free | Remedy::Pause => return Err(error),
         }
     }
-    files::sync_directory(dir)?;
-    Ok(aside)
 }
 
 impl CheckpointStore for LocalStore {
     fn worlds(&mut self) -> Result<Found<WorldRecord>, StoreError> {
         let paths = files::list(&self.dir.join("worlds"), "world")?;
-        let mut out = found(paths.clone(), Self::read_world)?;
-        out.whole.iter().for_each(|w| self.log.know(w.key));
+        let mut out = found(paths.clone(), |path| self.read_world(path))?;
+        out.whole.iter().for_each(|w| self.know(w.key));
+        // The numbers of damaged ones are taken, too.
+        let taken = paths.iter().filter_map(|p| key_of(p)).map(|k| k.0).max();
+        self.last_key = self.last_key.max(taken.unwrap_or(0));
         // A world of which only the log knows: its own file is gone. One whose file is damaged is named already.
         for key in self.log.worlds() {
             let path = self.world_path(key, "world");
@@ -473,24 +390,13 @@ impl CheckpointStore for LocalStore {
         let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
         let now = u64::try_from(since.unwrap_or_default().as_micros()).unwrap_or(0);
         let known = self.log.worlds().map(|w| w.0).max().unwrap_or(0);
-        self.last_key = now.max(self.last_key + 1).max(known + 1);
+        self.last_key = now.max(self.last_key.max(known).saturating_add(1));
         WorldKey(self.last_key)
     }
 
     fn put_world(&mut self, world: &WorldRecord) -> Result<(), StoreError> {
-        self.log.know(world.key);
-        let packed = Packed::default()
-            .bytes(&world.key.0.to_le_bytes())
-            .bytes(world.name.as_bytes())
-            .bytes(world.durability.name().as_bytes())
-            .bytes(world.quarantined.as_deref().unwrap_or("").as_bytes())
-            .bytes(&world.settings);
-        files::write(
-            &self.world_path(world.key, "world"),
-            WORLD,
-            FORMAT,
-            &packed.0,
-        )
+        self.know(world.key);
+        records::write_world(&self.world_path(world.key, "world"), world)
     }
 
     fn delete_world(&mut self, key: WorldKey) -> Result<(), StoreError> {
@@ -503,8 +409,7 @@ impl CheckpointStore for LocalStore {
     }
 
     fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {
-        self.log.commit(entries)?;
-        self.note_end()
+        self.log.commit(entries)
     }
 
     fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<History>, StoreError> {
@@ -513,8 +418,11 @@ impl CheckpointStore for LocalStore {
             if history.checkpoint.is_some() {
                 continue;
             }
-            // A world that has just been created has neither.
-            match self.state(*world) {
+            let path = self.world_path(*world, "state");
+            if !files::is_there(&path) {
+                continue; // a world that has just been created has neither
+            }
+            match records::read_state(&path) {
                 Ok((tick, bytes)) => {
                     history.losses.push(Loss {
                         after_tick: Some(tick),
@@ -526,7 +434,6 @@ impl CheckpointStore for LocalStore {
                     after_tick: None,
                     why,
                 }),
-                Err(StoreError::Io(_)) => {}
                 Err(error) => return Err(error),
             }
         }
@@ -544,37 +451,24 @@ impl CheckpointStore for LocalStore {
 
     fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError> {
         let usage = self.log.cut(limits)?;
-        self.write_states()?;
+        self.write_states(self.states_due());
         Ok(usage)
     }
 
-    fn repair(&mut self, fault: &StoreError) -> Result<Option<String>, StoreError> {
-        match fault {
-            StoreError::Full(_) => {
-                // The copy of the write-ahead log to where its pages belong frees it for new rows.
-                self.log.shrink()?;
-                let nothing = Retention {
-                    age: Duration::ZERO,
-                    world_bytes: 0,
-                    total_bytes: 0,
-                };
-                while self.log.cut(&nothing)?.unswept {}
-                self.log.shrink()?;
+    fn repair(&mut self, remedy: Remedy) -> Result<Option<String>, StoreError> {
+        match remedy {
+            Remedy::Free => {
+                self.log.free()?;
                 Ok(Some("the oldest history is given up".to_owned()))
             }
-            StoreError::Damaged(_) | StoreError::Io(_) => {
-                // Closed first: SQLite removes files by their names when it closes.
-                self.log.close();
-                let aside = set_aside(&self.dir)?;
-                let mut log = Log::open(&self.dir.join("log.sqlite"))?;
-                self.log.known().for_each(|world| log.know(world));
-                self.log = log;
+            Remedy::NewLog => {
+                let aside = self.log.begin_anew()?;
                 Ok(Some(format!(
                     "a new log is begun; the old one is kept in {}",
                     aside.display()
                 )))
             }
-            _ => Ok(None),
+            Remedy::Retry | Remedy::Pause => Ok(None),
         }
     }
 
@@ -588,33 +482,36 @@ impl CheckpointStore for LocalStore {
         let hash = Sha256::digest(&clip.content);
         let content = self.content_path(&hash);
         // What is there may be damaged: it is not taken for the same.
-        if files::read(&content, CONTENT, FORMAT).is_ok_and(|there| there == clip.content) {
+        if records::read_content(&content).is_ok_and(|there| there == clip.content) {
             tracing::debug!(
                 clip = clip.name,
                 "the content of the clip is stored already"
             );
         } else {
-            files::write(&content, CONTENT, FORMAT, &clip.content)?;
+            records::write_content(&content, &clip.content)?;
         }
-        let packed = Packed::default()
-            .bytes(clip.name.as_bytes())
-            .bytes(&clip.description)
-            .bytes(&hash);
-        files::write(&self.clip_path(&clip.name), CLIP, FORMAT, &packed.0)
+        let file = ClipFile {
+            name: clip.name.clone(),
+            description: clip.description.clone(),
+            hash: hash.to_vec(),
+        };
+        records::write_clip(&self.clip_path(&clip.name), &file)
     }
 
     fn rehearsals(&mut self) -> Result<Found<RehearsalRecord>, StoreError> {
         let paths = files::list(&self.dir.join("rehearsals"), "rehearsal")?;
-        found(paths, Self::read_rehearsal)
+        found(paths, |path| {
+            records::read_rehearsal(path).map_err(|e| match e {
+                StoreError::Damaged(why) => {
+                    StoreError::Damaged(format!("{why}: a clip has to be rehearsed again"))
+                }
+                other => other,
+            })
+        })
     }
 
     fn put_rehearsal(&mut self, r: &RehearsalRecord) -> Result<(), StoreError> {
-        let packed = Packed::default()
-            .bytes(r.clip.as_bytes())
-            .bytes(r.figure.as_bytes())
-            .bytes(&r.content);
-        let path = self.rehearsal_path(&r.clip, &r.figure);
-        files::write(&path, REHEARSAL, FORMAT, &packed.0)
+        records::write_rehearsal(&self.rehearsal_path(&r.clip, &r.figure), r)
     }
 
     fn delete_rehearsal(&mut self, clip: &str, figure: &str) -> Result<(), StoreError> {
@@ -638,12 +535,10 @@ impl CheckpointStore for LocalStore {
 
     fn close(&mut self) -> Result<(), StoreError> {
         let worlds: Vec<WorldKey> = self.log.worlds().collect();
-        for world in worlds {
-            self.write_state(world)?;
-        }
+        self.write_states(worlds);
         self.log.shrink()?;
         self.marks.clear_all()?;
-        files::write(&self.dir.join("end"), END, FORMAT, b"in good order")
+        records::write_end(&self.dir.join("end"))
     }
 }
 

@@ -41,7 +41,7 @@ impl Marks {
     /// Opens the file, reads what is noted in it, and clears it.
     ///
     /// # Errors
-    /// It cannot be read or written.
+    /// It cannot be opened or written.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         let failed = |e: std::io::Error| io_error(path, &e);
         let mut file = File::options()
@@ -52,7 +52,11 @@ impl Marks {
             .open(path)
             .map_err(failed)?;
         let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes).map_err(failed)?;
+        if let Err(error) = file.read_to_end(&mut bytes) {
+            // The next crash tells again; no world stays away for that.
+            let path = path.display();
+            tracing::warn!(%path, %error, "which worlds were being stepped is not known");
+        }
         let noted = |s: &[u8; SLOT]| {
             let number = |at: usize| u64::from_le_bytes(s[at..at + 8].try_into().expect("eight"));
             let (world, tick) = (WorldKey(number(0)), number(8));

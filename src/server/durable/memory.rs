@@ -3,9 +3,9 @@
 
 use super::store::{
     CheckpointStore, ClipRecord, Entry, Found, History, Item, Logged, Loss, RehearsalRecord,
-    Retention, StoreError, Usage, WorldKey, WorldRecord,
+    Remedy, Retention, StoreError, Usage, WorldKey, WorldRecord,
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -20,6 +20,10 @@ struct Content {
     rehearsals: BTreeMap<(String, String), RehearsalRecord>,
     log: Vec<Entry>,
     fault: Option<StoreError>,
+    /// What the next commits say, the first one first.
+    next_faults: VecDeque<StoreError>,
+    /// What was done about faults.
+    remedies: Vec<Remedy>,
     commit_time: Duration,
     commits: u64,
     last_key: u64,
@@ -34,6 +38,16 @@ impl Disk {
     /// Lets every write fail from now on, or none.
     pub fn fail(&self, fault: Option<StoreError>) {
         self.content().fault = fault;
+    }
+
+    /// Lets only the next commits fail, each with one of these.
+    pub fn fail_next(&self, faults: &[StoreError]) {
+        self.content().next_faults.extend(faults.iter().cloned());
+    }
+
+    /// What was done about faults so far.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        self.content().remedies.clone()
     }
 
     /// How long each commit takes.
@@ -130,6 +144,9 @@ impl CheckpointStore for MemoryStore {
         {
             std::thread::park_timeout(left);
         }
+        if let Some(fault) = self.0.content().next_faults.pop_front() {
+            return Err(fault);
+        }
         let mut content = self.writable()?;
         content.log.extend_from_slice(entries);
         content.commits += 1;
@@ -163,7 +180,8 @@ impl CheckpointStore for MemoryStore {
         })
     }
 
-    fn repair(&mut self, _fault: &StoreError) -> Result<Option<String>, StoreError> {
+    fn repair(&mut self, remedy: Remedy) -> Result<Option<String>, StoreError> {
+        self.0.content().remedies.push(remedy);
         Ok(None)
     }
 

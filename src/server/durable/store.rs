@@ -246,6 +246,9 @@ pub enum StoreError {
     /// The disk takes no writes.
     #[error("{0}: the disk is read-only")]
     ReadOnly(String),
+    /// Another program keeps the disk to itself. Nothing is wrong with what is on it.
+    #[error("{0}: another program uses it")]
+    Busy(String),
     /// What is on disk is not what was written.
     #[error("{0}")]
     Damaged(String),
@@ -255,6 +258,35 @@ pub enum StoreError {
     /// The store has ended.
     #[error("the store has ended")]
     Ended,
+}
+
+/// What is done about an error of the log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy {
+    /// The same is tried once more, at once.
+    Retry,
+    /// Old history is given up to make space; then the same is tried once more.
+    Free,
+    /// Nothing is written until a later try goes well. The log stays.
+    Pause,
+    /// The log is set aside, and a new one is begun.
+    NewLog,
+}
+
+impl StoreError {
+    /// What is done about this error of the log. `before`: what the same said when it was tried just before.
+    ///
+    /// The whole history is given up only for what is known to be damaged, and nothing else lasts.
+    pub fn remedy(&self, before: Option<&Self>) -> Remedy {
+        match (before, self) {
+            (None, Self::Full(_)) => Remedy::Free,
+            // A moment, perhaps. SQLite calls the file damaged when the disk fails to read a page, too.
+            (None, Self::Io(_) | Self::Damaged(_)) => Remedy::Retry,
+            (Some(Self::Damaged(_)), Self::Damaged(_)) => Remedy::NewLog,
+            // Busy, read-only, still full, still failing: what is on disk may be whole.
+            _ => Remedy::Pause,
+        }
+    }
 }
 
 /// Keeps worlds and clips. Every method blocks until it is done, and what it has written is on disk when it returns;
@@ -327,7 +359,7 @@ pub trait CheckpointStore: Send {
                     out.insert(entry.tick, hash);
                 }
             }
-            from = last + 1;
+            from = last.saturating_add(1);
         }
         Ok(out.into_iter().collect())
     }
@@ -338,12 +370,11 @@ pub trait CheckpointStore: Send {
     /// It could not be done.
     fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError>;
 
-    /// Frees what can be freed on a full disk, and begins a new log if the old one is damaged; a damaged one is kept
-    /// aside. Returns what was done.
+    /// Does what [`remedy`](StoreError::remedy) says, if that is something for the store to do. Returns what was done.
     ///
     /// # Errors
     /// It could not be done.
-    fn repair(&mut self, fault: &StoreError) -> Result<Option<String>, StoreError>;
+    fn repair(&mut self, remedy: Remedy) -> Result<Option<String>, StoreError>;
 
     /// All clips.
     ///

@@ -5,6 +5,9 @@
 
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
+#[cfg(unix)] // links that lead nowhere
+mod faults;
+
 use super::keeper::{Keeper, Sizes};
 use super::local::LocalStore;
 use super::memory::{Disk, MemoryStore};
@@ -189,7 +192,7 @@ fn killed(checkpointed: bool) -> &'static Path {
             store.cut(&RETENTION).unwrap(); // writes states beside the log
         }
         if checkpointed {
-            store.repair(&StoreError::Full(String::new())).unwrap();
+            store.repair(Remedy::Free).unwrap();
         }
         copy(&live.0, &left.0);
         left
@@ -518,7 +521,7 @@ fn a_full_disk_loses_the_group_and_nothing_before_it() {
         assert_eq!(check(n as u64, history).unwrap(), Some(30));
     }
     // What can be freed is freed, and then smaller groups fit again.
-    store.repair(&error).unwrap();
+    store.repair(error.remedy(None)).unwrap();
     store.commit(&tick_entries(&worlds[0], 0, 31)).unwrap();
     let history = &store.latest(&[worlds[0].key]).unwrap()[0];
     assert_eq!(check(0, history).unwrap(), Some(31));
@@ -882,4 +885,132 @@ async fn a_hole_in_the_log_is_not_stepped_over() {
     assert_eq!(latest[0].checkpoint.as_ref().unwrap().0, 2);
     assert_eq!(latest[0].last_tick(), Some(3));
     assert!(latest[0].losses.is_empty());
+}
+
+#[test]
+fn a_note_that_cannot_be_written_costs_nothing() {
+    let dir = Temporary::new();
+    let mut store = LocalStore::open(&dir.0).unwrap();
+    let worlds = fill(&mut store, 3);
+    let note = dir.0.join("log.end");
+    std::fs::remove_file(&note).unwrap();
+    std::fs::create_dir(&note).unwrap();
+    // It is on disk, so it is not called a failure: the log would be set aside for that.
+    for tick in 4..=5 {
+        store.commit(&tick_entries(&worlds[0], 0, tick)).unwrap();
+    }
+    drop(store);
+    let mut store = LocalStore::open(&dir.0).unwrap();
+    let history = &store.latest(&[worlds[0].key]).unwrap()[0];
+    assert_eq!(check(0, history).unwrap(), Some(5));
+    assert!(history.losses.is_empty(), "{:?}", history.losses);
+}
+
+#[test]
+fn a_log_that_another_program_holds_is_not_given_up() {
+    let dir = Temporary::new();
+    let mut store = LocalStore::open(&dir.0).unwrap();
+    let worlds = fill(&mut store, 3);
+    store.log().wait_for_nobody();
+    let other = rusqlite::Connection::open(dir.0.join("log.sqlite")).unwrap();
+    other.execute_batch("BEGIN IMMEDIATE").unwrap();
+    let next = tick_entries(&worlds[0], 0, 4);
+    let error = store.commit(&next).unwrap_err();
+    assert!(matches!(error, StoreError::Busy(_)), "{error}");
+    assert_eq!(error.remedy(None), Remedy::Pause);
+    other.execute_batch("ROLLBACK").unwrap();
+    drop(other);
+    store.commit(&next).unwrap();
+    let history = &store.latest(&[worlds[0].key]).unwrap()[0];
+    assert_eq!(check(0, history).unwrap(), Some(4));
+}
+
+#[test]
+fn what_a_killed_process_was_writing_is_removed() {
+    let dir = Temporary::new();
+    drop(LocalStore::open(&dir.0).unwrap());
+    let left = ["end", "worlds/0", "clips/0", "contents/0", "rehearsals/0"];
+    let left = left.map(|name| dir.0.join(name).with_extension("new"));
+    left.iter().for_each(|p| std::fs::write(p, "half").unwrap());
+    drop(LocalStore::open(&dir.0).unwrap());
+    assert!(left.iter().all(|p| !p.exists()));
+}
+
+#[test]
+fn an_earlier_state_is_never_that_of_another_world() {
+    // The table that says where checkpoints are has no checksums: it may name rows of others, or none at all.
+    for wrong in ["two change places", "there is no such row"] {
+        let dir = Temporary::new();
+        let mut store = LocalStore::open(&dir.0).unwrap();
+        fill(&mut store, 30);
+        drop(store);
+        let log = rusqlite::Connection::open(dir.0.join("log.sqlite")).unwrap();
+        let last = |back: usize| -> i64 {
+            let sql = "SELECT id FROM checkpoints ORDER BY id DESC LIMIT 1 OFFSET ?1";
+            log.query_row(sql, [back as i64], |r| r.get(0)).unwrap()
+        };
+        let (a, b) = (last(0), last(1));
+        let moves = match wrong {
+            "two change places" => vec![(a, 0), (b, a), (0, b)],
+            _ => vec![(a, a + 1000)],
+        };
+        for (from, to) in moves {
+            let sql = "UPDATE checkpoints SET id = ?2 WHERE id = ?1";
+            assert_eq!(log.execute(sql, [from, to]).unwrap(), 1);
+        }
+        drop(log);
+        let mut store = LocalStore::open(&dir.0).unwrap();
+        // An end is orderly all the same.
+        store.close().unwrap();
+        drop(store);
+        std::fs::write(dir.0.join("log.sqlite"), "no database at all").unwrap();
+        let mut store = LocalStore::open(&dir.0).unwrap();
+        assert!(store.last_end().orderly);
+        let found = recover(&mut store, &[]).unwrap();
+        assert_eq!(found.worlds.len(), WORLDS);
+        for (world, history) in &found.worlds {
+            let n: u64 = world.name[1..].parse().unwrap();
+            check(n, history).unwrap_or_else(|e| panic!("{wrong}: {e}"));
+        }
+    }
+}
+
+#[test]
+fn a_copy_of_the_file_of_a_world_is_no_other_world() {
+    let dir = Temporary::new();
+    let mut store = LocalStore::open(&dir.0).unwrap();
+    let key = fill(&mut store, 3)[0].key;
+    let file = dir.0.join("worlds").join(format!("{key}.world"));
+    std::fs::copy(&file, file.with_file_name("spare.world")).unwrap();
+    drop(store);
+    let found = recover(&mut LocalStore::open(&dir.0).unwrap(), &[]).unwrap();
+    assert_eq!(found.worlds.len(), WORLDS);
+    assert!(
+        found.damaged[0].contains("spare.world"),
+        "{:?}",
+        found.damaged
+    );
+}
+
+#[tokio::test]
+async fn who_asks_late_learns_what_was_lost() {
+    let disk = Disk::default();
+    let (_keeper, recorder) = recorded(&disk, SIZES, Durability::Each);
+    recorder.checkpoint(0, state(0, 0));
+    let mut lost = Vec::new();
+    for tick in [1, 3] {
+        let ticket = recorder.input(tick, bytes_of(0, tick, 2, 10));
+        recorder.durable(ticket).await.unwrap();
+        disk.fail(Some(StoreError::Full("disk".to_owned())));
+        let ticket = recorder.input(tick + 1, bytes_of(0, tick + 1, 2, 10));
+        recorder.durable(ticket).await.unwrap_err();
+        lost.push(ticket);
+        disk.fail(None);
+        wait("a checkpoint is asked for", || recorder.needs_checkpoint());
+        let whole = recorder.checkpoint(tick + 1, state(0, tick + 1));
+        recorder.durable(whole).await.unwrap();
+    }
+    for ticket in lost {
+        recorder.durable(ticket).await.unwrap_err();
+    }
 }

@@ -1,6 +1,11 @@
-//! Worlds by name.
+//! Worlds by name: [`registry`] has them all, [`handle`] is one of them, [`waiting`] counts what its clients want of
+//! it, [`usage`] when it was used last.
 
+pub mod handle;
 pub mod registry;
 pub mod usage;
 
-pub use registry::{Leaving, Registry, Stored, WorldHandle};
+mod waiting;
+
+pub use handle::{Stored, WorldHandle};
+pub use registry::{Leaving, Registry};

@@ -1,0 +1,155 @@
+//! The thread that writes. Worlds leave what is to be written in a queue that is bounded by its bytes and go on; the
+//! thread commits what has come within 10 ms as one group.
+//!
+//! Nothing waits for the disk but this thread. When it cannot keep up or the disk takes no more, entries are left out
+//! and counted, the worlds they belong to are told to hand in a whole checkpoint, and the store is called degraded
+//! until one is on disk again.
+//!
+//! [`recorder`] is what worlds hand in with, [`queue`] what waits, [`writer`] the thread.
+
+mod queue;
+mod recorder;
+#[cfg(test)]
+mod tests;
+mod writer;
+
+pub use queue::Ticket;
+pub use recorder::Recorder;
+
+use super::store::{CheckpointStore, Retention, StoreError, WorldRecord};
+use queue::{Shared, WorldState, locked};
+use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
+use tokio::sync::oneshot;
+use writer::Writer;
+
+/// Requests that wait for the thread.
+const MAX_REQUESTS: usize = 1024;
+
+/// Sizes of the queue and of what is held.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes {
+    /// Bytes that wait to be written.
+    pub queue_bytes: usize,
+    /// What is held.
+    pub retention: Retention,
+}
+
+/// A request that has its place in the order of all.
+#[derive(Debug)]
+pub struct HandedIn<T>(oneshot::Receiver<Result<T, StoreError>>);
+
+impl<T> HandedIn<T> {
+    /// Waits until it is done.
+    ///
+    /// # Errors
+    /// Its own; the store has ended.
+    pub async fn done(self) -> Result<T, StoreError> {
+        self.0.await.unwrap_or(Err(StoreError::Ended))
+    }
+
+    /// The same. Blocks: not on an async thread.
+    ///
+    /// # Errors
+    /// Its own; the store has ended.
+    pub fn wait(self) -> Result<T, StoreError> {
+        self.0.blocking_recv().unwrap_or(Err(StoreError::Ended))
+    }
+}
+
+/// Hands what is to be written to the thread that writes.
+pub struct Keeper {
+    shared: Arc<Shared>,
+    thread: Mutex<Option<JoinHandle<()>>>,
+}
+
+impl Keeper {
+    /// Starts the thread.
+    ///
+    /// # Errors
+    /// There is no thread for it.
+    pub fn start(store: Box<dyn CheckpointStore>, sizes: Sizes) -> Result<Self, StoreError> {
+        let shared = Arc::new(Shared::new(sizes));
+        metrics::gauge!("sinew_store_degraded").set(0.0);
+        let own = shared.clone();
+        let thread = std::thread::Builder::new()
+            .name("store".to_owned())
+            .spawn(move || Writer::new(own, store).run());
+        let thread = thread.map_err(|e| StoreError::Io(format!("no thread for the store: {e}")))?;
+        Ok(Self {
+            shared,
+            thread: Mutex::new(Some(thread)),
+        })
+    }
+
+    /// What writes one world. Its first entry must be a checkpoint.
+    pub fn recorder(&self, world: &WorldRecord) -> Recorder {
+        let world = Arc::new(WorldState::new(world));
+        let mut queue = locked(&self.shared.queue);
+        queue.worlds.retain(|w| w.strong_count() > 0);
+        queue.worlds.push(Arc::downgrade(&world));
+        Recorder {
+            shared: self.shared.clone(),
+            world,
+        }
+    }
+
+    /// Does something with the store on its thread, after everything that was handed in before.
+    ///
+    /// # Errors
+    /// Those of `f`; too many requests wait; the store has ended.
+    pub async fn call<T: Send + 'static>(
+        &self,
+        f: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, StoreError> + Send + 'static,
+    ) -> Result<T, StoreError> {
+        self.hand_in(f)?.done().await
+    }
+
+    /// The same without waiting: it has its place in the order of all that is handed in when this returns.
+    ///
+    /// # Errors
+    /// Too many requests wait; the store has ended.
+    pub fn hand_in<T: Send + 'static>(
+        &self,
+        f: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, StoreError> + Send + 'static,
+    ) -> Result<HandedIn<T>, StoreError> {
+        let (tx, rx) = oneshot::channel();
+        {
+            let mut queue = locked(&self.shared.queue);
+            if queue.closing || queue.ended {
+                return Err(StoreError::Ended);
+            }
+            if queue.requests.len() >= MAX_REQUESTS {
+                return Err(StoreError::Io(format!(
+                    "{MAX_REQUESTS} requests wait for the disk"
+                )));
+            }
+            queue.requests.push(Box::new(move |store| {
+                let _ = tx.send(f(store)); // who asked may have given up
+            }));
+        }
+        self.shared.filled.notify_one();
+        Ok(HandedIn(rx))
+    }
+
+    /// Why less is written than was promised; `None`: everything is.
+    pub fn degraded(&self) -> Option<String> {
+        self.shared.degraded.borrow().clone()
+    }
+
+    /// Writes what is left and ends. Blocks until it is done.
+    pub fn close(&self) {
+        locked(&self.shared.queue).closing = true;
+        self.shared.filled.notify_one();
+        let thread = locked(&self.thread).take();
+        if let Some(thread) = thread {
+            let _ = thread.join(); // a panic of it was reported where it happened
+        }
+    }
+}
+
+impl Drop for Keeper {
+    fn drop(&mut self) {
+        self.close();
+    }
+}

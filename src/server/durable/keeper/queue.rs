@@ -1,0 +1,196 @@
+//! What waits to be written, and what is known of the writing: shared by those who hand in and the thread that writes.
+
+use super::Sizes;
+use crate::server::durable::store::{
+    CheckpointStore, Durability, Entry, Item, WorldKey, WorldRecord,
+};
+use bytes::Bytes;
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak};
+use std::time::Instant;
+use tokio::sync::watch;
+
+/// Times of losses of one world that are remembered for those who still wait to learn what was lost.
+const MAX_LOSSES: usize = 16;
+
+/// Why something is lost that was handed in at the end.
+pub(super) const TOO_LATE: &str = "the store has ended";
+
+pub(super) type Request = Box<dyn FnOnce(&mut dyn CheckpointStore) + Send>;
+
+/// Bytes that are worked out when they are written, and how many they are, about.
+pub(super) type Later = (usize, Box<dyn FnOnce() -> Bytes + Send>);
+
+/// An entry that waits.
+pub(super) struct Queued {
+    pub entry: Entry,
+    pub world: Arc<WorldState>,
+    /// What it holds, if that is worked out when it is written.
+    pub later: Option<Box<dyn FnOnce() -> Bytes + Send>>,
+}
+
+impl Queued {
+    /// The entry with its bytes. Slow: on the thread that writes.
+    pub fn ready(self) -> (Entry, Arc<WorldState>) {
+        let mut entry = self.entry;
+        if let Some(later) = self.later {
+            entry.item = Item::Input(later());
+        }
+        (entry, self.world)
+    }
+}
+
+/// Place of an entry in the order of all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ticket(pub(super) u64);
+
+#[derive(Default)]
+pub(super) struct Queue {
+    pub entries: Vec<Queued>,
+    pub bytes: usize,
+    /// When the first of them came.
+    pub begun: Option<Instant>,
+    /// Somebody waits for one of them.
+    pub urgent: bool,
+    pub requests: Vec<Request>,
+    /// Entries so far.
+    pub sent: u64,
+    /// Entries that were taken out.
+    pub taken: u64,
+    /// All worlds that are written.
+    pub worlds: Vec<Weak<WorldState>>,
+    /// The disk has failed; until then only checkpoints that were asked for are tried.
+    pub retry_at: Option<Instant>,
+    pub closing: bool,
+    pub ended: bool,
+}
+
+impl Queue {
+    /// Takes all entries out.
+    pub fn take_entries(&mut self) -> Vec<Queued> {
+        self.bytes = 0;
+        self.begun = None;
+        self.urgent = false;
+        std::mem::take(&mut self.entries)
+    }
+}
+
+/// What is known of the writing of one world.
+#[derive(Debug)]
+pub(super) struct WorldState {
+    pub key: WorldKey,
+    pub name: String,
+    pub durability: Durability,
+    /// Nothing but a checkpoint can be written: something before it is missing, or nothing was written yet. Changed
+    /// with the queue locked.
+    pub gap: AtomicBool,
+    /// Something that was to be written is missing.
+    pub lossy: AtomicBool,
+    /// Entries that were left out: the first and the last before the next whole state, from the oldest such time on.
+    lost: Mutex<VecDeque<(u64, u64)>>,
+    /// Last tick on disk.
+    pub tick: AtomicU64,
+}
+
+impl WorldState {
+    /// Nothing is written of it yet.
+    pub fn new(world: &WorldRecord) -> Self {
+        Self {
+            key: world.key,
+            name: world.name.clone(),
+            durability: world.durability,
+            gap: AtomicBool::new(true),
+            lossy: AtomicBool::new(false),
+            lost: Mutex::default(),
+            tick: AtomicU64::new(0),
+        }
+    }
+
+    /// Notes that entries are left out. True: they are the first since it was whole.
+    pub fn lose(&self, first: u64, last: u64) -> bool {
+        let went_on = self.lossy.swap(true, Ordering::Relaxed);
+        let mut lost = locked(&self.lost);
+        match lost.back_mut().filter(|_| went_on) {
+            Some(before) => *before = (before.0.min(first), last),
+            None => lost.push_back((first, last)),
+        }
+        if lost.len() > MAX_LOSSES {
+            lost.pop_front();
+        }
+        !went_on
+    }
+
+    /// Names the world of which something is not written.
+    pub fn tell_loss(&self, why: &str) {
+        let world = &*self.name;
+        if self.durability == Durability::None {
+            // Nothing else of it is handed in.
+            tracing::error!(world, why, "the last state of the world is not written");
+        } else {
+            let tick = self.tick.load(Ordering::Relaxed);
+            tracing::error!(
+                world,
+                after_tick = tick,
+                why,
+                "ticks of the world are not written"
+            );
+        }
+    }
+
+    /// Whether an entry was left out.
+    pub fn has_lost(&self, ticket: Ticket) -> bool {
+        let lost = locked(&self.lost);
+        lost.iter()
+            .any(|(first, last)| (*first..=*last).contains(&ticket.0))
+    }
+}
+
+pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    // Every holder leaves the value whole.
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+pub(super) struct Shared {
+    pub queue: Mutex<Queue>,
+    pub filled: Condvar,
+    /// Entries that are written or given up.
+    pub done: watch::Sender<u64>,
+    /// Why less is written than was promised.
+    pub degraded: watch::Sender<Option<String>>,
+    pub sizes: Sizes,
+}
+
+impl Shared {
+    /// An empty queue.
+    pub fn new(sizes: Sizes) -> Self {
+        Self {
+            queue: Mutex::default(),
+            filled: Condvar::new(),
+            done: watch::Sender::new(0),
+            degraded: watch::Sender::new(None),
+            sizes,
+        }
+    }
+
+    /// Notes and tells that less is written than was promised.
+    pub fn degrade(&self, why: &str) {
+        let new = self.degraded.send_if_modified(|now| {
+            let new = now.is_none();
+            *now = Some(why.to_owned());
+            new
+        });
+        if new {
+            tracing::error!(why, "worlds are not written as promised");
+            metrics::gauge!("sinew_store_degraded").set(1.0);
+        }
+    }
+
+    /// Notes and tells that everything is written again.
+    pub fn recover(&self) {
+        if self.degraded.send_if_modified(|now| now.take().is_some()) {
+            tracing::info!("worlds are written as promised again");
+            metrics::gauge!("sinew_store_degraded").set(0.0);
+        }
+    }
+}

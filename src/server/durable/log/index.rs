@@ -1,0 +1,136 @@
+//! What is known in memory of each world in the log: where its checkpoints are, and what its next row is.
+
+use super::row::{CHECKPOINT, Row};
+use super::{Log, now_ms};
+use crate::server::durable::store::{StoreError, WorldKey};
+use std::collections::{BTreeMap, VecDeque};
+
+/// Number that no row has: a million a second for ten thousand years.
+const MAX_ID: i64 = 1 << 58;
+
+/// A checkpoint in the log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Place {
+    pub id: i64,
+    pub session: i64,
+    /// Number of the first group behind it.
+    pub seq: i64,
+    pub tick: u64,
+    /// When it was written, milliseconds since 1970.
+    pub time_ms: i64,
+    /// Bytes of this world before it.
+    pub bytes_before: u64,
+}
+
+/// What the log knows of one world.
+#[derive(Debug, Default)]
+pub(super) struct Track {
+    /// From the oldest to the latest.
+    pub places: VecDeque<Place>,
+    /// Bytes ever written.
+    pub written: u64,
+    /// Number of the next group of this session; `None` until there is a checkpoint.
+    pub next: Option<i64>,
+}
+
+impl Track {
+    /// Bytes from its oldest checkpoint on.
+    pub fn held(&self) -> u64 {
+        let first = self.places.front();
+        first.map_or(0, |p| self.written.saturating_sub(p.bytes_before))
+    }
+}
+
+/// Checkpoints by the number of their row.
+type Found = BTreeMap<i64, (WorldKey, Place)>;
+
+impl Log {
+    /// Reads where the checkpoints are, and which numbers are free.
+    ///
+    /// # Errors
+    /// The log is damaged or cannot be read.
+    pub(super) fn load(&mut self) -> Result<(), StoreError> {
+        self.next_id = self.last_id()? + 1;
+        let mut found = Found::new();
+        if self.list_checkpoints(&mut found).is_err() {
+            self.find_checkpoints(&mut found)?;
+        }
+        self.take_places(found);
+        Ok(())
+    }
+
+    /// Finds the checkpoints of these worlds again, of which the table has lost all: their rows would be deleted as
+    /// those of no world.
+    ///
+    /// # Errors
+    /// The log is damaged or cannot be read.
+    pub(super) fn find_again(&mut self, worlds: &[WorldKey]) -> Result<(), StoreError> {
+        let mut found = Found::new();
+        self.find_checkpoints(&mut found)?;
+        found.retain(|_, (world, _)| worlds.contains(world));
+        self.take_places(found);
+        Ok(())
+    }
+
+    fn take_places(&mut self, found: Found) {
+        for (world, place) in found.into_values() {
+            self.session = self.session.max(place.session.saturating_add(1));
+            let track = self.tracks.entry(world).or_default();
+            track.written = track.written.max(place.bytes_before);
+            track.places.push_back(place);
+            self.known.insert(world);
+        }
+    }
+
+    /// The largest number of a row in either table; 0: there is none.
+    fn last_id(&self) -> Result<i64, StoreError> {
+        let last = |table: &str| {
+            let sql = format!("SELECT COALESCE(MAX(id), 0) FROM {table}");
+            self.db.query_row(&sql, [], |r| r.get::<_, i64>(0))
+        };
+        let last = last("log").and_then(|log| Ok(log.max(last("checkpoints")?)));
+        let last = last.map_err(|e| self.fault(&e))?;
+        if last > MAX_ID {
+            let place = self.path.display();
+            return Err(StoreError::Damaged(format!("{place}: row {last}")));
+        }
+        Ok(last)
+    }
+
+    /// Reads the table of checkpoints, as far as it can be read.
+    fn list_checkpoints(&self, found: &mut Found) -> rusqlite::Result<()> {
+        let mut all = self.db.prepare("SELECT * FROM checkpoints ORDER BY id")?;
+        let mut rows = all.query([])?;
+        while let Some(row) = rows.next()? {
+            let place = Place {
+                id: row.get(0)?,
+                session: row.get(2)?,
+                seq: row.get(3)?,
+                tick: row.get::<_, i64>(4)? as u64,
+                time_ms: row.get(5)?,
+                bytes_before: row.get::<_, i64>(6)? as u64,
+            };
+            found.insert(place.id, (WorldKey(row.get::<_, i64>(1)? as u64), place));
+        }
+        Ok(())
+    }
+
+    /// Finds checkpoints by a look at all rows. When they were written and what is before them is not known then: they
+    /// are as old as this start.
+    fn find_checkpoints(&self, found: &mut Found) -> Result<(), StoreError> {
+        self.scan(0, &mut |_, row: Option<&Row>| {
+            let Some(row) = row.filter(|r| r.kind == CHECKPOINT) else {
+                return;
+            };
+            let place = Place {
+                id: row.id,
+                session: row.session,
+                seq: row.seq,
+                tick: row.tick,
+                time_ms: now_ms(),
+                bytes_before: 0,
+            };
+            found.insert(row.id, (row.world, place));
+        })
+    }
+}

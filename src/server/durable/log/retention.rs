@@ -1,0 +1,217 @@
+//! Old history goes: whole checkpoints with what is behind them are cut off in memory, and their rows are deleted bit
+//! by bit, so that commits do not wait for long.
+
+use super::index::Track;
+use super::{Log, now_ms};
+use crate::server::durable::store::{Retention, StoreError, Usage, WorldKey};
+use rusqlite::params;
+use std::ops::Range;
+
+/// Rows that one call of [`Log::cut`] looks at, so that commits do not wait for long.
+const CUT_ROWS: usize = 20_000;
+
+impl Track {
+    /// Drops the oldest of two or more checkpoints. Ids from it to the next: rows of this world among them go.
+    fn cut_first(&mut self) -> Option<Range<i64>> {
+        let first = self.places.pop_front()?;
+        Some(first.id..self.places.front()?.id)
+    }
+}
+
+/// The same ranges in order and apart from each other.
+fn joined(mut ranges: Vec<Range<i64>>) -> Vec<Range<i64>> {
+    ranges.sort_unstable_by_key(|r| r.start);
+    let mut out: Vec<Range<i64>> = Vec::with_capacity(ranges.len());
+    for range in ranges {
+        match out.last_mut() {
+            Some(last) if range.start <= last.end => last.end = last.end.max(range.end),
+            _ => out.push(range),
+        }
+    }
+    out
+}
+
+impl Log {
+    /// Forgets a world, and what is still written of it; its rows go with the next cuts.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub fn forget(&mut self, world: WorldKey) -> Result<(), StoreError> {
+        let sql = "DELETE FROM checkpoints WHERE world = ?1";
+        let done = self.db.execute(sql, [world.0 as i64]);
+        done.map_err(|e| self.fault(&e))?;
+        let track = self.tracks.remove(&world);
+        let first = track.and_then(|t| t.places.front().map(|p| p.id));
+        self.unswept.push(first.unwrap_or(0)..self.next_id);
+        self.known.remove(&world);
+        self.ends.remove(&world);
+        Ok(())
+    }
+
+    /// Cuts old history off, and deletes some of what has been cut off.
+    ///
+    /// # Errors
+    /// It could not be done.
+    pub fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError> {
+        self.cut_each(limits);
+        let history_bytes = self.cut_largest(limits.total_bytes);
+        self.unswept = joined(std::mem::take(&mut self.unswept));
+        self.unswept = self.sweep().map_err(|e| self.fault(&e))?;
+        Ok(Usage {
+            history_bytes,
+            checkpoints: self.tracks.values().map(|t| t.places.len()).sum(),
+            unswept: !self.unswept.is_empty(),
+        })
+    }
+
+    /// Cuts off of each world what is too old or too much for one.
+    fn cut_each(&mut self, limits: &Retention) {
+        let age = i64::try_from(limits.age.as_millis()).unwrap_or(i64::MAX);
+        let oldest = now_ms().saturating_sub(age);
+        for track in self.tracks.values_mut() {
+            // What is behind the first checkpoint is as old as the second one.
+            while let Some(second) = track.places.get(1)
+                && (second.time_ms <= oldest || track.held() > limits.world_bytes)
+            {
+                self.unswept.extend(track.cut_first());
+            }
+        }
+    }
+
+    /// Cuts off what is too much for all, from the world that has most. Bytes that are left.
+    fn cut_largest(&mut self, total_bytes: u64) -> u64 {
+        let mut total: u64 = self.tracks.values().map(Track::held).sum();
+        while total > total_bytes {
+            let largest = self.tracks.values_mut().filter(|t| t.places.len() > 1);
+            let Some(track) = largest.max_by_key(|t| t.held()) else {
+                break;
+            };
+            total -= track.held();
+            self.unswept.extend(track.cut_first());
+            total += track.held();
+        }
+        total
+    }
+
+    /// Deletes rows that no world needs any more, and where checkpoints among them were. Where there may be others that
+    /// it has not come to.
+    fn sweep(&mut self) -> rusqlite::Result<Vec<Range<i64>>> {
+        let (old, rest) = self.not_needed()?;
+        if old.is_empty() {
+            return Ok(rest);
+        }
+        let tx = self.db.transaction()?;
+        for table in ["log", "checkpoints"] {
+            let mut delete = tx.prepare_cached(&format!("DELETE FROM {table} WHERE id = ?1"))?;
+            for id in &old {
+                delete.execute([id])?;
+            }
+        }
+        tx.commit()?;
+        Ok(rest)
+    }
+
+    /// Some rows that no world needs any more, and where there may be others.
+    fn not_needed(&self) -> rusqlite::Result<(Vec<i64>, Vec<Range<i64>>)> {
+        let sql = "SELECT id, world FROM log WHERE id >= ?1 AND id < ?2 ORDER BY id LIMIT ?3";
+        let mut found = self.db.prepare_cached(sql)?;
+        let (mut old, mut rest) = (Vec::new(), Vec::new());
+        let mut left = CUT_ROWS;
+        for range in &self.unswept {
+            if left == 0 {
+                rest.push(range.clone());
+                continue;
+            }
+            let mut rows = found.query(params![range.start, range.end, left as i64])?;
+            let mut next = range.end;
+            while let Some(row) = rows.next()? {
+                let (id, world): (i64, i64) = (row.get(0)?, row.get(1)?);
+                // Each world keeps what is behind its oldest checkpoint.
+                let track = self.tracks.get(&WorldKey(world as u64));
+                let kept = track.and_then(|t| t.places.front());
+                if kept.is_none_or(|kept| id < kept.id) {
+                    old.push(id);
+                }
+                left -= 1;
+                if left == 0 {
+                    next = id + 1;
+                }
+            }
+            if next < range.end {
+                rest.push(next..range.end);
+            }
+        }
+        Ok((old, rest))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::server::durable::store::{Entry, Item};
+    use bytes::Bytes;
+    use std::time::Duration;
+
+    /// Many worlds rest, and what they keep is older than all that a busy one writes and cuts off.
+    #[test]
+    fn what_others_keep_does_not_hide_what_can_be_deleted() {
+        const RESTING: u64 = 100;
+        let name = format!("sinew-log-{}.sqlite", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        let mut log = Log::open(&path).unwrap();
+        let entry = |world, tick, item| Entry {
+            world: WorldKey(world),
+            tick,
+            item,
+        };
+        let checkpoint = |world, tick| {
+            let bytes = Bytes::from_static(&[0; 100]);
+            entry(
+                world,
+                tick,
+                Item::Checkpoint {
+                    bytes,
+                    after_gap: false,
+                },
+            )
+        };
+        (0..=RESTING).for_each(|world| log.know(WorldKey(world)));
+        let mut rows = 0;
+        let mut commit = |log: &mut Log, entries: Vec<Entry>| {
+            rows += entries.len();
+            log.commit(&entries).unwrap();
+        };
+        commit(&mut log, (0..=RESTING).map(|w| checkpoint(w, 0)).collect());
+        for tick in 1..=CUT_ROWS as u64 / RESTING {
+            let hashes = (0..RESTING).map(|w| entry(w, tick, Item::Hash(tick)));
+            commit(&mut log, hashes.collect());
+        }
+        for tick in 1..=20 {
+            let hash = entry(RESTING, tick, Item::Hash(tick));
+            commit(&mut log, vec![hash, checkpoint(RESTING, tick)]);
+        }
+        let limits = Retention {
+            age: Duration::from_secs(3600),
+            world_bytes: u64::MAX,
+            total_bytes: 0,
+        };
+        let count = |log: &Log| {
+            let sql = "SELECT COUNT(*) FROM log";
+            log.db.query_row(sql, [], |r| r.get::<_, i64>(0)).unwrap() as usize
+        };
+        assert_eq!(count(&log), rows);
+        let mut calls = 1;
+        while log.cut(&limits).unwrap().unswept {
+            calls += 1;
+        }
+        assert_eq!(count(&log), rows - 2 * 20, "after {calls} calls");
+        // All at once: what a process left that ended before it had swept.
+        log.unswept.push(0..log.next_id);
+        assert!(log.cut(&limits).unwrap().unswept, "a call is bounded");
+        assert!(!log.cut(&limits).unwrap().unswept);
+        assert_eq!(count(&log), rows - 2 * 20);
+        drop(log);
+        let _ = std::fs::remove_file(path.with_extension("end"));
+        let _ = std::fs::remove_file(path);
+    }
+}

@@ -1,0 +1,175 @@
+//! Worlds and clips of this server in its data directory: what there was is brought back, what is created, changed or
+//! deleted is written down before the client learns that it is done.
+//!
+//! A world is brought back from its last state on disk, which is at most some seconds old, and from its settings,
+//! figures and obstacles, which are always those of the last answer.
+//!
+//! [`described`] is the form in which worlds and clips are described on disk, [`catalogue`] which stored world has
+//! which name. [`worlds`] and [`clips`] write down that they come, change and go, [`states`] the states of worlds.
+//! [`restore`] is what happens at a start; it gets the past of a world from [`past`].
+
+mod catalogue;
+mod clips;
+mod described;
+mod past;
+mod restore;
+mod states;
+#[cfg(test)]
+mod tests;
+mod worlds;
+
+use super::config::Config;
+use super::durable::keeper::{HandedIn, Keeper, Sizes};
+use super::durable::local::LocalStore;
+use super::durable::marks::Marks;
+use super::durable::recovery::{Recovered, recover};
+use super::durable::store::{CheckpointStore, Durability, Retention, StoreError};
+use super::recordings::Recordings;
+use super::tick::command::Origin;
+use crate::wire::status::Fault;
+use catalogue::Catalogue;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+/// The data directory of a server.
+pub struct Persistence {
+    keeper: Arc<Keeper>,
+    marks: Arc<Marks>,
+    /// The server before this one did not end in good order.
+    crashed: bool,
+    durability: Durability,
+    catalogue: Catalogue,
+    /// What is to be brought back.
+    recovered: Mutex<Option<Recovered>>,
+    /// Parts of the past that are kept, of which the log has the content.
+    recordings: Arc<Recordings>,
+    /// Held while the description of a world is written.
+    writing: tokio::sync::Mutex<()>,
+}
+
+/// Something that is being written, in its place in the order of all.
+pub struct Writing(HandedIn<()>);
+
+impl Writing {
+    /// Waits until it is on disk.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub async fn done(self) -> Result<(), Fault> {
+        self.0.done().await.map_err(storage)
+    }
+
+    /// The same. Blocks: not on an async thread.
+    ///
+    /// # Errors
+    /// It could not be written.
+    pub fn wait(self) -> Result<(), Fault> {
+        self.0.wait().map_err(storage)
+    }
+}
+
+fn storage(error: StoreError) -> Fault {
+    match error {
+        StoreError::Ended => Fault::Draining,
+        other => Fault::Storage(other.to_string()),
+    }
+}
+
+/// Who asks worlds on behalf of the server.
+fn origin() -> Origin {
+    Origin {
+        client: "".into(),
+        sequence: 0,
+    }
+}
+
+impl Persistence {
+    /// Opens the data directory; `None` without one. Blocks.
+    ///
+    /// # Errors
+    /// It cannot be used: another server has it, it cannot be written to, or a later version has written it.
+    pub fn open(config: &Config, recordings: &Arc<Recordings>) -> Result<Option<Self>, StoreError> {
+        if config.data_dir.is_empty() {
+            return Ok(None);
+        }
+        let begun = Instant::now();
+        let mut store = LocalStore::open(Path::new(&config.data_dir))?;
+        let release: Vec<&str> = config.release_worlds.split(',').map(str::trim).collect();
+        let mut recovered = recover(&mut store, &release)?;
+        let (marks, crashed) = (store.marks(), !store.last_end().orderly);
+        let catalogue = Catalogue::of(&recovered);
+        recovered.worlds.retain(|(w, _)| catalogue.holds(w));
+        tell(&recovered);
+        let sizes = Sizes {
+            queue_bytes: config.max_store_queue_bytes as usize,
+            retention: Retention {
+                age: Duration::from_secs_f64(config.history_s),
+                world_bytes: config.max_world_history_bytes,
+                total_bytes: config.max_history_bytes,
+            },
+        };
+        let keeper = Keeper::start(Box::new(store), sizes)?;
+        let (directory, seconds) = (&*config.data_dir, begun.elapsed().as_secs_f64());
+        tracing::info!(directory, crashed, seconds, "data directory opened");
+        Ok(Some(Self {
+            keeper: Arc::new(keeper),
+            marks,
+            crashed,
+            durability: Durability::by_name(&config.durability).unwrap_or_default(),
+            catalogue,
+            recovered: Mutex::new(Some(recovered)),
+            recordings: Arc::clone(recordings),
+            writing: tokio::sync::Mutex::default(),
+        }))
+    }
+
+    /// Refuses what a world in quarantine cannot do.
+    ///
+    /// # Errors
+    /// The world of that name is in quarantine.
+    pub fn check(&self, name: &str) -> Result<(), Fault> {
+        let record = self.catalogue.get(name);
+        let Some(why) = record.and_then(|w| w.quarantined) else {
+            return Ok(());
+        };
+        Err(Fault::Precondition {
+            reason: "WORLD_QUARANTINED",
+            message: format!("world {name:?} is in quarantine: {why}"),
+            facts: vec![("world", name.to_owned())],
+        })
+    }
+
+    /// Does something with the store, after everything that was handed in before, and waits for it.
+    ///
+    /// # Errors
+    /// Those of `f`; too many requests wait; the store has ended.
+    async fn on_disk<T: Send + 'static>(
+        &self,
+        f: impl FnOnce(&mut dyn CheckpointStore) -> Result<T, StoreError> + Send + 'static,
+    ) -> Result<T, Fault> {
+        self.keeper.call(f).await.map_err(storage)
+    }
+
+    /// Writes what is left and ends.
+    pub async fn close(&self) {
+        let keeper = self.keeper.clone();
+        // An error: it panicked, which was reported where it happened.
+        let _ = tokio::task::spawn_blocking(move || keeper.close()).await;
+    }
+}
+
+/// Names what does not come back.
+fn tell(recovered: &Recovered) {
+    for why in &recovered.damaged {
+        tracing::error!(why, "a part of the data directory is damaged");
+    }
+    for world in &recovered.quarantined {
+        let (world, why) = (&*world.name, world.quarantined.as_deref());
+        tracing::error!(
+            world,
+            why,
+            "a world is in quarantine: release_worlds lets it out"
+        );
+    }
+}

@@ -1,0 +1,167 @@
+//! The past of a world as the log has it: its last state, and the parts that recordings keep.
+
+use super::Persistence;
+use crate::server::checkpoints;
+use crate::server::durable::store::{self, History, Item, WorldKey, WorldRecord};
+use crate::server::recordings::StoredRecording;
+use crate::server::tick::journal::{self, Logged, Segment};
+use crate::server::tick::replay::{Replay, ReplayError};
+use crate::server::tick::scene::Scene;
+use crate::server::worlds::WorldHandle;
+use crate::wire::status::Fault;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What was logged, up to the first entry that cannot be read: its tick, and why.
+fn read_entries(entries: &[store::Logged]) -> (Vec<Logged>, Option<(u64, String)>) {
+    let mut out = Vec::with_capacity(entries.len());
+    for entry in entries {
+        out.push(match &entry.item {
+            Item::Hash(hash) => Logged::Hash(entry.tick, *hash),
+            Item::Input(bytes) => match journal::from_disk(entry.tick, bytes) {
+                Ok(record) => Logged::Record(record),
+                Err(why) => return (out, Some((entry.tick, why))),
+            },
+            Item::Checkpoint { .. } => continue,
+        });
+    }
+    (out, None)
+}
+
+/// What was done again: the scene it has led to, what was not as recorded, and how many hashes were compared.
+struct Replayed {
+    scene: Scene,
+    through: Result<(), ReplayError>,
+    compared: u64,
+}
+
+/// Does again what was logged behind a state as far as tick `until`. `reached` is the last tick that was done, also if
+/// this panics.
+///
+/// # Errors
+/// The state cannot be used.
+fn replay(
+    state: &[u8],
+    entries: &[Logged],
+    until: u64,
+    reached: &AtomicU64,
+) -> Result<Replayed, Fault> {
+    let scene = checkpoints::decode("checkpoint", state)?;
+    let mut replay = Replay::new(scene);
+    let through = replay.through(entries, until, &mut |scene| {
+        reached.store(scene.world().tick(), Ordering::Relaxed);
+        true
+    });
+    Ok(Replayed {
+        through,
+        compared: replay.compared,
+        scene: replay.scene,
+    })
+}
+
+/// The last state of a world that is whole: its checkpoint, and what was recorded behind it. `None`: there is none, or
+/// this program cannot go on from it.
+pub(super) async fn last_state(record: &WorldRecord, history: &History) -> Option<Scene> {
+    let (tick, bytes) = history.checkpoint.clone()?;
+    let world = &*record.name;
+    let (entries, unreadable) = read_entries(&history.entries);
+    if let Some((tick, why)) = unreadable {
+        tracing::error!(world, tick, why, "what follows is lost");
+    }
+    let entries = Arc::new(entries);
+    let mut until = u64::MAX;
+    loop {
+        let last = Arc::new(AtomicU64::new(tick));
+        let (bytes, entries, reached) = (bytes.clone(), entries.clone(), last.clone());
+        let work = move || replay(&bytes, &entries, until, &reached);
+        let why = match tokio::task::spawn_blocking(work).await {
+            Ok(Ok(done)) => match done.through {
+                Ok(()) => {
+                    let state = done.scene.world();
+                    let (tick, hash) = (state.tick(), format!("{:016x}", state.state_hash()));
+                    let compared = done.compared;
+                    tracing::info!(world, tick, hash, compared, "world is as it was");
+                    return Some(done.scene);
+                }
+                Err(why) => why.to_string(),
+            },
+            Ok(Err(why)) => {
+                tracing::error!(world, tick, %why, "the state is lost: the world begins anew");
+                return None;
+            }
+            Err(panic) => panic.to_string(),
+        };
+        let after = last.load(Ordering::Relaxed);
+        if after >= until || until == tick {
+            tracing::error!(
+                world,
+                tick,
+                why,
+                "the state has another hash: the world begins anew"
+            );
+            return None;
+        }
+        tracing::error!(world, after_tick = after, why, "what follows is lost");
+        until = after;
+    }
+}
+
+impl Persistence {
+    /// Brings a recording back, with what the log has of it.
+    pub(super) async fn bring_recording_back(
+        &self,
+        handle: &Arc<WorldHandle>,
+        key: WorldKey,
+        stored: StoredRecording,
+    ) {
+        let Some(journal) = &handle.journal else {
+            return; // no past is kept at all
+        };
+        let now = handle.latest().tick;
+        let until = stored.last.unwrap_or(now);
+        let most = self.recordings.most_bytes();
+        let kept = self.recorded(key, (stored.first, until), most).await;
+        let kept = kept.unwrap_or_else(|why| {
+            let (world, recording) = (&*handle.id, &*stored.id);
+            tracing::error!(world, recording, %why, "a recording cannot be read");
+            Vec::new()
+        });
+        let at = (&*handle.id, now);
+        self.recordings.bring_back(journal, at, stored, kept);
+    }
+
+    /// What the log has of the past of a world from tick `first` to tick `until`, at most `most` bytes of it: a part of
+    /// each server that has written it.
+    async fn recorded(
+        &self,
+        key: WorldKey,
+        (first, until): (u64, u64),
+        most: u64,
+    ) -> Result<Vec<Arc<Segment>>, Fault> {
+        let oldest = self.on_disk(move |store| Ok(store.oldest(key))).await?;
+        let oldest = oldest.unwrap_or(u64::MAX);
+        let (mut next, mut bytes, mut out) = (Some(first.max(oldest)), 0, Vec::new());
+        while let Some(from) = next.filter(|from| *from <= until && bytes <= most) {
+            let read = self.on_disk(move |store| store.history_at(key, from));
+            let history = read.await?;
+            let (Some((_, state)), Some(last)) = (&history.checkpoint, history.last_tick()) else {
+                break;
+            };
+            if last < from {
+                break;
+            }
+            let (state, entries) = (state.clone(), read_entries(&history.entries).0);
+            let segment = tokio::task::spawn_blocking(move || {
+                let scene = checkpoints::decode("checkpoint", &state)?;
+                Ok::<_, Fault>(Segment::of_disk(scene, entries, until))
+            });
+            let segment = segment
+                .await
+                .map_err(|e| Fault::Internal(e.to_string()))??;
+            bytes += segment.bytes();
+            next = segment.last_tick().max(last).checked_add(1);
+            out.push(segment);
+        }
+        Ok(out)
+    }
+}

@@ -1,0 +1,130 @@
+//! Worlds that come, change and go are written down.
+
+use super::described::Described;
+use super::{Persistence, states, storage};
+use crate::server::durable::store::{CheckpointStore, Durability, WorldKey, WorldRecord};
+use crate::server::worlds::{Stored, WorldHandle};
+use crate::wire::status::Fault;
+use prost::Message;
+use std::sync::Arc;
+
+impl Persistence {
+    /// Writes a new world down. Who changes or deletes it meanwhile waits for that.
+    ///
+    /// # Errors
+    /// It could not be written; a world in quarantine has its name.
+    pub async fn created(self: &Arc<Self>, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
+        let written = self.write_new(handle).await;
+        let place = written
+            .as_ref()
+            .map_or(Stored::Never, |key| Stored::At(*key));
+        handle.stored.send_replace(place);
+        written?;
+        self.follow(handle);
+        // What is done to it from now on follows this state.
+        if self.durability != Durability::None {
+            states::write(handle, None).await?;
+        }
+        Ok(())
+    }
+
+    /// Writes down that there is a new world; its number.
+    async fn write_new(&self, handle: &WorldHandle) -> Result<WorldKey, Fault> {
+        // It would be taken for an older world of this name at the next start, and be deleted with this one.
+        self.check(&handle.id)?;
+        let mut record = WorldRecord {
+            key: WorldKey(0),
+            name: handle.id.to_string(),
+            durability: self.durability,
+            quarantined: None,
+            settings: self.description(handle).into(),
+        };
+        let write = move |store: &mut dyn CheckpointStore| {
+            record.key = store.new_key();
+            store.put_world(&record)?;
+            Ok(record)
+        };
+        let record = self.on_disk(write).await?;
+        let key = record.key;
+        self.catalogue.put(record);
+        Ok(key)
+    }
+
+    fn description(&self, handle: &WorldHandle) -> Vec<u8> {
+        Described::now(handle, &self.recordings).encode_to_vec()
+    }
+
+    /// Writes down what has changed of a world.
+    ///
+    /// # Errors
+    /// It could not be written; it is tried again. The world has ended.
+    pub async fn changed(&self, handle: &WorldHandle) -> Result<(), Fault> {
+        let Stored::At(key) = handle.place().await? else {
+            return Ok(()); // it is not to be stored
+        };
+        // One after the other, so that what is described last is written last.
+        let _turn = self.writing.lock().await;
+        let settings = self.description(handle);
+        // There may be another one of its name. One whose deletion has failed is not there either.
+        let record = self.catalogue.running(&handle.id, key);
+        let record = record.ok_or_else(|| handle.ended())?;
+        if !Described::differ(&record.settings, &settings) {
+            return Ok(());
+        }
+        let changed = WorldRecord {
+            settings: settings.into(),
+            ..record
+        };
+        let written = changed.clone();
+        self.on_disk(move |store| store.put_world(&written)).await?;
+        self.catalogue.put(changed); // its turn: nobody else has removed it
+        Ok(())
+    }
+
+    /// Forgets a world that has ended.
+    ///
+    /// # Errors
+    /// It could not be done. Its name is taken by a world in quarantine then, which can be deleted again.
+    pub async fn deleted(&self, handle: &WorldHandle) -> Result<(), Fault> {
+        let mut stored = handle.stored.subscribe();
+        // One that is being created is written first.
+        let place = stored.wait_for(|s| *s != Stored::Coming).await.map(|s| *s);
+        match place {
+            Ok(Stored::At(key)) => self.forget(&handle.id, key).await,
+            _ => Ok(()),
+        }
+    }
+
+    /// Forgets a world in quarantine.
+    ///
+    /// # Errors
+    /// There is none of that name; it could not be done.
+    pub async fn deleted_in_quarantine(&self, name: &str) -> Result<(), Fault> {
+        let record = self.catalogue.get(name);
+        let record = record.filter(|w| w.quarantined.is_some());
+        let record = record.ok_or_else(|| Fault::not_found("world", format!("worlds/{name}")))?;
+        self.forget(name, record.key).await
+    }
+
+    /// Forgets the world of this number, and those that it has kept out.
+    async fn forget(&self, name: &str, key: WorldKey) -> Result<(), Fault> {
+        // A change of it that is being written would bring it back.
+        let _turn = self.writing.lock().await;
+        // It goes last: while it is there, the others stay out.
+        let keys = self.catalogue.with_older(name, key);
+        let delete = move |store: &mut dyn CheckpointStore| {
+            keys.iter().try_for_each(|key| store.delete_world(*key))
+        };
+        match self.keeper.call(delete).await {
+            Ok(()) => {
+                self.catalogue.remove(name, key);
+                Ok(())
+            }
+            Err(error) => {
+                let why = format!("its deletion could not be stored: {error}");
+                self.catalogue.quarantine(name, key, why);
+                Err(storage(error))
+            }
+        }
+    }
+}
