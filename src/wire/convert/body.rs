@@ -58,7 +58,7 @@ pub fn reference(
             };
             let at = |part: &str| format!("{profile_field}.{part}");
             let age =
-                (super::within(&at("age_years"), p.age_years, 0.0, 150.0)? * 10.0).round() / 10.0;
+                (super::within(at("age_years"), p.age_years, 0.0, 150.0)? * 10.0).round() / 10.0;
             let ordinary = Profile::ordinary(sex, age);
             let size = |part: &str, value, usual, least, most| {
                 super::or_default(&at(part), value, usual, least, most)

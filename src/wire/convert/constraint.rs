@@ -42,11 +42,11 @@ fn one(field: &str, c: &pb::Constraint) -> Result<ConstraintSettings, Fault> {
     let at = |part: &str| format!("{field}.{part}");
     let point = c
         .point_m
-        .map(|p| vector(&at("point_m"), p, 2.0))
+        .map(|p| vector(at("point_m"), p, 2.0))
         .transpose()?;
     let turn = c
         .rotation
-        .map(|q| rotation(&at("rotation"), q))
+        .map(|q| rotation(at("rotation"), q))
         .transpose()?;
     let on = match &c.on {
         Some(On::Segment(name)) => Some((segment(&at("segment"), name)?, point)),
@@ -73,7 +73,7 @@ fn one(field: &str, c: &pb::Constraint) -> Result<ConstraintSettings, Fault> {
     };
     let position = c
         .position_m
-        .map(|p| vector(&at("position_m"), p, FAR))
+        .map(|p| vector(at("position_m"), p, FAR))
         .transpose()?;
     if position.is_none() && turn.is_none() {
         return Err(Fault::invalid(
@@ -86,14 +86,14 @@ fn one(field: &str, c: &pb::Constraint) -> Result<ConstraintSettings, Fault> {
         y: 1.0,
         z: 1.0,
     });
-    let axis = |part: &str, v: f64| within(&at(&format!("position_axes.{part}")), v, 0.0, 1.0);
+    let axis = |part: &str, v: f64| within(at(&format!("position_axes.{part}")), v, 0.0, 1.0);
     Ok(ConstraintSettings {
         on,
         position,
         axes: [axis("x", axes.x)?, axis("y", axes.y)?, axis("z", axes.z)?],
         rotation: turn,
-        weight: within(&at("weight"), c.weight.unwrap_or(1.0), 0.0, 1.0)?,
-        ease: within(&at("ease_s"), c.ease_s.unwrap_or(EASE), 0.0, MAX_EASE)?,
+        weight: within(at("weight"), c.weight.unwrap_or(1.0), 0.0, 1.0)?,
+        ease: within(at("ease_s"), c.ease_s.unwrap_or(EASE), 0.0, MAX_EASE)?,
         duration: lasting(&at("duration_s"), c.duration_s)?,
     })
 }

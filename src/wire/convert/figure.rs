@@ -54,11 +54,11 @@ pub fn paper(field: &str, o: Option<&pb::PaperOptions>) -> Result<ControlParams,
         pb::PaperPreset::PaperPreset2000 => ControlParams::paper2000(),
     };
     if let Some(alpha) = o.alpha {
-        out.alpha = within(&at("alpha"), alpha, 0.0, 1.0)?;
+        out.alpha = within(at("alpha"), alpha, 0.0, 1.0)?;
     }
     match o.horizon_s {
         Some(0.0) => out.horizon = None,
-        Some(t) => out.horizon = Some(within(&at("horizon_s"), t, 0.01, 2.0)?),
+        Some(t) => out.horizon = Some(within(at("horizon_s"), t, 0.01, 2.0)?),
         None => {}
     }
     match choice(&at("metric"), o.metric, "metric")? {
@@ -139,7 +139,7 @@ pub fn strength(field: &str, s: Option<&pb::StrengthScale>) -> Result<StrengthSc
         95.0,
     )?;
     if let Some(effort) = s.effort {
-        out.effort = within(&format!("{field}.effort"), effort, 0.0, 1.0)?;
+        out.effort = within(format!("{field}.effort"), effort, 0.0, 1.0)?;
     }
     for (i, d) in s.dofs.iter().enumerate() {
         let at = |part: &str| format!("{field}.dofs[{i}].{part}");
@@ -153,7 +153,7 @@ pub fn strength(field: &str, s: Option<&pb::StrengthScale>) -> Result<StrengthSc
                 ),
             )
         })?;
-        out.dof[dof] = within(&at("factor"), d.factor, 0.01, 100.0)?;
+        out.dof[dof] = within(at("factor"), d.factor, 0.01, 100.0)?;
     }
     Ok(out)
 }
@@ -179,7 +179,7 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
         },
         options: FigureOptions {
             fatigue_time_scale: time_scale(&at("fatigue_time_scale"), f.fatigue_time_scale)?,
-            assist: within(&at("assist"), f.assist, 0.0, 1.0)?,
+            assist: within(at("assist"), f.assist, 0.0, 1.0)?,
             max_help: max_help(&at("max_help_weights"), f.max_help_weights)?,
             self_contact: f.self_contact.unwrap_or(false),
         },

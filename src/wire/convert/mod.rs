@@ -26,18 +26,21 @@ use super::pb;
 use super::status::Fault;
 use super::types::Place;
 use crate::sim::math::{Quat, Vec3};
+use std::fmt::Display;
 
 /// Farthest place from the origin, m.
 pub const WORLD_EXTENT: f64 = 10_000.0;
 
 /// A finite number within bounds.
-pub(crate) fn within(field: &str, value: f64, least: f64, most: f64) -> Result<f64, Fault> {
+///
+/// The field is written out for an error only: streams have hundreds of numbers in each tick.
+pub(crate) fn within(field: impl Display, value: f64, least: f64, most: f64) -> Result<f64, Fault> {
     // Written so that NaN fails.
     if value >= least && value <= most {
         Ok(value)
     } else {
         Err(Fault::invalid(
-            field,
+            field.to_string(),
             format!("must be a finite number in {least}…{most}, got {value}"),
         ))
     }
@@ -77,11 +80,11 @@ pub(crate) fn count(
 }
 
 /// A vector with every component within ± `most`.
-pub(crate) fn vector(field: &str, v: pb::Vector3, most: f64) -> Result<Vec3, Fault> {
+pub(crate) fn vector(field: impl Display, v: pb::Vector3, most: f64) -> Result<Vec3, Fault> {
     Ok(Vec3 {
-        x: within(&format!("{field}.x"), v.x, -most, most)?,
-        y: within(&format!("{field}.y"), v.y, -most, most)?,
-        z: within(&format!("{field}.z"), v.z, -most, most)?,
+        x: within(format_args!("{field}.x"), v.x, -most, most)?,
+        y: within(format_args!("{field}.y"), v.y, -most, most)?,
+        z: within(format_args!("{field}.z"), v.z, -most, most)?,
     })
 }
 
@@ -95,7 +98,7 @@ pub fn vector_out(v: Vec3) -> pb::Vector3 {
 }
 
 /// A rotation; its length must be 1 within 0.001.
-pub(crate) fn rotation(field: &str, q: pb::Quaternion) -> Result<Quat, Fault> {
+pub(crate) fn rotation(field: impl Display, q: pb::Quaternion) -> Result<Quat, Fault> {
     let n = (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w).sqrt();
     // Written so that NaN fails.
     if (n - 1.0).abs() <= 1e-3 {
@@ -108,7 +111,7 @@ pub(crate) fn rotation(field: &str, q: pb::Quaternion) -> Result<Quat, Fault> {
         .normalized())
     } else {
         Err(Fault::invalid(
-            field,
+            field.to_string(),
             format!("must be a quaternion of length 1 within 0.001, its length is {n}"),
         ))
     }
@@ -117,9 +120,9 @@ pub(crate) fn rotation(field: &str, q: pb::Quaternion) -> Result<Quat, Fault> {
 /// A place on the ground.
 pub(crate) fn place(field: &str, p: pb::Placement) -> Result<Place, Fault> {
     Ok(Place {
-        x: within(&format!("{field}.x_m"), p.x_m, -WORLD_EXTENT, WORLD_EXTENT)?,
-        y: within(&format!("{field}.y_m"), p.y_m, -WORLD_EXTENT, WORLD_EXTENT)?,
-        yaw: within(&format!("{field}.yaw_rad"), p.yaw_rad, -100.0, 100.0)?,
+        x: within(format!("{field}.x_m"), p.x_m, -WORLD_EXTENT, WORLD_EXTENT)?,
+        y: within(format!("{field}.y_m"), p.y_m, -WORLD_EXTENT, WORLD_EXTENT)?,
+        yaw: within(format!("{field}.yaw_rad"), p.yaw_rad, -100.0, 100.0)?,
     })
 }
 

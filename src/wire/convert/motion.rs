@@ -17,6 +17,7 @@ use crate::sim::body::topology::{BONE_NAMES, PARENT};
 use crate::sim::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
 use crate::sim::figure::FollowMode;
 use crate::sim::math::Quat;
+use std::fmt::Display;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -159,7 +160,7 @@ pub fn drive_open(
         }
     }
     let ms = |part: &str, value: Option<f64>, default: f64, most: f64| {
-        within(&at(part), value.unwrap_or(default), 0.0, most).map(|v| v / 1e3)
+        within(at(part), value.unwrap_or(default), 0.0, most).map(|v| v / 1e3)
     };
     let extrapolation = ms(
         "extrapolation_limit_ms",
@@ -192,7 +193,7 @@ pub fn drive_open(
         settings: DriveSettings {
             rate_hz: or_default(&at("nominal_rate_hz"), h.nominal_rate_hz, 60.0, 1.0, 1000.0)?,
             delay: match h.playout_delay_ms {
-                Some(d) => Delay::Fixed(within(&at("playout_delay_ms"), d, 0.0, 2000.0)? / 1e3),
+                Some(d) => Delay::Fixed(within(at("playout_delay_ms"), d, 0.0, 2000.0)? / 1e3),
                 None => Delay::Adaptive { most },
             },
             extrapolation,
@@ -227,7 +228,7 @@ fn window(field: &str, ms: f64) -> Result<f64, Fault> {
 
 /// Desired motion of one figure.
 pub fn figure_sample(
-    field: &str,
+    field: impl Display + Copy,
     slot: usize,
     m: &pb::FigureMotion,
 ) -> Result<FigureSample, Fault> {
@@ -235,10 +236,11 @@ pub fn figure_sample(
     let mut posture = Posture::default();
     if let Some(root) = &m.root {
         if let Some(p) = root.position_m {
-            posture.root_position = vector(&at("root.position_m"), p, WORLD_EXTENT)?;
+            posture.root_position =
+                vector(format_args!("{field}.root.position_m"), p, WORLD_EXTENT)?;
         }
         if let Some(q) = root.rotation {
-            posture.root_rotation = rotation(&at("root.rotation"), q)?;
+            posture.root_rotation = rotation(format_args!("{field}.root.rotation"), q)?;
         }
     }
     match (m.joint_angles_rad.is_empty(), m.bone_rotations.is_empty()) {
@@ -267,7 +269,12 @@ pub fn figure_sample(
                 })?;
             const TURN: f64 = 2.0 * std::f64::consts::PI;
             for (d, a) in angles.iter().enumerate() {
-                within(&at(&format!("joint_angles_rad[{d}]")), *a, -TURN, TURN)?;
+                within(
+                    format_args!("{field}.joint_angles_rad[{d}]"),
+                    *a,
+                    -TURN,
+                    TURN,
+                )?;
             }
             set_anatomical_angles(&mut posture, angles);
         }
@@ -278,7 +285,7 @@ pub fn figure_sample(
         NV => {
             let mut v = Box::new([0.0; NV]);
             for (i, x) in m.velocity.iter().enumerate() {
-                v[i] = within(&at(&format!("velocity[{i}]")), *x, -1000.0, 1000.0)?;
+                v[i] = within(format_args!("{field}.velocity[{i}]"), *x, -1000.0, 1000.0)?;
             }
             Some(v)
         }
@@ -308,7 +315,11 @@ pub fn figure_sample(
     })
 }
 
-fn bone_rotations(field: &str, m: &pb::FigureMotion, posture: &mut Posture) -> Result<(), Fault> {
+fn bone_rotations(
+    field: impl Display,
+    m: &pb::FigureMotion,
+    posture: &mut Posture,
+) -> Result<(), Fault> {
     let mut given: [Option<Quat>; SEGMENT_COUNT] = [None; SEGMENT_COUNT];
     for (i, b) in m.bone_rotations.iter().enumerate() {
         let at = |part: &str| format!("{field}.bone_rotations[{i}].{part}");
@@ -331,7 +342,10 @@ fn bone_rotations(field: &str, m: &pb::FigureMotion, posture: &mut Posture) -> R
         let q = b
             .rotation
             .ok_or_else(|| Fault::invalid(at("rotation"), "must be given"))?;
-        given[s] = Some(rotation(&at("rotation"), q)?);
+        given[s] = Some(rotation(
+            format_args!("{field}.bone_rotations[{i}].rotation"),
+            q,
+        )?);
     }
     let world = match pb::RotationSpace::try_from(m.rotation_space) {
         Ok(pb::RotationSpace::Unspecified | pb::RotationSpace::Parent) => false,
@@ -403,7 +417,6 @@ pub fn batch(
         }
         let mut samples: Vec<FigureSample> = Vec::with_capacity(frame.figures.len());
         for (j, m) in frame.figures.iter().enumerate() {
-            let at = format!("{at}.figures[{j}]");
             let slot = if m.figure_id.is_empty() && figures.len() == 1 {
                 0
             } else {
@@ -412,7 +425,7 @@ pub fn batch(
                     .position(|f| *f == m.figure_id)
                     .ok_or_else(|| {
                         Fault::invalid(
-                            format!("{at}.figure_id"),
+                            format!("{at}.figures[{j}].figure_id"),
                             format!(
                                 "must be a figure of the header, got {:?}",
                                 shortened(&m.figure_id)
@@ -422,11 +435,11 @@ pub fn batch(
             };
             if samples.iter().any(|s| s.slot == slot) {
                 return Err(Fault::invalid(
-                    format!("{at}.figure_id"),
+                    format!("{at}.figures[{j}].figure_id"),
                     format!("{:?} is given twice", shortened(&m.figure_id)),
                 ));
             }
-            samples.push(figure_sample(&at, slot, m)?);
+            samples.push(figure_sample(format_args!("{at}.figures[{j}]"), slot, m)?);
         }
         out.push(MotionSample {
             sequence: frame.sequence,

@@ -26,17 +26,12 @@ fn shape(field: &str, s: Option<&pb::obstacle::Shape>) -> Result<Shape, Fault> {
             ));
         }
         Some(pb::obstacle::Shape::Sphere(s)) => Shape::Sphere {
-            radius: within(&format!("{field}.sphere.radius_m"), s.radius_m, THIN, ROUND)?,
+            radius: within(format!("{field}.sphere.radius_m"), s.radius_m, THIN, ROUND)?,
         },
         Some(pb::obstacle::Shape::Capsule(c)) => Shape::Capsule {
-            radius: within(
-                &format!("{field}.capsule.radius_m"),
-                c.radius_m,
-                THIN,
-                ROUND,
-            )?,
+            radius: within(format!("{field}.capsule.radius_m"), c.radius_m, THIN, ROUND)?,
             half_length: within(
-                &format!("{field}.capsule.half_length_m"),
+                format!("{field}.capsule.half_length_m"),
                 c.half_length_m,
                 0.0,
                 ROUND,
@@ -45,7 +40,7 @@ fn shape(field: &str, s: Option<&pb::obstacle::Shape>) -> Result<Shape, Fault> {
         Some(pb::obstacle::Shape::Box(b)) => {
             let h = b.half_m.unwrap_or_default();
             let edge =
-                |axis: &str, x: f64| within(&format!("{field}.box.half_m.{axis}"), x, THIN, EDGE);
+                |axis: &str, x: f64| within(format!("{field}.box.half_m.{axis}"), x, THIN, EDGE);
             Shape::Box {
                 half: Vec3 {
                     x: edge("x", h.x)?,
@@ -73,12 +68,12 @@ fn mobility(field: &str, value: i32) -> Result<ObstacleMobility, Fault> {
 }
 
 fn mass(field: &str, value: f64) -> Result<f64, Fault> {
-    within(&format!("{field}.mass_kg"), value, 0.01, 10_000.0)
+    within(format!("{field}.mass_kg"), value, 0.01, 10_000.0)
 }
 
 fn friction(field: &str, o: &pb::Obstacle) -> Result<f64, Fault> {
     let value = o.friction.unwrap_or(OBSTACLE_FRICTION);
-    within(&format!("{field}.friction"), value, 0.05, 2.0)
+    within(format!("{field}.friction"), value, 0.05, 2.0)
 }
 
 fn pose(field: &str, o: &pb::Obstacle) -> Result<(Vec3, Quat), Fault> {
@@ -86,16 +81,16 @@ fn pose(field: &str, o: &pb::Obstacle) -> Result<(Vec3, Quat), Fault> {
     let position = pose.position_m.unwrap_or_default();
     let at = |part: &str| format!("{field}.pose.{part}");
     Ok((
-        vector(&at("position_m"), position, WORLD_EXTENT)?,
+        vector(at("position_m"), position, WORLD_EXTENT)?,
         match pose.rotation {
             None => Quat::identity(),
-            Some(q) => rotation(&at("rotation"), q)?,
+            Some(q) => rotation(at("rotation"), q)?,
         },
     ))
 }
 
 fn motion(field: &str, name: &str, v: Option<pb::Vector3>) -> Result<Vec3, Fault> {
-    vector(&format!("{field}.{name}"), v.unwrap_or_default(), FASTEST)
+    vector(format!("{field}.{name}"), v.unwrap_or_default(), FASTEST)
 }
 
 /// An obstacle of a request.

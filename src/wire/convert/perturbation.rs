@@ -63,7 +63,7 @@ fn second_segment(at: &dyn Fn(&str) -> String, l: &pb::Load) -> Result<SecondSeg
 fn held_second(at: &dyn Fn(&str) -> String, l: &pb::Load) -> Result<SecondSegment, Fault> {
     let point = l
         .second_point_m
-        .map(|p| vector(&at("second_point_m"), p, 2.0))
+        .map(|p| vector(at("second_point_m"), p, 2.0))
         .transpose()?;
     if l.second_segment.is_empty() {
         return match point {
@@ -100,10 +100,10 @@ pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fau
             Ok(Disturbance::Load {
                 segment: segment(&at("segment"), &l.segment)?,
                 point: point(&at("point_m"), l.point_m)?,
-                mass: within(&at("mass_kg"), l.mass_kg, 0.0, 500.0)?,
+                mass: within(at("mass_kg"), l.mass_kg, 0.0, 500.0)?,
                 velocity: l
                     .velocity_mps
-                    .map(|v| vector(&at("velocity_mps"), v, 100.0))
+                    .map(|v| vector(at("velocity_mps"), v, 100.0))
                     .transpose()?
                     .unwrap_or_default(),
                 second: second_segment(&at, l)?,
@@ -120,7 +120,7 @@ pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fau
             Ok(Disturbance::Force {
                 segment: segment(&at("segment"), &i.segment)?,
                 point: point(&at("point_m"), i.point_m)?,
-                force: vector(&at("impulse_newton_seconds"), impulse, 1000.0)? * (1.0 / duration),
+                force: vector(at("impulse_newton_seconds"), impulse, 1000.0)? * (1.0 / duration),
                 duration,
             })
         }
@@ -132,7 +132,7 @@ pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fau
             Ok(Disturbance::Force {
                 segment: segment(&at("segment"), &f.segment)?,
                 point: point(&at("point_m"), f.point_m)?,
-                force: vector(&at("force_newtons"), force, 1e5)?,
+                force: vector(at("force_newtons"), force, 1e5)?,
                 duration: lasting(&at("duration_s"), f.duration_s)?,
             })
         }
@@ -171,7 +171,7 @@ pub fn timed(list: &[pb::TimedPerturbation]) -> Result<Vec<(f64, Disturbance)>, 
         .enumerate()
         .map(|(i, t)| {
             let at = format!("perturbations[{i}]");
-            let start = within(&format!("{at}.start_s"), t.start_s, 0.0, DAY)?;
+            let start = within(format!("{at}.start_s"), t.start_s, 0.0, DAY)?;
             let p = t
                 .perturbation
                 .as_ref()

@@ -96,13 +96,15 @@ impl ::prost::Name for Grant {
         "/sinew.v1.Grant".into()
     }
 }
-/// What a perturber may do.
+/// What a perturber may do. Forces and masses are bounded in sum: of all that one principal does to one figure at a
+/// time, in however many calls.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct PerturbationBounds {
-    /// Largest force, N; that of an impulse is impulse / duration. 0: no loads and forces at all. Absent: unbounded.
+    /// Largest sum of forces, N; that of an impulse is impulse / duration. 0: no loads and forces at all. Absent:
+    /// unbounded.
     #[prost(double, optional, tag = "1")]
     pub max_force_newtons: ::core::option::Option<f64>,
-    /// Largest mass of a load, kg. Absent: as heavy as `max_force_newtons` under 9.81 m/s².
+    /// Largest sum of loads, kg. Absent: as heavy as `max_force_newtons` under 9.81 m/s².
     #[prost(double, optional, tag = "2")]
     pub max_mass_kg: ::core::option::Option<f64>,
     /// Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once.
@@ -7013,7 +7015,7 @@ pub mod motion_service_client {
         /// Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
         /// to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
         /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
-        /// further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
+        /// further one for the same figure takes its place. It is kept and stored with the clip. Who may not delete the clip
         /// gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
         /// figure that holds one load in both hands, or may.
         pub async fn rehearse_clip(
@@ -7212,7 +7214,7 @@ pub mod motion_service_server {
         /// Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
         /// to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
         /// figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
-        /// further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
+        /// further one for the same figure takes its place. It is kept and stored with the clip. Who may not delete the clip
         /// gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
         /// figure that holds one load in both hands, or may.
         async fn rehearse_clip(
@@ -14664,7 +14666,8 @@ pub struct Recording {
     /// When it was begun.
     #[prost(message, optional, tag = "6")]
     pub create_time: ::core::option::Option<::prost_types::Timestamp>,
-    /// Why it has ended: `STOPPED`, `MAX_RECORDING_BYTES`, `WORLD_RESTORED`.
+    /// Why it has ended: `STOPPED`, `MAX_RECORDING_BYTES`, `WORLD_RESTORED`, or `HISTORY_LOST`: what would follow is not
+    /// on disk any more.
     #[prost(string, tag = "7")]
     pub end_reason: ::prost::alloc::string::String,
 }

@@ -91,7 +91,9 @@ Global___Grant: _TypeAlias = Grant  # noqa: Y015
 
 @_typing.final
 class PerturbationBounds(_message.Message):
-    """What a perturber may do."""
+    """What a perturber may do. Forces and masses are bounded in sum: of all that one principal does to one figure at a
+    time, in however many calls.
+    """
 
     DESCRIPTOR: _descriptor.Descriptor
 
@@ -99,9 +101,11 @@ class PerturbationBounds(_message.Message):
     MAX_MASS_KG_FIELD_NUMBER: _builtins.int
     MAX_RATE_HZ_FIELD_NUMBER: _builtins.int
     max_force_newtons: _builtins.float
-    """Largest force, N; that of an impulse is impulse / duration. 0: no loads and forces at all. Absent: unbounded."""
+    """Largest sum of forces, N; that of an impulse is impulse / duration. 0: no loads and forces at all. Absent:
+    unbounded.
+    """
     max_mass_kg: _builtins.float
-    """Largest mass of a load, kg. Absent: as heavy as `max_force_newtons` under 9.81 m/s²."""
+    """Largest sum of loads, kg. Absent: as heavy as `max_force_newtons` under 9.81 m/s²."""
     max_rate_hz: _builtins.float
     """Perturbations per second in the long run, 0.01…1000; ten seconds' worth, and at least one, may come at once.
     Absent: unbounded.

@@ -100,7 +100,9 @@ class Recording(_message.Message):
     size_bytes: _builtins.int
     """What it takes in memory, bytes."""
     end_reason: _builtins.str
-    """Why it has ended: `STOPPED`, `MAX_RECORDING_BYTES`, `WORLD_RESTORED`."""
+    """Why it has ended: `STOPPED`, `MAX_RECORDING_BYTES`, `WORLD_RESTORED`, or `HISTORY_LOST`: what would follow is not
+    on disk any more.
+    """
     @_builtins.property
     def create_time(self) -> _timestamp_pb2.Timestamp:
         """When it was begun."""

@@ -98,20 +98,22 @@ export const GrantSchema: GenMessage<Grant> = /*@__PURE__*/
   messageDesc(file_sinew_v1_access, 0);
 
 /**
- * What a perturber may do.
+ * What a perturber may do. Forces and masses are bounded in sum: of all that one principal does to one figure at a
+ * time, in however many calls.
  *
  * @generated from message sinew.v1.PerturbationBounds
  */
 export type PerturbationBounds = Message<"sinew.v1.PerturbationBounds"> & {
   /**
-   * Largest force, N; that of an impulse is impulse / duration. 0: no loads and forces at all. Absent: unbounded.
+   * Largest sum of forces, N; that of an impulse is impulse / duration. 0: no loads and forces at all. Absent:
+   * unbounded.
    *
    * @generated from field: optional double max_force_newtons = 1;
    */
   maxForceNewtons?: number | undefined;
 
   /**
-   * Largest mass of a load, kg. Absent: as heavy as `max_force_newtons` under 9.81 m/s².
+   * Largest sum of loads, kg. Absent: as heavy as `max_force_newtons` under 9.81 m/s².
    *
    * @generated from field: optional double max_mass_kg = 2;
    */

@@ -1905,7 +1905,7 @@ export const MotionService: GenService<{
    * Rehearses a clip that a figure loses as it is: finds out beforehand, in the simulator itself, what has to be added
    * to it so that the figure does it, and where strength is not found to do it, the least help. `PlayClip` uses it for
    * figures like that one. It takes some seconds of processor time for each second of the clip, at low priority; a
-   * further one for the same figure takes its place. It is kept in memory, with the clip. Who may not delete the clip
+   * further one for the same figure takes its place. It is kept and stored with the clip. Who may not delete the clip
    * gets PERMISSION_DENIED, since all who play it get what was found. FAILED_PRECONDITION (`LOAD_IN_TWO_HANDS`) for a
    * figure that holds one load in both hands, or may.
    *

@@ -66,7 +66,8 @@ export type Recording = Message<"sinew.v1.Recording"> & {
   createTime?: Timestamp | undefined;
 
   /**
-   * Why it has ended: `STOPPED`, `MAX_RECORDING_BYTES`, `WORLD_RESTORED`.
+   * Why it has ended: `STOPPED`, `MAX_RECORDING_BYTES`, `WORLD_RESTORED`, or `HISTORY_LOST`: what would follow is not
+   * on disk any more.
    *
    * @generated from field: string end_reason = 7;
    */
