@@ -18,9 +18,7 @@ const TOUCHES: f64 = 0.005;
 
 /// Contact points of a foot in the world: those of the foot, then those of the toes.
 pub fn sole(body: &Body, soles: &[Sole; 2], posture: &Posture, side: usize) -> Vec<Vec3> {
-    soles[side]
-        .points_at(side, &forward(body, posture))
-        .collect()
+    soles[side].points_at(&forward(body, posture)).collect()
 }
 
 pub fn soles(body: &Body) -> [Sole; 2] {

@@ -142,7 +142,7 @@ fn standing(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [(FootPlacemen
     let poses = forward(body, posture);
     [0, 1].map(|side| {
         let at = soles[side].footing(poses[FEET[side].index()]);
-        (at, soles[side].lowest_at(side, &poses))
+        (at, soles[side].lowest_at(&poses))
     })
 }
 

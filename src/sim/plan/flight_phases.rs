@@ -43,7 +43,7 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
         .iter()
         .map(|p| {
             let poses = forward(body, p);
-            std::array::from_fn(|s| soles[s].points_at(s, &poses).collect())
+            std::array::from_fn(|s| soles[s].points_at(&poses).collect())
         })
         .collect();
     // Speed and height of the point of a foot that is most at rest.

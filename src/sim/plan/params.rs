@@ -45,8 +45,8 @@ pub mod contact {
         LANDING_STEEPNESS: f64 = 0.8, "1", 0.5..=1.0, "docs/locomotion.md#streams";
         /// A foot of a stream that leaves the floor may be too steep for so long.
         LEAVING_TIME: i64 = 12, "samples", 1..=30, "docs/locomotion.md#streams";
-        /// Shortest stance and shortest flight where the load or a preparation tells them. Shorter than of labels by
-        /// speed: only what noise and what the preparation cut out is left.
+        /// Shortest stance and shortest flight where the load on the floor or a preparation tells them: both are
+        /// steadier than labels by speed.
         SHORTEST_TOLD: f64 = 0.05, "s", 0.02..=0.1, "docs/locomotion.md#contact";
     }
 }

@@ -182,8 +182,9 @@ pub(super) struct Fitted {
     /// Left and right: ankle, m, and `world_from_foot`.
     pub ankle: [Vec<Vec3>; 2],
     pub foot: [Vec<Quat>; 2],
+    /// Origin of the pelvis, m.
     pub pelvis: Vec<Vec3>,
-    /// Rotation of the pelvis as recorded.
+    /// Rotation of the pelvis as recorded, until the joints have it.
     pelvis_turn: Vec<Quat>,
 }
 
@@ -270,7 +271,8 @@ impl Fitted {
         label
     }
 
-    /// Frames of the upper body, the axes of the knees, and by how much shanks leave the planes of these, rad.
+    /// Frames of the upper body, the axes of the knees, and by how much shanks leave the planes of these, rad. Once: it
+    /// takes the rotations of the pelvis.
     pub(super) fn joints(
         &mut self,
         scene: &Scene<'_>,

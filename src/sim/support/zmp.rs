@@ -15,7 +15,7 @@ pub fn zmp(force: Vec3, moment: Vec3) -> Option<Vec3> {
     zmp_above(LEAST_NORMAL_FORCE, force, moment).filter(|z| z.is_finite())
 }
 
-/// The same of a ground that pushes by more than `least`, N.
+/// [`zmp`] of a ground that has to push by more than `least`, N; forces that are not finite have none that is.
 pub fn zmp_above(least: f64, force: Vec3, moment: Vec3) -> Option<Vec3> {
     (force.z > least).then(|| vec3(-moment.y / force.z, moment.x / force.z, 0.0))
 }

@@ -65,7 +65,7 @@ impl Legs {
         terms: &'a Terms,
         side: usize,
     ) -> impl Iterator<Item = Vec3> + 'a {
-        let parts = self.soles[side].parts(side).into_iter();
+        let parts = self.soles[side].parts().into_iter();
         parts.flat_map(move |(s, points)| {
             points.iter().map(move |p| terms.point_world(s.index(), *p))
         })

@@ -99,7 +99,7 @@ fn supporting_feet(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64)
             return planted;
         }
         let poses = forward(body, posture);
-        let [left, right] = [0, 1].map(|k: usize| soles[k].lowest_at(k, &poses));
+        let [left, right] = soles.each_ref().map(|sole| sole.lowest_at(&poses));
         [
             left < NEAR_FLOOR && left <= right,
             right < NEAR_FLOOR && right < left,

@@ -43,6 +43,8 @@ impl FootPose {
 /// The sole of one foot of a body.
 #[derive(Clone, Debug, Default)]
 pub struct Sole {
+    /// Left (0) or right (1).
+    pub(super) side: usize,
     pub(super) foot: Vec<Vec3>,
     pub(super) toes: Vec<Vec3>,
     pub(in crate::sim::plan) toe_joint: Vec3,
@@ -99,6 +101,7 @@ impl Sole {
         };
         let dof = DOF_START[t.index()];
         Self {
+            side,
             foot,
             toes,
             toe_joint,
@@ -108,9 +111,9 @@ impl Sole {
         }
     }
 
-    /// Segments of the left (`side` 0) or right (1) foot, each with its contact points, segment frame, m.
-    pub fn parts(&self, side: usize) -> [(SegmentId, &[Vec3]); 2] {
-        [(FEET[side], &self.foot), (TOES[side], &self.toes)]
+    /// Foot and toes, each with its contact points, segment frame, m.
+    pub fn parts(&self) -> [(SegmentId, &[Vec3]); 2] {
+        [(FEET[self.side], &self.foot), (TOES[self.side], &self.toes)]
     }
 
     /// Contact points of the foot and of the toes in the foot frame, toes extended by `toe` rad.
@@ -123,22 +126,20 @@ impl Sole {
         )
     }
 
-    /// Contact points of foot and toes of the left (`side` 0) or right (1) foot where segments have these poses, world,
-    /// m.
+    /// Contact points of foot and toes where segments have these poses (place, m, and rotation), world, m.
     pub fn points_at<'a>(
         &'a self,
-        side: usize,
         poses: &'a [(Vec3, Quat); SEGMENT_COUNT],
     ) -> impl Iterator<Item = Vec3> + 'a {
-        self.parts(side).into_iter().flat_map(|(segment, points)| {
+        self.parts().into_iter().flat_map(|(segment, points)| {
             let (at, q) = poses[segment.index()];
             points.iter().map(move |p| at + q.rotate(*p))
         })
     }
 
     /// Height of the lowest of [`Self::points_at`], m.
-    pub fn lowest_at(&self, side: usize, poses: &[(Vec3, Quat); SEGMENT_COUNT]) -> f64 {
-        let heights = self.points_at(side, poses).map(|p| p.z);
+    pub fn lowest_at(&self, poses: &[(Vec3, Quat); SEGMENT_COUNT]) -> f64 {
+        let heights = self.points_at(poses).map(|p| p.z);
         heights.fold(f64::INFINITY, f64::min)
     }
 

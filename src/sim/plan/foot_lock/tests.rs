@@ -4,6 +4,7 @@ use crate::sim::plan::params::stance;
 
 fn sole() -> Sole {
     Sole {
+        side: 0,
         foot: vec![
             Vec3::from_array([-0.05, 0.04, -0.08]),
             Vec3::from_array([-0.05, -0.04, -0.08]),
