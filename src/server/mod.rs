@@ -33,6 +33,8 @@ pub mod health;
 mod drain;
 mod edge;
 mod http;
+#[cfg(test)]
+mod testing;
 mod viewer;
 
 use crate::wire::DESCRIPTOR_SET;

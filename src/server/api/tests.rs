@@ -8,48 +8,10 @@ use crate::server::checkpoints::Kept;
 use crate::server::durable::local::LocalStore;
 use crate::server::durable::store::CheckpointStore;
 use crate::server::progress::Progress;
+use crate::server::testing::{Temporary, close};
 use crate::wire::convert::world::settings;
 use crate::wire::types::WorldSettings;
 use futures_util::FutureExt;
-use std::path::PathBuf;
-
-/// A directory that goes when the test ends.
-struct Temporary(PathBuf);
-
-impl Temporary {
-    fn new(test: &str) -> Self {
-        let dir = std::env::temp_dir().join(format!("sinew-api-{}-{test}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&dir); // of an earlier run
-        Self(dir)
-    }
-
-    /// A server on it.
-    async fn open(&self, more: &[(&str, &str)]) -> Arc<App> {
-        let flags: Vec<_> = [("data_dir", self.0.to_str().unwrap())]
-            .iter()
-            .chain(&[("tick_priority", "plain"), ("tick_workers", "1")])
-            .chain(more)
-            .map(|(a, b)| ((*a).to_owned(), (*b).to_owned()))
-            .collect();
-        let config = Config::load(None, std::iter::empty(), &flags).unwrap();
-        let (_, stopping) = watch::channel(false);
-        let app = Arc::new(App::new(Arc::new(config), stopping).unwrap());
-        app.restore().await;
-        app
-    }
-}
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
-/// Ends a server as one does that was asked to.
-async fn close(app: Arc<App>) {
-    app.worlds.drain().await;
-    app.persistence.as_ref().unwrap().close().await;
-}
 
 fn titled(title: &str) -> WorldSettings {
     let world = pb::World {
@@ -97,7 +59,7 @@ fn kept(owner: &str) -> Kept {
 
 #[tokio::test]
 async fn what_has_begun_with_a_world_is_stored_also_if_its_client_goes_away() {
-    let dir = Temporary::new("begun");
+    let dir = Temporary::new();
     let app = dir.open(&[]).await;
     let persistence = app.persistence.clone().unwrap();
     let world = begun(&app, "new", "user:ann").unwrap();
@@ -129,7 +91,7 @@ async fn what_has_begun_with_a_world_is_stored_also_if_its_client_goes_away() {
 
 #[tokio::test]
 async fn a_name_is_taken_until_all_that_belongs_to_it_is_forgotten() {
-    let dir = Temporary::new("name");
+    let dir = Temporary::new();
     let app = dir.open(&[]).await;
     let first = made(&app, "w", "first").await;
     let there = |world: &Arc<WorldHandle>| {
@@ -159,7 +121,7 @@ async fn a_name_is_taken_until_all_that_belongs_to_it_is_forgotten() {
 
 #[tokio::test]
 async fn of_two_stored_worlds_of_one_name_the_later_comes_back() {
-    let dir = Temporary::new("two");
+    let dir = Temporary::new();
     let app = dir.open(&[]).await;
     made(&app, "a", "first").await;
     made(&app, "b", "second").await;
@@ -183,7 +145,7 @@ async fn of_two_stored_worlds_of_one_name_the_later_comes_back() {
 
 #[tokio::test]
 async fn the_share_of_a_client_outlives_the_server() {
-    let dir = Temporary::new("share");
+    let dir = Temporary::new();
     let app = dir.open(&[]).await;
     for (id, owner) in [
         ("a", "user:ann"),
@@ -208,7 +170,7 @@ async fn the_share_of_a_client_outlives_the_server() {
 
 #[tokio::test]
 async fn a_clip_that_is_deleted_as_soon_as_it_is_seen_does_not_come_back() {
-    let dir = Temporary::new("clip");
+    let dir = Temporary::new();
     let app = dir.open(&[]).await;
     let caller = Caller {
         identity: Identity::anonymous(),

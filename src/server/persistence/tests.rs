@@ -5,49 +5,10 @@
 use super::*;
 use crate::server::api::App;
 use crate::server::durable::store::WorldKey;
+use crate::server::testing::{Temporary, close};
 use crate::server::worlds::WorldHandle;
 use crate::wire::convert::world::settings;
 use crate::wire::pb;
-use std::path::PathBuf;
-use tokio::sync::watch;
-
-/// A directory that goes when the test ends.
-struct Temporary(PathBuf);
-
-impl Temporary {
-    fn new(test: &str) -> Self {
-        let name = format!("sinew-persistence-{}-{test}", std::process::id());
-        let dir = std::env::temp_dir().join(name);
-        let _ = std::fs::remove_dir_all(&dir); // of an earlier run
-        Self(dir)
-    }
-
-    /// A server on it.
-    async fn open(&self) -> Arc<App> {
-        let flags = [
-            ("data_dir", self.0.to_str().unwrap()),
-            ("tick_priority", "plain"),
-            ("tick_workers", "1"),
-        ];
-        let flags: Vec<_> = flags.map(|(a, b)| (a.to_owned(), b.to_owned())).into();
-        let config = Config::load(None, std::iter::empty(), &flags).unwrap();
-        let (_, stopping) = watch::channel(false);
-        let app = Arc::new(App::new(Arc::new(config), stopping).unwrap());
-        app.restore().await;
-        app
-    }
-}
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
-async fn close(app: Arc<App>) {
-    app.worlds.drain().await;
-    app.persistence.as_ref().unwrap().close().await;
-}
 
 /// A world that was created, and whether that could be written.
 async fn created(app: &App, id: Option<&str>) -> (Arc<WorldHandle>, Result<(), Fault>) {
@@ -72,8 +33,8 @@ fn quarantine(dir: &Temporary, name: &str) -> WorldKey {
 
 #[tokio::test]
 async fn no_world_takes_the_name_of_one_in_quarantine() {
-    let dir = Temporary::new("name");
-    let app = dir.open().await;
+    let dir = Temporary::new();
+    let app = dir.open(&[]).await;
     let (first, written) = created(&app, None).await;
     written.unwrap();
     let name = first.id.to_string();
@@ -81,7 +42,7 @@ async fn no_world_takes_the_name_of_one_in_quarantine() {
     close(app).await;
     let key = quarantine(&dir, &name);
 
-    let app = dir.open().await;
+    let app = dir.open(&[]).await;
     // Whoever lets the server choose a name gets another one.
     let (second, written) = created(&app, None).await;
     written.unwrap();
@@ -103,8 +64,8 @@ async fn no_world_takes_the_name_of_one_in_quarantine() {
 #[cfg(unix)]
 #[tokio::test]
 async fn a_world_whose_file_cannot_be_read_keeps_no_other_away() {
-    let dir = Temporary::new("unreadable");
-    let app = dir.open().await;
+    let dir = Temporary::new();
+    let app = dir.open(&[]).await;
     for name in ["good", "bad"] {
         created(&app, Some(name)).await.1.unwrap();
     }
@@ -115,7 +76,7 @@ async fn a_world_whose_file_cannot_be_read_keeps_no_other_away() {
     let kept = std::fs::read(&path).unwrap();
     std::fs::remove_file(&path).unwrap();
     std::os::unix::fs::symlink(&path, &path).unwrap();
-    let app = dir.open().await;
+    let app = dir.open(&[]).await;
     assert!(app.worlds.get("good").is_ok());
     assert!(app.worlds.get("bad").is_err());
     created(&app, Some("other")).await.1.unwrap();
@@ -123,7 +84,7 @@ async fn a_world_whose_file_cannot_be_read_keeps_no_other_away() {
     // The disk can read it again.
     std::fs::remove_file(&path).unwrap();
     std::fs::write(&path, kept).unwrap();
-    let app = dir.open().await;
+    let app = dir.open(&[]).await;
     for name in ["good", "bad", "other"] {
         assert!(app.worlds.get(name).is_ok(), "{name}");
     }

@@ -279,6 +279,7 @@ mod tests {
     use super::super::row::{HASH, INPUT, frame};
     use super::*;
     use crate::server::durable::store::{Entry, Item};
+    use crate::server::testing::Temporary;
     use proptest::prelude::*;
 
     fn row(id: i64, kind: u8, (session, seq): (i64, i64), bytes: Vec<u8>) -> Row {
@@ -341,9 +342,8 @@ mod tests {
     /// SQLite says the same of a read that was interrupted and of one that has failed for a moment.
     #[test]
     fn a_read_that_fails_once_loses_no_row() {
-        let name = format!("sinew-scan-{}.sqlite", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        let mut log = Log::open(&path).unwrap();
+        let dir = Temporary::new();
+        let mut log = Log::open(&dir.0.join("log.sqlite")).unwrap();
         log.know(WorldKey(1));
         let checkpoint = |tick| Entry {
             world: WorldKey(1),
@@ -365,8 +365,5 @@ mod tests {
         .unwrap();
         let all: Vec<_> = (1..=20).map(|id| (id, true)).collect();
         assert_eq!(seen, all);
-        drop(log);
-        let _ = std::fs::remove_file(path.with_extension("end"));
-        let _ = std::fs::remove_file(path);
     }
 }

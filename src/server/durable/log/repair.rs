@@ -7,7 +7,8 @@ use rusqlite::Connection;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// Moves the files of a log out of the way, where they can be looked at. The directory that they are in then.
+/// Moves the files of a log out of the way, where they can be looked at, and the note of its end with them: the next
+/// log has another one. The directory that they are in then.
 ///
 /// # Errors
 /// They could not be moved.
@@ -16,7 +17,7 @@ pub(in crate::server::durable) fn set_aside(log: &Path) -> Result<PathBuf, Store
     let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
     let aside = dir.join(format!("damaged-{}", since.unwrap_or_default().as_millis()));
     std::fs::create_dir_all(&aside).map_err(|e| files::io_error(&aside, &e))?;
-    for extension in ["sqlite", "sqlite-wal", "sqlite-shm"] {
+    for extension in ["sqlite", "sqlite-wal", "sqlite-shm", "end"] {
         let from = log.with_extension(extension);
         if let (true, Some(name)) = (from.exists(), from.file_name()) {
             std::fs::rename(&from, aside.join(name)).map_err(|e| files::io_error(&from, &e))?;

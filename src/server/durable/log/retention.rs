@@ -149,6 +149,7 @@ impl Log {
 mod tests {
     use super::*;
     use crate::server::durable::store::{Entry, Item};
+    use crate::server::testing::Temporary;
     use bytes::Bytes;
     use std::time::Duration;
 
@@ -156,9 +157,8 @@ mod tests {
     #[test]
     fn what_others_keep_does_not_hide_what_can_be_deleted() {
         const RESTING: u64 = 100;
-        let name = format!("sinew-log-{}.sqlite", std::process::id());
-        let path = std::env::temp_dir().join(name);
-        let mut log = Log::open(&path).unwrap();
+        let dir = Temporary::new();
+        let mut log = Log::open(&dir.0.join("log.sqlite")).unwrap();
         let entry = |world, tick, item| Entry {
             world: WorldKey(world),
             tick,
@@ -210,8 +210,5 @@ mod tests {
         assert!(log.cut(&limits).unwrap().unswept, "a call is bounded");
         assert!(!log.cut(&limits).unwrap().unswept);
         assert_eq!(count(&log), rows - 2 * 20);
-        drop(log);
-        let _ = std::fs::remove_file(path.with_extension("end"));
-        let _ = std::fs::remove_file(path);
     }
 }
