@@ -1,13 +1,13 @@
 //! The torque stepper alone: a body with a share of its strength and no controller, one substep per step, so that every
 //! step is seen.
 
-use sinew::sim::body::angles::anatomical_angles;
+use sinew::sim::body::angles::{angles_of, swings};
 use sinew::sim::body::{Body, DOF_COUNT, Links, NV, State};
 use sinew::sim::contact::Tissue;
 use sinew::sim::dynamics::Terms;
 use sinew::sim::figure::StrengthScale;
 use sinew::sim::figure::torque_step::{
-    ExternalForces, MotorCommand, StepInput, Stepper, TorqueRange, TorqueStepper,
+    ExternalForces, MotorCommand, StepInput, Stepper, TickStart, TorqueRange, TorqueStepper,
 };
 use sinew::sim::figure::{Planning, TickContext};
 use sinew::sim::strength::{MuscleScale, Strength};
@@ -54,7 +54,8 @@ impl Bare {
             lower: [0.0; DOF_COUNT],
             upper: [0.0; DOF_COUNT],
         };
-        let angles = anatomical_angles(&state.posture);
+        let swings = swings(&state.posture);
+        let angles = angles_of(&swings, &state.posture);
         let TorqueRange { lower, upper } = &mut available;
         self.strength
             .range(&angles, &rates, &self.scale, lower, upper);
@@ -68,10 +69,13 @@ impl Bare {
             links: &self.links,
             strength: &self.strength,
             scale: &self.scale,
-            terms: &self.terms,
+            start: TickStart {
+                terms: &self.terms,
+                swings: &swings,
+                available: &available,
+            },
             last_acceleration: &[0.0; NV],
             command: &command,
-            available: &available,
             tissue,
             forces: ExternalForces {
                 applied: &[],

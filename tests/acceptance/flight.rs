@@ -5,7 +5,7 @@
 use crate::bare::Bare;
 use crate::common::{Scene, authored, bent, figure, man, still};
 use crate::{GRAVITY, integrals, vec3};
-use sinew::sim::body::angles::anatomical_angles;
+use sinew::sim::body::angles::{anatomical_angles, swings};
 use sinew::sim::body::topology::{DOF_START, JOINT, Joint, L_FOREARM, L_SHANK, R_FOREARM, R_SHANK};
 use sinew::sim::body::{DOF_COUNT, Links, Posture, State};
 use sinew::sim::contact::Tissue;
@@ -140,7 +140,7 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
         touched: 0,
     };
     for _ in 0..(3.0 * rate_hz) as usize {
-        let tissue = Tissue::new(&strength, &state, 1, dt);
+        let tissue = Tissue::new(&strength, (&state, &swings(&state.posture)), 1, dt);
         bare.step(&mut state, Some(&tissue));
         let a = &bare.stepper.forces.audit;
         // Work of the constraint forces on the way they were solved for.

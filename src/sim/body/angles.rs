@@ -8,7 +8,9 @@
 
 use super::model::Body;
 use super::state::{Posture, ball_rate_vector};
-use super::topology::{DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_START, JOINT, Joint, SEGMENT_COUNT};
+use super::topology::{
+    BALL_COUNT, DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_START, JOINT, Joint, SEGMENT_COUNT,
+};
 use crate::sim::math::{Quat, Vec3, trig};
 
 /// Largest angle between a segment's long axis and its zero-pose direction, rad (172°): keeps a raised arm off the
@@ -120,15 +122,28 @@ pub fn from_swing_twist(swing_x: f64, swing_y: f64, twist: f64) -> Quat {
     })
 }
 
+/// Swing and twist of each ball joint, by index of its quaternion.
+pub type Swings = [SwingTwist; BALL_COUNT];
+
+/// Swings and twists of a posture, from which come its angles and their rates.
+pub fn swings(posture: &Posture) -> Swings {
+    posture.ball.map(swing_twist)
+}
+
 /// The 39 anatomical angles of a posture, rad, in DOF order.
 pub fn anatomical_angles(posture: &Posture) -> [f64; DOF_COUNT] {
+    angles_of(&swings(posture), posture)
+}
+
+/// The same where the [`swings`] of the posture are known.
+pub fn angles_of(swings: &Swings, posture: &Posture) -> [f64; DOF_COUNT] {
     let mut out = [0.0; DOF_COUNT];
     for s in 1..SEGMENT_COUNT {
         let d = DOF_START[s];
         match JOINT[s] {
             Joint::Free => {}
             Joint::Ball(b) => {
-                out[d..d + 3].copy_from_slice(&swing_twist(posture.ball[b]).angles(d));
+                out[d..d + 3].copy_from_slice(&swings[b].angles(d));
             }
             Joint::Hinge2(h) | Joint::Hinge1(h) => {
                 out[d..d + DOF_LEN[s]].copy_from_slice(&posture.hinge[h..h + DOF_LEN[s]])

@@ -1,7 +1,7 @@
 //! Joint limits as unilateral rows: anatomical angles stay in their range, a raised arm stays off the antipode. And the
 //! tissue that is stretched before they are met.
 
-use crate::sim::body::angles::{SWING_MAX, swing_twist};
+use crate::sim::body::angles::{SWING_MAX, Swings};
 use crate::sim::body::topology::{
     DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_SEGMENT, DOF_START, JOINT, Joint, NV, SEGMENT_COUNT,
 };
@@ -127,13 +127,13 @@ impl AngleRow {
 }
 
 /// Visits all angles, and the swings of ball joints that are large.
-fn each_angle(posture: &Posture, mut visit: impl FnMut(AngleRow)) {
+fn each_angle(posture: &Posture, swings: &Swings, mut visit: impl FnMut(AngleRow)) {
     for s in 1..SEGMENT_COUNT {
         let d = DOF_START[s];
         match JOINT[s] {
             Joint::Free => {}
             Joint::Ball(b) => {
-                let st = swing_twist(posture.ball[b]);
+                let st = &swings[b];
                 for (k, angle) in st.angles(d).into_iter().enumerate() {
                     let a = DOF_AXIS[d + k];
                     let row = st.rate_rows[a.axis] * f64::from(a.sign);
@@ -156,8 +156,8 @@ fn each_angle(posture: &Posture, mut visit: impl FnMut(AngleRow)) {
     }
 }
 
-/// Fills the rows for a substep of `h` seconds from `state`. Also returns the anatomical angles, which cost nothing
-/// extra here.
+/// Fills the rows for a substep of `h` seconds from a state and the [`swings`](crate::sim::body::angles::swings) of its
+/// posture.
 ///
 /// Stretched tissue gives `τ + K h ω` at the end of the substep, ω the speed into it: `K` is its mean stiffness on the
 /// way that it would be stretched at the present speed, so that it takes up at least the energy that it stores, and it
@@ -167,19 +167,17 @@ fn each_angle(posture: &Posture, mut visit: impl FnMut(AngleRow)) {
 pub fn collect_limits(
     body: &Body,
     tissue: Option<&Strength>,
-    state: &State,
+    (state, swings): (&State, &Swings),
     h: f64,
     out: &mut LimitRows,
-) -> [f64; DOF_COUNT] {
+) {
     let rows = &mut out.rows;
     rows.clear();
-    let mut angles = [0.0; DOF_COUNT];
-    each_angle(&state.posture, |a| {
+    each_angle(&state.posture, swings, |a| {
         let Some(d) = a.dof else {
             rows.push(a.limit(f64::INFINITY, SWING_MAX - a.angle, h));
             return;
         };
-        angles[d] = a.angle;
         rows.push(a.limit(a.angle - body.lower[d], body.upper[d] - a.angle, h));
         let Some(strength) = tissue else { return };
         let rate = a.rate(&state.velocity);
@@ -190,7 +188,6 @@ pub fn collect_limits(
             }
         }
     });
-    angles
 }
 
 /// What stretched tissue gives over a tick, as a controller counts on it: the mean of what the substeps will find.
@@ -206,17 +203,23 @@ pub struct Tissue {
 pub type Blocks = [[[f64; 3]; 3]; SEGMENT_COUNT];
 
 impl Tissue {
-    /// Of the state at the start of a tick of `substeps` substeps of `h` seconds. No allocation.
+    /// Of the state at the start of a tick of `substeps` substeps of `h` seconds, and the
+    /// [`swings`](crate::sim::body::angles::swings) of its posture. No allocation.
     ///
     /// The substeps are implicit: the i-th finds the tissue stretched by `i h ω + ½ i (i + 1) h² ω̇` more.
-    pub fn new(strength: &Strength, state: &State, substeps: u32, h: f64) -> Self {
+    pub fn new(
+        strength: &Strength,
+        (state, swings): (&State, &Swings),
+        substeps: u32,
+        h: f64,
+    ) -> Self {
         let n = f64::from(substeps);
         let (way, by) = (0.5 * (n + 1.0) * h, (n + 1.0) * (n + 2.0) * h * h / 6.0);
         let mut out = Self {
             torque: [0.0; DOF_COUNT],
             inertia: [[[0.0; 3]; 3]; SEGMENT_COUNT],
         };
-        each_angle(&state.posture, |a| {
+        each_angle(&state.posture, swings, |a| {
             let Some(d) = a.dof else { return };
             let rate = a.rate(&state.velocity);
             for (side, sign) in [(0, 1.0), (1, -1.0)] {

@@ -20,7 +20,7 @@ use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::terms::WIDTH;
 use crate::sim::math::curve::fall;
 use crate::sim::math::dense::{
-    factor_body_columns, gram_of_columns, solve_lower, solve_lower_rows, solve_upper,
+    factor_body_columns, gram_of_columns, solve_lower, solve_lower_rows, solve_upper, weighted_gram,
 };
 use crate::sim::math::{Quat, Vec3};
 use crate::sim::motion::TargetPair;
@@ -374,19 +374,11 @@ fn kernel(
     linear: &mut [f64; WIDTH],
 ) -> Option<Outcome> {
     // 1. P: diagonal + task rows + held points. Column j of the lower triangle is row j.
-    for (j, row) in c.p.iter_mut().enumerate() {
-        row.fill(0.0);
-        row[j] = diagonal[j];
-    }
+    let rows = c.rows.iter().map(|task| (task.weight, &task.row));
+    weighted_gram(diagonal, rows, &mut c.p);
     for task in &c.rows {
-        for j in 0..NV {
-            let a = task.weight * task.row[j];
-            if a != 0.0 {
-                linear[j] += a * task.value;
-                for (x, y) in c.p[j].iter_mut().zip(&task.row) {
-                    *x += a * y;
-                }
-            }
+        for (x, r) in linear.iter_mut().zip(&task.row) {
+            *x += task.weight * r * task.value;
         }
     }
     let mut stiffness = [[[0.0; 6]; 6]; SEGMENT_COUNT];
@@ -428,8 +420,7 @@ fn kernel(
     if !factor_body_columns(&mut c.p) {
         return None;
     }
-    *c.y = *t.m;
-    solve_lower_rows(&c.p, &mut c.y);
+    solve_lower_rows(&c.p, &t.m, &mut c.y);
     gram_of_columns(&c.y, &mut c.a);
     // Assist: forces on the pelvis at a price of their own add their compliance to the root's diagonal of the dual.
     for i in 0..6 {

@@ -1,35 +1,89 @@
 //! Tree-sparse Cholesky factor of the inertia matrix: M = LᵀL, leaves first, no fill-in (Featherstone 2008, §6.5).
 
-use super::mass_matrix::{BLOCK, CHAIN, DEPTH, MassMatrix};
-use crate::sim::body::topology::NV;
+use super::mass_matrix::{BLOCK, CHAIN, DEPTH, MassMatrix, ROW};
+use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, SEGMENT_COUNT};
 use crate::sim::math::Lane;
 
 /// Replaces M by its factor L in place. M must be positive definite, as every validated body's is.
 ///
-/// Rows are changed in whole blocks: a few products too many cost less than loops of all lengths. What lies beyond a
-/// diagonal is overwritten by them; no entry depends on it.
+/// Segment by segment, each from the rows of those that it carries: the rows of a segment stay in registers until they
+/// are done. They are changed in whole blocks: a few products too many cost less than loops of all lengths. What lies
+/// beyond a diagonal is overwritten by them; no entry depends on it.
 #[inline(always)]
 pub fn factor<L: Lane>(m: &mut MassMatrix<L>) {
-    for i in (0..NV).rev() {
-        let depth = DEPTH[i];
-        let root = m.rows[i][depth].sqrt();
-        let inv = L::one() / root;
-        let mut row = m.rows[i];
-        for x in &mut row {
-            *x *= inv;
+    for (first, count, end) in COMPONENTS.into_iter().rev() {
+        let range = (first, end);
+        match (count, DEPTH[first + count - 1] / BLOCK) {
+            (6, 0) => factor_segment::<L, 6, BLOCK>(m, range),
+            (3, 1) => factor_segment::<L, 3, { 2 * BLOCK }>(m, range),
+            (1, 1) => factor_segment::<L, 1, { 2 * BLOCK }>(m, range),
+            (2, 2) => factor_segment::<L, 2, { 3 * BLOCK }>(m, range),
+            _ => unreachable!("no segment of the tree is like that"),
         }
-        row[depth] = root;
-        m.rows[i] = row;
-        let ancestors = CHAIN[i][..depth].chunks(BLOCK).zip(row.chunks(BLOCK));
-        for (block, (ancestors, factors)) in ancestors.enumerate() {
-            for (j, x) in ancestors.iter().zip(factors) {
-                let target = &mut m.rows[*j];
-                for c in 0..(block + 1) * BLOCK {
-                    target[c] -= *x * row[c];
-                }
+    }
+}
+
+/// Of each segment: its first velocity component, how many it has, and where those end that it carries.
+const COMPONENTS: [(usize, usize, usize); SEGMENT_COUNT] = {
+    let mut out = [(0, 6, NV); SEGMENT_COUNT];
+    let mut s = SEGMENT_COUNT - 1;
+    while s > 0 {
+        let (first, count) = (6 + DOF_START[s], DOF_LEN[s]);
+        let mut end = first + count;
+        while end < NV && CHAIN[end][DEPTH[first]] == first {
+            end += 1;
+        }
+        out[s] = (first, count, end);
+        s -= 1;
+    }
+    out
+};
+
+/// The N rows of L of a segment, W numbers of each, from the rows of what it carries.
+///
+/// * `first`, `end`: its first component, and where those end that it carries.
+#[inline(always)]
+fn factor_segment<L: Lane, const N: usize, const W: usize>(
+    m: &mut MassMatrix<L>,
+    (first, end): (usize, usize),
+) {
+    let (own, carried) = m.rows[first..end].split_at_mut(N);
+    let depth = DEPTH[first];
+    let mut z = [[L::zero(); W]; N];
+    for n in 0..N {
+        z[n] = start_of(&own[n]);
+    }
+    for row in carried.iter().rev() {
+        let y = start_of::<L, W>(row);
+        for n in 0..N {
+            let x = row[depth + n];
+            for c in 0..W {
+                z[n][c] -= x * y[c];
             }
         }
     }
+    for n in (0..N).rev() {
+        own[n][..W].copy_from_slice(&z[n]);
+        let root = own[n][depth + n].sqrt();
+        let inv = L::one() / root;
+        for c in 0..W {
+            z[n][c] *= inv;
+        }
+        own[n][..W].copy_from_slice(&z[n]);
+        own[n][depth + n] = root;
+        for k in 0..n {
+            let x = own[n][depth + k];
+            for c in 0..W {
+                z[k][c] -= x * z[n][c];
+            }
+        }
+    }
+}
+
+/// The first W numbers of a row.
+#[inline(always)]
+fn start_of<L: Lane, const W: usize>(row: &[L; ROW]) -> [L; W] {
+    *row.first_chunk().expect("W ≤ ROW")
 }
 
 /// Solves `M x = b` in place with the factor of [`factor`]. O(n·depth), no allocation.

@@ -90,11 +90,9 @@ impl<L: Lane> MassMatrix<L> {
 }
 
 impl MassMatrix<f64> {
-    /// Writes the full symmetric matrix; columns 45…47 are zero padding.
+    /// Writes the full symmetric matrix. What the tree makes zero, and the padding of columns 45…47, is not written: it
+    /// must be zero already.
     pub fn to_dense(&self, out: &mut [[f64; 48]; NV]) {
-        for row in out.iter_mut() {
-            row.fill(0.0);
-        }
         for i in 0..NV {
             for k in 0..=DEPTH[i] {
                 let j = CHAIN[i][k];

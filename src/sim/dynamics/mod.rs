@@ -26,4 +26,4 @@ pub use integrals::{Momentum, center_of_mass, kinetic_energy, momentum, rotor_en
 pub use kinematics::Kinematics;
 pub use mass_matrix::MassMatrix;
 pub use rnea::{External, ExternalForces, RneaWorkspace, rnea};
-pub use terms::Terms;
+pub use terms::{Dynamics, Placement, Terms};

@@ -6,7 +6,7 @@ use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, PARENT, SEGMENT_COUNT};
 use crate::sim::math::{Lane, Vec3};
 
 /// A force and moment on a segment, world axes, moment about the segment origin (N·m, N).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct External<L = f64> {
     /// Moment about the segment origin, N·m.
     pub moment: Vec3<L>,

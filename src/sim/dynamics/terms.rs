@@ -9,35 +9,30 @@ use super::rnea::{External, ExternalForces, RneaWorkspace, rnea};
 use crate::sim::body::topology::{NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Links, State};
 use crate::sim::math::{Mat3, Vec3};
+use std::ops::{Deref, DerefMut};
 
 pub use crate::sim::math::dense::WIDTH;
 
 /// A force on a point of a segment: segment, point (segment frame, m), force (world axes, N).
 pub type AppliedForce = (SegmentId, Vec3, Vec3);
 
-/// Dynamics of one state. Boxed once per figure; [`Terms::compute`] and `clone_from` allocate nothing.
-#[derive(Debug)]
-pub struct Terms {
+/// Where the segments are in one state, and how they move.
+#[derive(Debug, Default)]
+pub struct Placement {
     /// The state.
     pub state: State,
     /// Segments in world axes.
     pub kin: Kinematics<f64>,
+}
+
+/// Placement, inertia and bias forces of one state: what a substep of simulation needs. [`Terms`] has more.
+#[derive(Debug)]
+pub struct Dynamics {
+    placement: Placement,
     /// Inertia matrix, tree-sparse, armature included.
     pub mass_matrix: MassMatrix<f64>,
-    /// The same, dense and symmetric, rows padded with zeros.
-    pub m: Box<[[f64; WIDTH]; NV]>,
     /// Coriolis, centrifugal and gravity forces minus applied forces.
     pub h: [f64; NV],
-    /// Total mass, kg.
-    pub mass: f64,
-    /// Centre of mass, world, m.
-    pub com: Vec3,
-    /// Velocity of the centre of mass, m/s.
-    pub com_velocity: Vec3,
-    /// Bias acceleration of the centre of mass `J̇_c v`, m/s².
-    pub com_bias: Vec3,
-    /// Jacobian of the centre of mass, rows x, y, z.
-    pub jc: [[f64; WIDTH]; 3],
     /// Mass properties of subtrees.
     pub composite: CompositeInertia<f64>,
     bias: RneaWorkspace<f64>,
@@ -45,139 +40,64 @@ pub struct Terms {
     external: [External; SEGMENT_COUNT],
 }
 
-impl Clone for Terms {
+impl Clone for Placement {
     fn clone(&self) -> Self {
         let mut out = Self::default();
         out.clone_from(self);
         out
     }
 
-    /// Field by field: the derived one would drop the box and allocate another, every tick.
+    /// Into place.
     fn clone_from(&mut self, other: &Self) {
-        let Self {
-            state,
-            kin,
-            mass_matrix,
-            m,
-            h,
-            mass,
-            com,
-            com_velocity,
-            com_bias,
-            jc,
-            composite,
-            bias,
-            scratch,
-            external,
-        } = other;
-        self.state = *state;
-        self.kin.clone_from(kin);
-        self.mass_matrix.clone_from(mass_matrix);
-        self.m.clone_from(m);
-        self.h = *h;
-        self.mass = *mass;
-        self.com = *com;
-        self.com_velocity = *com_velocity;
-        self.com_bias = *com_bias;
-        self.jc = *jc;
-        self.composite.clone_from(composite);
-        self.bias.clone_from(bias);
-        self.scratch.clone_from(scratch);
-        self.external = *external;
+        self.state = other.state;
+        self.kin.clone_from(&other.kin);
     }
 }
 
-impl Default for Terms {
+impl Deref for Dynamics {
+    type Target = Placement;
+
+    fn deref(&self) -> &Placement {
+        &self.placement
+    }
+}
+
+impl Default for Dynamics {
     fn default() -> Self {
         Self {
-            state: State::default(),
-            kin: Kinematics::default(),
+            placement: Placement::default(),
             mass_matrix: MassMatrix::default(),
-            m: Box::new([[0.0; WIDTH]; NV]),
             h: [0.0; NV],
-            mass: 0.0,
-            com: Vec3::zero(),
-            com_velocity: Vec3::zero(),
-            com_bias: Vec3::zero(),
-            jc: [[0.0; WIDTH]; 3],
             composite: CompositeInertia::default(),
             bias: RneaWorkspace::default(),
             scratch: RneaWorkspace::default(),
-            external: [External {
-                moment: Vec3::zero(),
-                force: Vec3::zero(),
-            }; SEGMENT_COUNT],
+            external: [External::default(); SEGMENT_COUNT],
         }
     }
 }
 
-impl Terms {
-    /// Fills everything from a state. `gravity` is a magnitude (m/s²) along −z.
-    pub fn compute(
-        &mut self,
-        links: &Links,
-        state: &State,
-        applied: &[AppliedForce],
-        gravity: f64,
-    ) {
+impl Clone for Dynamics {
+    fn clone(&self) -> Self {
+        let mut out = Self::default();
+        out.clone_from(self);
+        out
+    }
+
+    /// Field by field, into place. What the recursions leave in `scratch` and `external` is not needed again.
+    fn clone_from(&mut self, other: &Self) {
+        self.placement.clone_from(&other.placement);
+        self.mass_matrix.rows = other.mass_matrix.rows;
+        self.h = other.h;
+        self.composite.clone_from(&other.composite);
+        self.bias.clone_from(&other.bias);
+    }
+}
+
+impl Placement {
+    /// Fills it from a state.
+    pub fn set_state(&mut self, links: &Links, state: &State) {
         self.state = *state;
         self.kin.set_state(links, state);
-        crba(links, &self.kin, &mut self.composite, &mut self.mass_matrix);
-        self.mass_matrix.to_dense(&mut self.m);
-        bias_accelerations(&self.kin, &state.velocity, &mut self.bias);
-        let zero = [0.0; NV];
-        let external: &[External] = if applied.is_empty() {
-            &[]
-        } else {
-            self.external.fill(External {
-                moment: Vec3::zero(),
-                force: Vec3::zero(),
-            });
-            for (s, point, force) in applied {
-                let e = &mut self.external[s.index()];
-                e.force += *force;
-                e.moment += (self.kin.rotation[s.index()] * *point).cross(*force);
-            }
-            &self.external
-        };
-        rnea(
-            links,
-            &self.kin,
-            &state.velocity,
-            &zero,
-            ExternalForces {
-                gravity,
-                on_segments: external,
-            },
-            &mut self.scratch,
-            &mut self.h,
-        );
-        self.mass = self.composite.mass[0];
-        let inv = 1.0 / self.mass;
-        self.com = state.posture.root_position + self.composite.moment[0] * inv;
-        for i in 0..NV {
-            for k in 0..3 {
-                self.jc[k][i] = self.m[3 + k][i] * inv;
-            }
-        }
-        let row = |k: usize| {
-            (0..NV)
-                .map(|i| self.jc[k][i] * state.velocity[i])
-                .sum::<f64>()
-        };
-        self.com_velocity = Vec3 {
-            x: row(0),
-            y: row(1),
-            z: row(2),
-        };
-        let mut f = Vec3::zero();
-        for s in 0..SEGMENT_COUNT {
-            let (w, h) = (self.kin.omega[s], self.kin.moment[s]);
-            f += self.bias.acceleration[s] * links.mass[s]
-                + self.bias.alpha[s].cross(h)
-                + w.cross(w.cross(h));
-        }
-        self.com_bias = f * inv;
     }
 
     /// World position of a segment origin, m.
@@ -195,6 +115,60 @@ impl Terms {
     /// Velocity of a point given in the segment frame, m/s.
     pub fn point_velocity(&self, s: usize, local: Vec3) -> Vec3 {
         self.kin.velocity[s] + self.kin.omega[s].cross(self.kin.rotation[s] * local)
+    }
+}
+
+impl Dynamics {
+    /// Fills everything from a state. `gravity` is a magnitude (m/s²) along −z.
+    pub fn compute(
+        &mut self,
+        links: &Links,
+        state: &State,
+        applied: &[AppliedForce],
+        gravity: f64,
+    ) {
+        self.placement.set_state(links, state);
+        self.compute_forces(links, applied, gravity);
+    }
+
+    /// Fills the rest where the placement is known. `gravity` is a magnitude (m/s²) along −z.
+    fn compute_forces(&mut self, links: &Links, applied: &[AppliedForce], gravity: f64) {
+        let Placement { state, kin } = &self.placement;
+        crba(links, kin, &mut self.composite, &mut self.mass_matrix);
+        bias_accelerations(kin, &state.velocity, &mut self.bias);
+        let zero = [0.0; NV];
+        let external: &[External] = if applied.is_empty() {
+            &[]
+        } else {
+            self.external.fill(External::default());
+            for (s, point, force) in applied {
+                let e = &mut self.external[s.index()];
+                e.force += *force;
+                e.moment += (kin.rotation[s.index()] * *point).cross(*force);
+            }
+            &self.external
+        };
+        rnea(
+            links,
+            kin,
+            &state.velocity,
+            &zero,
+            ExternalForces {
+                gravity,
+                on_segments: external,
+            },
+            &mut self.scratch,
+            &mut self.h,
+        );
+    }
+
+    /// Counts one more force among those that act on the body.
+    ///
+    /// * `r`: the point of segment `s` that it acts on, minus the pelvis origin, world axes, m. `force`: world axes, N.
+    pub fn add_force(&mut self, s: usize, r: Vec3, force: Vec3) {
+        for_each_column(&self.placement.kin, s, r, |i, _, v| {
+            self.h[i] -= v.dot(force);
+        });
     }
     /// Bias acceleration `J̇ v` of a point given in the segment frame, m/s².
     pub fn point_bias(&self, s: usize, local: Vec3) -> Vec3 {
@@ -227,6 +201,140 @@ impl Terms {
             (out[3][i], out[4][i], out[5][i]) = (v.x, v.y, v.z);
         });
     }
+}
+
+/// Dynamics of one state. [`Terms::compute`] and `clone_from` allocate nothing.
+#[derive(Debug)]
+pub struct Terms {
+    dynamics: Dynamics,
+    /// The inertia matrix, dense and symmetric, rows padded with zeros.
+    pub m: Box<[[f64; WIDTH]; NV]>,
+    /// Total mass, kg.
+    pub mass: f64,
+    /// Centre of mass, world, m.
+    pub com: Vec3,
+    /// Velocity of the centre of mass, m/s.
+    pub com_velocity: Vec3,
+    /// Bias acceleration of the centre of mass `J̇_c v`, m/s².
+    pub com_bias: Vec3,
+    /// Jacobian of the centre of mass, rows x, y, z.
+    pub jc: [[f64; WIDTH]; 3],
+}
+
+impl Deref for Terms {
+    type Target = Dynamics;
+
+    fn deref(&self) -> &Dynamics {
+        &self.dynamics
+    }
+}
+
+impl DerefMut for Terms {
+    fn deref_mut(&mut self) -> &mut Dynamics {
+        &mut self.dynamics
+    }
+}
+
+impl Clone for Terms {
+    fn clone(&self) -> Self {
+        let mut out = Self::default();
+        out.clone_from(self);
+        out
+    }
+
+    /// Field by field: the derived one would drop the box and allocate another, every tick.
+    fn clone_from(&mut self, other: &Self) {
+        let Self {
+            dynamics,
+            m,
+            mass,
+            com,
+            com_velocity,
+            com_bias,
+            jc,
+        } = other;
+        self.dynamics.clone_from(dynamics);
+        self.m.clone_from(m);
+        self.mass = *mass;
+        self.com = *com;
+        self.com_velocity = *com_velocity;
+        self.com_bias = *com_bias;
+        self.jc = *jc;
+    }
+}
+
+impl Default for Terms {
+    fn default() -> Self {
+        Self {
+            dynamics: Dynamics::default(),
+            m: Box::new([[0.0; WIDTH]; NV]),
+            mass: 0.0,
+            com: Vec3::zero(),
+            com_velocity: Vec3::zero(),
+            com_bias: Vec3::zero(),
+            jc: [[0.0; WIDTH]; 3],
+        }
+    }
+}
+
+impl Terms {
+    /// Fills everything from a state. `gravity` is a magnitude (m/s²) along −z.
+    pub fn compute(
+        &mut self,
+        links: &Links,
+        state: &State,
+        applied: &[AppliedForce],
+        gravity: f64,
+    ) {
+        self.dynamics.placement.set_state(links, state);
+        self.compute_forces(links, applied, gravity);
+    }
+
+    /// The same of a state whose placement is known.
+    pub fn compute_placed(
+        &mut self,
+        links: &Links,
+        placement: &Placement,
+        applied: &[AppliedForce],
+        gravity: f64,
+    ) {
+        self.dynamics.placement.clone_from(placement);
+        self.compute_forces(links, applied, gravity);
+    }
+
+    fn compute_forces(&mut self, links: &Links, applied: &[AppliedForce], gravity: f64) {
+        self.dynamics.compute_forces(links, applied, gravity);
+        let d = &self.dynamics;
+        let state = &d.state;
+        d.mass_matrix.to_dense(&mut self.m);
+        self.mass = d.composite.mass[0];
+        let inv = 1.0 / self.mass;
+        self.com = state.posture.root_position + d.composite.moment[0] * inv;
+        for i in 0..NV {
+            for k in 0..3 {
+                self.jc[k][i] = self.m[3 + k][i] * inv;
+            }
+        }
+        let row = |k: usize| {
+            (0..NV)
+                .map(|i| self.jc[k][i] * state.velocity[i])
+                .sum::<f64>()
+        };
+        self.com_velocity = Vec3 {
+            x: row(0),
+            y: row(1),
+            z: row(2),
+        };
+        let mut f = Vec3::zero();
+        for s in 0..SEGMENT_COUNT {
+            let (w, h) = (d.kin.omega[s], d.kin.moment[s]);
+            f += d.bias.acceleration[s] * links.mass[s]
+                + d.bias.alpha[s].cross(h)
+                + w.cross(w.cross(h));
+        }
+        self.com_bias = f * inv;
+    }
+
     /// Rows A and bias b of the centroidal angular momentum L, world axes: `L = A v`, N·m·s, and `L̇ = A v̇ + b`, N·m
     /// (the angular half of the centroidal momentum matrix of Orin, Goswami & Lee 2013).
     ///

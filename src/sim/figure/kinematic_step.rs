@@ -130,7 +130,7 @@ impl KinematicStepper {
         let f = &mut self.forces;
         (f.iterations, f.flags) = (0, Flags::default());
         f.contact.clear();
-        self.penetration = deepest(input, input.terms);
+        self.penetration = deepest(input, input.start.terms);
         self.account(input, decision, state);
         if decision.within_strength && self.forces.over_limit > LIMIT_TOLERANCE {
             return false;
@@ -141,9 +141,9 @@ impl KinematicStepper {
             .filter(|_| !command.flags.has(Flags::FLIGHT));
         // A support that is to hold but still moves has just come down: it stops inelastically.
         if let (Some(s), None) = (main, command.pivot)
-            && touching_speed(input.terms, decision.support.points(), s) > IMPACT_SPEED
+            && touching_speed(input.start.terms, decision.support.points(), s) > IMPACT_SPEED
         {
-            self.terms.clone_from(input.terms);
+            self.terms.clone_from(input.start.terms);
             self.impact(input, state);
         }
         let start = *state;
@@ -195,7 +195,7 @@ impl KinematicStepper {
             self.anchor = None;
             return;
         };
-        let (t, s) = (input.terms, main.index());
+        let (t, s) = (input.start.terms, main.index());
         let rotation = Quat::from_mat3(&t.segment_rotation(s));
         let wanted = match pivot {
             None => {
@@ -380,7 +380,7 @@ impl KinematicStepper {
 
     /// What the applied accelerations need: ground forces at the touching points and joint torques by inverse dynamics.
     fn account(&mut self, input: &StepInput<'_>, decision: &Decision<'_>, state: &State) {
-        let (t, command) = (input.terms, decision.command);
+        let (t, command) = (input.start.terms, decision.command);
         let mut r = t.h; // M v̇ + h
         let mut ma = [0.0; NV];
         t.mass_matrix.mul(&command.acceleration, &mut ma);
@@ -474,8 +474,8 @@ impl KinematicStepper {
         for j in 0..DOF_COUNT {
             f.over_limit = f
                 .over_limit
-                .max(f.torque[j] / input.available.upper[j] - 1.0)
-                .max(f.torque[j] / input.available.lower[j] - 1.0);
+                .max(f.torque[j] / input.start.available.upper[j] - 1.0)
+                .max(f.torque[j] / input.start.available.lower[j] - 1.0);
         }
     }
 }

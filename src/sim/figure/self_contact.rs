@@ -28,7 +28,7 @@ use crate::sim::body::{Body, Posture};
 use crate::sim::collide::narrow::{Near, capsules};
 use crate::sim::collide::shape::{BodyShape, Capsule};
 use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
+use crate::sim::dynamics::{Dynamics, MassMatrix, factor, solve};
 use crate::sim::math::{Mat3, Quat, Vec3};
 use crate::sim::motion::TargetPair;
 use crate::sim::motion::leg_ik::forward;
@@ -210,7 +210,7 @@ impl SelfContact {
     }
 
     /// Starts a substep of `h` s: finds the pairs that are near each other or could meet. No allocation.
-    pub fn open(&mut self, own: Option<&OwnBody<'_>>, terms: &Terms, h: f64) {
+    pub fn open(&mut self, own: Option<&OwnBody<'_>>, terms: &Dynamics, h: f64) {
         self.pairs.clear();
         self.factored = false;
         self.h = h;
@@ -242,7 +242,7 @@ impl SelfContact {
     }
 
     /// Adds a pair if it is near or comes near.
-    fn look_at(&mut self, shape: &BodyShape, terms: &Terms, segments: [SegmentId; 2]) {
+    fn look_at(&mut self, shape: &BodyShape, terms: &Dynamics, segments: [SegmentId; 2]) {
         let kin = &terms.kin;
         let Some(near) = nearest(shape, &kin.position, &kin.rotation, segments) else {
             return;

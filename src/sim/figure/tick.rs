@@ -48,10 +48,10 @@ use super::loads::MAX_APPLIED;
 use super::plan_task::{LatePlans, Planning};
 use super::self_contact::OwnBody;
 use super::tasks::TaskPoints;
-use super::torque_step::{Accuracy, ExternalForces, StepInput, Stepper, TorqueStepper};
+use super::torque_step::{Accuracy, ExternalForces, StepInput, Stepper, TickStart, TorqueStepper};
 use super::touches::Chosen;
 use crate::sim::body::State;
-use crate::sim::body::angles::anatomical_angles;
+use crate::sim::body::angles::{angles_of, swings};
 use crate::sim::contact::Tissue;
 use crate::sim::control::{Modern, MomentumTarget, Paper};
 use crate::sim::math::Vec3;
@@ -159,7 +159,8 @@ impl Figure {
             self.outcome.report.flags = Flags::QUARANTINED;
             self.motion.note(FollowMode::Nothing, 0.0, 0.0, world.dt);
         } else {
-            self.sense(world);
+            let PhysicalState { links, state, .. } = &self.physical;
+            self.scratch.placement.set_state(links, state);
         }
     }
 
@@ -175,6 +176,7 @@ impl Figure {
 
     /// Stages 2–5 of a tick: the rest of what comes before the body moves.
     pub(crate) fn decide(&mut self, world: &TickContext) {
+        self.sense(world);
         self.update_activity(world);
         self.update_desired_motion(world);
         self.update_support(world);
@@ -213,10 +215,11 @@ impl Figure {
 
     /// Stage 2: dynamics of the present state.
     fn sense(&mut self, world: &TickContext) {
-        let PhysicalState { links, state, .. } = &self.physical;
+        let links = &self.physical.links;
         let applied = self.surroundings.disturbances.applied();
-        let terms = &mut self.scratch.terms;
-        terms.compute(links, state, applied, world.gravity);
+        let terms = &mut self.workspace.terms;
+        terms.compute_placed(links, &self.scratch.placement, applied, world.gravity);
+        self.scratch.com_velocity = terms.com_velocity;
     }
 
     /// Stage 2: switches between motions that are due; a fallen figure gets up if its motion does.
@@ -259,7 +262,7 @@ impl Figure {
         let bar = self.workspace.steppers.torque.forces.bar;
         let least = self.least_rest(world);
         let at_once = self.active_controller() == ControllerKind::Paper;
-        let terms = &self.scratch.terms;
+        let terms = &self.workspace.terms;
         let Surroundings {
             disturbances,
             support,
@@ -276,7 +279,7 @@ impl Figure {
 
     /// Force from which a part counts as resting on something, N.
     fn least_rest(&self, world: &TickContext) -> f64 {
-        REST_SHARE * self.scratch.terms.mass * world.gravity
+        REST_SHARE * self.workspace.terms.mass * world.gravity
     }
 
     /// Stage 4: what the muscles can give at these angles and rates, and what stretched tissue gives. The paper's body
@@ -286,9 +289,10 @@ impl Figure {
         let state = &self.physical.state;
         let results = &mut self.scratch.results;
         let h = world.dt / f64::from(world.substeps);
+        results.swings = swings(&state.posture);
         results.tissue = (self.setup.controller != ControllerKind::Paper)
-            .then(|| Tissue::new(strength, state, world.substeps, h));
-        results.angles = anatomical_angles(&state.posture);
+            .then(|| Tissue::new(strength, (state, &results.swings), world.substeps, h));
+        results.angles = angles_of(&results.swings, &state.posture);
         results.rates = std::array::from_fn(|j| state.velocity[6 + j]);
         self.physical.muscles = self.available_strength();
         let results = &mut self.scratch.results;
@@ -304,7 +308,7 @@ impl Figure {
     /// Stage 5: tasks of the tick, then the controller's decision. The controller counts on what the figure leans on
     /// and on its stretched tissue.
     fn solve_control(&mut self, world: &TickContext) {
-        let bias = self.scratch.terms.h;
+        let bias = self.workspace.terms.h;
         let least = self.least_rest(world);
         let stands = self.surroundings.support.main().is_some();
         let chosen = match self.active_controller() {
@@ -312,7 +316,7 @@ impl Figure {
             ControllerKind::Paper if stands => Chosen::All(least),
             _ => Chosen::None,
         };
-        let Scratch { terms, results, .. } = &mut self.scratch;
+        let (terms, results) = (&mut self.workspace.terms, &self.scratch.results);
         self.surroundings.touches.add_reactions(terms, chosen);
         let inertia = results.tissue.as_ref().map(|t| t.add_to(terms));
         let (tasks, steps) = self.plan_tasks(world);
@@ -326,7 +330,7 @@ impl Figure {
         }
         self.scratch.results.command = command;
         self.update_hand_over(world.dt);
-        let Scratch { terms, results, .. } = &mut self.scratch;
+        let (terms, results) = (&mut self.workspace.terms, &mut self.scratch.results);
         terms.h = bias;
         if let Some(inertia) = inertia {
             Tissue::restore(&inertia, terms);
@@ -338,13 +342,14 @@ impl Figure {
 
     /// Centre of mass, hands and feet of the desired motion, changed by constraints and steps.
     fn plan_tasks(&mut self, world: &TickContext) -> (TaskPoints, StepDemand) {
+        let makes_steps = self.steps() && !self.is_carried();
         let body = &self.setup.body;
-        let Scratch {
+        let Workspace {
             terms,
             tasks: buffers,
-            floor,
             ..
-        } = &mut self.scratch;
+        } = &mut *self.workspace;
+        let floor = &mut self.scratch.floor;
         let DesiredMotion {
             target,
             constraints,
@@ -372,7 +377,7 @@ impl Figure {
             get_up.plan_contacts(body, buffers, target, off, floor);
         }
         let mut steps = StepDemand::default();
-        if self.steps() && !self.is_carried() {
+        if makes_steps {
             let mut targets = TaskTargets {
                 com: &mut tasks.com,
                 momentum: tasks.spin[0],
@@ -381,7 +386,7 @@ impl Figure {
                 unplanned_steps: self.setup.params.protective_steps,
             };
             steps.acceleration = self.desired.tracker.update_tasks(
-                &self.scratch.terms,
+                terms,
                 &self.surroundings.support,
                 world.gravity,
                 world.dt,
@@ -467,8 +472,10 @@ impl Figure {
             Accuracy::default()
         };
         let Workspace {
+            terms,
             controllers,
             steppers,
+            ..
         } = &mut *self.workspace;
         steppers.torque.set_accuracy(accuracy);
         let disturbances = &self.surroundings.disturbances;
@@ -478,10 +485,13 @@ impl Figure {
             links: &self.physical.links,
             strength: &self.constants.strength,
             scale: &self.physical.muscles,
-            terms: &self.scratch.terms,
+            start: TickStart {
+                terms,
+                swings: &results.swings,
+                available: &results.available,
+            },
             last_acceleration: &self.outcome.report.audit.acceleration,
             command: &results.command,
-            available: &results.available,
             tissue: results.tissue.as_ref(),
             forces: ExternalForces {
                 applied: disturbances.applied(),

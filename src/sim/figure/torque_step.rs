@@ -14,6 +14,7 @@ use super::loads::{Bar, MAX_EXTERNAL};
 use super::params::contact;
 use super::self_contact::{OwnBody, SelfContact};
 use super::tick::TickContext;
+use crate::sim::body::angles::{Swings, angles_of, swings};
 use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
 use crate::sim::body::{Body, Links, State};
 use crate::sim::collide::island::{Articulated, Parts};
@@ -23,7 +24,7 @@ use crate::sim::contact::{
     slides,
 };
 use crate::sim::dynamics::terms::AppliedForce;
-use crate::sim::dynamics::{MassMatrix, Terms, factor, solve};
+use crate::sim::dynamics::{Dynamics, MassMatrix, Terms, factor, solve};
 use crate::sim::math::Vec3;
 use crate::sim::report::{Audit, ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
 use crate::sim::strength::{MuscleScale, Strength};
@@ -41,14 +42,12 @@ pub struct StepInput<'a> {
     pub strength: &'a Strength,
     /// Factors on the muscles.
     pub scale: &'a MuscleScale,
-    /// Terms of the state at the start of the tick, those the controller used.
-    pub terms: &'a Terms,
+    /// What is known of the state at the start of the tick.
+    pub start: TickStart<'a>,
     /// Acceleration in the last substep of the tick before, from which the first solve starts; zeros without one.
     pub last_acceleration: &'a [f64; NV],
     /// What the motors are asked to do.
     pub command: &'a MotorCommand,
-    /// Available torque at the start of the tick.
-    pub available: &'a TorqueRange,
     /// Stretched tissue as the controller counts on it; without it none acts.
     pub tissue: Option<&'a Tissue>,
     /// Forces that neither muscles nor contact give.
@@ -57,6 +56,17 @@ pub struct StepInput<'a> {
     pub own: Option<OwnBody<'a>>,
     /// Tick, substeps and gravity.
     pub world: &'a TickContext,
+}
+
+/// What is known of the state at the start of a tick: the first substep takes it from here.
+#[derive(Clone, Copy, Debug)]
+pub struct TickStart<'a> {
+    /// Its terms, those the controller used.
+    pub terms: &'a Terms,
+    /// Swings and twists of its joints.
+    pub swings: &'a Swings,
+    /// Torque that is available there: the strength, with the factors of [`StepInput::scale`].
+    pub available: &'a TorqueRange,
 }
 
 /// Torque that muscles can give, N·m.
@@ -184,8 +194,8 @@ impl Default for Accuracy {
 /// Repair S5.
 #[derive(Clone, Debug)]
 pub struct TorqueStepper {
-    /// Terms of the current substep.
-    pub terms: Terms,
+    /// Dynamics of the current substep.
+    pub dynamics: Dynamics,
     problem: SubstepProblem,
     solver: SubstepSolver,
     solution: SubstepSolution,
@@ -268,7 +278,7 @@ impl TorqueStepper {
     /// A stepper on ground with friction coefficient `friction`.
     pub fn new(friction: f64) -> Self {
         Self {
-            terms: Terms::default(),
+            dynamics: Dynamics::default(),
             problem: SubstepProblem {
                 contacts: ContactRows::new(friction),
                 slides: Slides::default(),
@@ -370,6 +380,7 @@ impl TorqueStepper {
             links,
             strength,
             scale,
+            start,
             command,
             tissue,
             forces: ExternalForces { applied, .. },
@@ -384,23 +395,28 @@ impl TorqueStepper {
         } = *input;
         let h = dt / f64::from(substeps);
         if i == 0 {
-            self.terms.clone_from(input.terms);
+            self.dynamics.clone_from(start.terms);
         } else {
-            self.terms.compute(links, state, applied, gravity);
+            self.dynamics.compute(links, state, applied, gravity);
         }
-        let angles = collect_limits(
-            body,
-            tissue.map(|_| strength),
-            state,
-            h,
-            &mut self.problem.limits,
-        );
-        let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
-        let TorqueRange { lower, upper } = &mut self.problem.range;
-        strength.range(&angles, &rates, scale, lower, upper);
+        let now;
+        let swings = if i == 0 {
+            self.problem.range = *start.available;
+            start.swings
+        } else {
+            now = swings(&state.posture);
+            let angles = angles_of(&now, &state.posture);
+            let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
+            let TorqueRange { lower, upper } = &mut self.problem.range;
+            strength.range(&angles, &rates, scale, lower, upper);
+            &now
+        };
+        let tissue = tissue.map(|_| strength);
+        collect_limits(body, tissue, (state, swings), h, &mut self.problem.limits);
+        let TorqueRange { lower, upper } = &self.problem.range;
         for j in 0..DOF_COUNT {
             // The gain follows strength: a motor gives all it has when it is `saturation_speed` off.
-            let k = 0.5 * (input.available.upper[j] - input.available.lower[j])
+            let k = 0.5 * (start.available.upper[j] - start.available.lower[j])
                 / command.saturation_speed;
             let aim = self.means.start[j] + f64::from(i + 1) * h * command.acceleration[j];
             self.problem.motors.gain[j] = h * k;
@@ -413,10 +429,13 @@ impl TorqueStepper {
             .forces
             .assist
             .map(|help| help.spring(state, i, substeps, dt));
-        self.problem.row = input.forces.bar.map(|bar| BarRow::new(bar, &self.terms, h));
+        self.problem.row = input
+            .forces
+            .bar
+            .map(|bar| BarRow::new(bar, &self.dynamics, h));
         self.external.impulse = None;
         self.external.forces.clear();
-        self.own.open(input.own.as_ref(), &self.terms, h);
+        self.own.open(input.own.as_ref(), &self.dynamics, h);
         self.solve_substep(input, h, state, spring.as_ref());
     }
 
@@ -487,7 +506,7 @@ impl TorqueStepper {
     /// Problem 14.3.
     fn collect_contacts(&mut self, body: &Body, h: f64) {
         self.problem.contacts.clear();
-        let (t, root) = (&self.terms, self.terms.state.posture.root_position);
+        let (t, root) = (&self.dynamics, self.dynamics.state.posture.root_position);
         for s in 0..SEGMENT_COUNT {
             let origin = root.z + t.kin.position[s].z;
             for (vertex, p) in body.segments[s]
@@ -513,7 +532,7 @@ impl TorqueStepper {
                             / h)
                             .min(contact::PENETRATION_SPEED)
                     };
-                    let slot = self.problem.contacts.slot(&self.terms.kin, s);
+                    let slot = self.problem.contacts.slot(&self.dynamics.kin, s);
                     let inverse_r = 1.0 / contact::COMPLIANCE;
                     self.problem.contacts.points.push(PointRow {
                         slot,
@@ -531,7 +550,7 @@ impl TorqueStepper {
 
     /// Recomputes the velocity from the impulses of the last iterate and writes it to `state.velocity`.
     fn close(&mut self, h: f64, state: &mut State) {
-        let t = &self.terms;
+        let t = &self.dynamics;
         let mut x = self.solution.pushed;
         for j in 0..DOF_COUNT {
             x[6 + j] += self.solver.newton.motor[j] + self.solver.newton.limit[j];
@@ -581,14 +600,14 @@ impl TorqueStepper {
             f.audit.assist[i] = self.solution.assist[i] / h;
         }
         f.over_limit = f.over_limit.max(0.0);
-        let root = self.terms.state.posture.root_position;
+        let root = self.dynamics.state.posture.root_position;
         if last {
             f.audit.contacts.clear();
             f.audit.applied.clear();
             for (s, p, force) in applied {
                 f.audit
                     .applied
-                    .push((*s, self.terms.point_world(s.index(), *p), *force));
+                    .push((*s, self.dynamics.point_world(s.index(), *p), *force));
             }
             f.audit
                 .applied
@@ -601,7 +620,7 @@ impl TorqueStepper {
             if impulse.z <= 0.0 {
                 continue;
             }
-            let position = root + self.terms.kin.position[p.segment] + p.r;
+            let position = root + self.dynamics.kin.position[p.segment] + p.r;
             let slot = &mut self.means.impulse[p.segment * POINTS_PER_SEGMENT + p.vertex];
             if slot.0.z == 0.0 {
                 slot.1 = position;
@@ -623,7 +642,7 @@ impl TorqueStepper {
 impl Articulated for TorqueStepper {
     fn parts(&mut self) -> Parts<'_> {
         Parts {
-            m: &self.terms.mass_matrix,
+            m: &self.dynamics.mass_matrix,
             hessian: &mut self.solver.hessian,
             b: &self.solution.pushed,
             motors: &self.problem.motors,

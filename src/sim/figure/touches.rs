@@ -3,8 +3,7 @@
 use super::events::{FigureEvent, Watcher};
 use crate::sim::body::SegmentId;
 use crate::sim::collide::{MAX_TOUCHES, Other, Touch};
-use crate::sim::dynamics::Terms;
-use crate::sim::dynamics::jacobian::for_each_column;
+use crate::sim::dynamics::{Dynamics, Terms};
 use crate::sim::figure::params::support::{
     LARGEST_REACTION, REACTION_GAIN, SPOT_FORGOTTEN, SPOT_SIZE,
 };
@@ -205,11 +204,12 @@ impl Touches {
     }
 
     /// Adds a contact of a substep to the means over the tick of `dt` s.
-    pub fn add(&mut self, terms: &Terms, c: &Contacting, dt: f64) {
+    pub fn add(&mut self, dynamics: &Dynamics, c: &Contacting, dt: f64) {
         let force = c.impulse * (1.0 / dt);
         let weight = force.dot(c.normal).max(0.0);
         let s = c.segment.index();
-        let local = terms.kin.rotation[s].transpose_mul(c.position - terms.segment_position(s));
+        let local =
+            dynamics.kin.rotation[s].transpose_mul(c.position - dynamics.segment_position(s));
         let found = self
             .now
             .iter_mut()
@@ -307,7 +307,7 @@ impl Touches {
     }
 
     /// Counts the expected reactions among the forces in `terms.h`, but for those that the controller chooses.
-    pub fn add_reactions(&self, terms: &mut Terms, chosen: Chosen) {
+    pub fn add_reactions(&self, terms: &mut Dynamics, chosen: Chosen) {
         for e in &self.now {
             let left = match chosen {
                 Chosen::None => false,
@@ -318,9 +318,8 @@ impl Touches {
                 continue;
             }
             let s = e.touch.segment.index();
-            let Terms { kin, h, .. } = terms;
-            let r = kin.position[s] + kin.rotation[s] * e.local;
-            for_each_column(kin, s, r, |i, _, v| h[i] -= v.dot(e.expected));
+            let r = terms.kin.position[s] + terms.kin.rotation[s] * e.local;
+            terms.add_force(s, r, e.expected);
         }
     }
 }

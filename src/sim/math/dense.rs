@@ -191,25 +191,100 @@ fn rest_of<const LENGTH: usize>(row: &[f64; WIDTH]) -> [f64; LENGTH] {
     *row.last_chunk().expect("LENGTH ≤ WIDTH")
 }
 
-/// `Y ← L⁻¹ Y` with the factor of [`factor_body_columns`]: row by row from those before it.
+/// Numbers of a row that [`solve_lower_rows`] has in registers at a time, of three rows.
+const TILE: usize = 16;
+
+/// `Y = L⁻¹ M` with the factor of [`factor_body_columns`]: three rows at a time from those before them, in tiles that
+/// stay in registers.
 #[inline(always)]
-pub fn solve_lower_rows<const N: usize>(l: &[[f64; WIDTH]; N], y: &mut [[f64; WIDTH]; N]) {
-    for j in 0..N {
-        let (before, rest) = y.split_at_mut(j);
-        let mut z = rest[0];
-        for (column, row) in l.iter().zip(before.iter()) {
-            let a = column[j];
-            if a != 0.0 {
-                for (z, y) in z.iter_mut().zip(row) {
-                    *z -= a * y;
-                }
-            }
-        }
-        let s = 1.0 / l[j][j];
-        for (x, z) in rest[0].iter_mut().zip(z) {
-            *x = z * s;
+pub fn solve_lower_rows<const N: usize>(
+    l: &[[f64; WIDTH]; N],
+    m: &[[f64; WIDTH]; N],
+    y: &mut [[f64; WIDTH]; N],
+) {
+    const { assert!(N.is_multiple_of(3) && WIDTH.is_multiple_of(TILE)) };
+    for j in (0..N).step_by(3) {
+        for from in (0..WIDTH).step_by(TILE) {
+            solve_tile(l, &m[j..], y, (j, from));
         }
     }
+}
+
+/// Columns from `from` on of rows `j` to `j + 2` of [`solve_lower_rows`], given the rows of M from `j` on.
+#[inline(always)]
+fn solve_tile(
+    l: &[[f64; WIDTH]],
+    m: &[[f64; WIDTH]],
+    y: &mut [[f64; WIDTH]],
+    (j, from): (usize, usize),
+) {
+    let (before, rest) = y.split_at_mut(j);
+    let (mut z0, mut z1, mut z2) = (
+        tile_of(&m[0], from),
+        tile_of(&m[1], from),
+        tile_of(&m[2], from),
+    );
+    for (column, row) in l.iter().zip(before.iter()) {
+        let (a0, a1, a2) = (column[j], column[j + 1], column[j + 2]);
+        let x = tile_of(row, from);
+        for k in 0..TILE {
+            z0[k] -= a0 * x[k];
+            z1[k] -= a1 * x[k];
+            z2[k] -= a2 * x[k];
+        }
+    }
+    let (l0, l1) = (&l[j], &l[j + 1]);
+    let (s0, s1, s2) = (1.0 / l0[j], 1.0 / l1[j + 1], 1.0 / l[j + 2][j + 2]);
+    for k in 0..TILE {
+        z0[k] *= s0;
+        z1[k] = (z1[k] - l0[j + 1] * z0[k]) * s1;
+        z2[k] = (z2[k] - l0[j + 2] * z0[k] - l1[j + 2] * z1[k]) * s2;
+    }
+    for (row, z) in rest.iter_mut().zip([z0, z1, z2]) {
+        row[from..from + TILE].copy_from_slice(&z);
+    }
+}
+
+/// [`TILE`] numbers of a row.
+#[inline(always)]
+fn tile_of(row: &[f64; WIDTH], from: usize) -> [f64; TILE] {
+    *row[from..].first_chunk().expect("tiles fill a row")
+}
+
+/// Lower triangle of `D + Σ w r rᵀ` by columns, as [`factor_body_columns`] reads it; what lies above may hold anything.
+///
+/// * `diagonal`: D.
+/// * `rows`: w and r of each term.
+#[inline(always)]
+pub fn weighted_gram<'a, const N: usize>(
+    diagonal: &[f64; N],
+    rows: impl Iterator<Item = (f64, &'a [f64; WIDTH])> + Clone,
+    m: &mut [[f64; WIDTH]; N],
+) {
+    for (j, column) in m.iter_mut().enumerate() {
+        from_block_of!(j, gram_column(column, (j, diagonal[j]), rows.clone()));
+    }
+}
+
+/// Column `j` of [`weighted_gram`], from the block of its diagonal on, given `j` and its entry of D.
+#[inline(always)]
+fn gram_column<'a, const LENGTH: usize>(
+    column: &mut [f64; WIDTH],
+    (j, diagonal): (usize, f64),
+    rows: impl Iterator<Item = (f64, &'a [f64; WIDTH])>,
+) {
+    column[j & !7..].fill(0.0);
+    column[j] = diagonal;
+    let mut z = rest_of::<LENGTH>(column);
+    for (weight, row) in rows {
+        let (a, y) = (weight * row[j], rest_of::<LENGTH>(row));
+        if a != 0.0 {
+            for (z, y) in z.iter_mut().zip(y) {
+                *z += a * y;
+            }
+        }
+    }
+    column[WIDTH - LENGTH..].copy_from_slice(&z);
 }
 
 /// `A = YᵀY`, three rows at a time from the block of their diagonal on; the rest is its mirror image.
@@ -406,8 +481,8 @@ mod tests {
                 .collect()
         };
         assert_eq!(lower(&l), lower(&other));
-        let mut solved = y;
-        solve_lower_rows(&l, &mut solved);
+        let mut solved = [[f64::NAN; WIDTH]; N];
+        solve_lower_rows(&l, &y, &mut solved);
         for j in 0..N {
             let mut column: [f64; WIDTH] =
                 std::array::from_fn(|i| if i < N { y[i][j] } else { 0.0 });

@@ -4,7 +4,7 @@
 use super::look::{Cost, Look, Looker, Off};
 use super::problem::{Problem, Reference};
 use super::settings::Settings;
-use crate::sim::body::angles::anatomical_angles;
+use crate::sim::body::angles::{angles_of, swings};
 use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::body::{Body, Links, State};
 use crate::sim::contact::Tissue;
@@ -16,7 +16,7 @@ use crate::sim::figure::plan_task::Planning;
 use crate::sim::figure::rehearsed::{JointOffset, MotorLaw, RootStep};
 use crate::sim::figure::tick::TickContext;
 use crate::sim::figure::torque_step::{
-    Accuracy, ExternalForces, StepInput, TorqueRange, TorqueStepper,
+    Accuracy, ExternalForces, StepInput, TickStart, TorqueRange, TorqueStepper,
 };
 use crate::sim::math::Vec3;
 use crate::sim::motion::TargetPair;
@@ -141,8 +141,9 @@ impl Simulator {
         action.offset.add_to(&mut moved);
         self.terms.compute(links, state, &[], world.gravity);
         let h = world.dt / f64::from(world.substeps);
-        let tissue = Tissue::new(strength, state, world.substeps, h);
-        let angles = anatomical_angles(&state.posture);
+        let swings = swings(&state.posture);
+        let tissue = Tissue::new(strength, (state, &swings), world.substeps, h);
+        let angles = angles_of(&swings, &state.posture);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
         let TorqueRange { lower, upper } = &mut self.available;
         strength.range(&angles, &rates, muscles, lower, upper);
@@ -153,10 +154,13 @@ impl Simulator {
             links,
             strength,
             scale: muscles,
-            terms: &self.terms,
+            start: TickStart {
+                terms: &self.terms,
+                swings: &swings,
+                available: &self.available,
+            },
             last_acceleration: &[0.0; NV],
             command: &command,
-            available: &self.available,
             tissue: Some(&tissue),
             forces: ExternalForces {
                 applied: &[],

@@ -48,9 +48,10 @@ impl StepTracker {
         self.is_stopping().then_some(&self.legs.at_ease)
     }
 
-    /// True from the end of a clip that ended in motion until the figure has settled.
-    pub fn comes_to_stand(&self, terms: &Terms) -> bool {
-        self.is_stopping() && !self.is_settled(terms)
+    /// True from the end of a clip that ended in motion until the figure, whose centre of mass moves at `com_velocity`
+    /// (m/s), has settled.
+    pub fn comes_to_stand(&self, com_velocity: Vec3) -> bool {
+        self.is_stopping() && !self.is_settled(com_velocity)
     }
 
     /// True from the end of a clip that ended in motion until another motion begins.

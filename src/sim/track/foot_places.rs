@@ -5,7 +5,7 @@ use super::{Footfall, Legs, StepTracker};
 use crate::sim::body::topology::{FEET, TOES};
 use crate::sim::body::{Body, Posture};
 use crate::sim::control::FootTarget;
-use crate::sim::dynamics::Terms;
+use crate::sim::dynamics::{Placement, Terms};
 use crate::sim::math::{Quat, Vec3, trig};
 use crate::sim::motion::leg_ik::forward;
 use crate::sim::plan::foot_lock::FootPlacement;
@@ -74,8 +74,8 @@ impl Legs {
 
 impl StepTracker {
     /// Where the feet stand: the middle between them (world, m) and the mean of their headings, rad.
-    pub fn stance(&self, terms: &Terms) -> (Vec3, f64) {
-        let FootPlace { at, yaw } = middle(&self.places(terms));
+    pub fn stance(&self, placement: &Placement) -> (Vec3, f64) {
+        let FootPlace { at, yaw } = middle(&self.places(placement));
         (at, yaw)
     }
 
@@ -94,11 +94,11 @@ impl StepTracker {
     }
 
     /// Where the feet are.
-    pub(super) fn places(&self, terms: &Terms) -> FootPlaces {
+    pub(super) fn places(&self, placement: &Placement) -> FootPlaces {
         [0, 1].map(|side| {
             let s = FEET[side].index();
-            let rotation = Quat::from_mat3(&terms.segment_rotation(s));
-            self.place_of(side, (terms.segment_position(s), rotation))
+            let rotation = Quat::from_mat3(&placement.segment_rotation(s));
+            self.place_of(side, (placement.segment_position(s), rotation))
         })
     }
 

@@ -366,13 +366,15 @@ impl StepTracker {
 
     /// True if it stands: no step is under way or to come, its feet are where they should be, and the body is slow
     /// enough and near enough to its place to begin something else.
-    pub fn is_settled(&self, terms: &Terms) -> bool {
+    ///
+    /// * `com_velocity`: of the centre of mass, world axes, m/s.
+    pub fn is_settled(&self, com_velocity: Vec3) -> bool {
         let goes_on = self.followed.is_some() && !self.is_stopping();
         let to_come = |side: usize| !self.feet[side].down || self.next(side).is_some();
         let steps = self.recovers() || goes_on && (0..2).any(to_come);
         !steps
             && !self.recovery.misplaced
-            && terms.com_velocity.level() < REST_SPEED
+            && com_velocity.level() < REST_SPEED
             && self.capture.off() < SETTLED_OFFSET
     }
 

@@ -4,16 +4,17 @@
 
 use super::*;
 use crate::sim::body::State;
-use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
+use crate::sim::body::angles::{anatomical_angles, angles_of, set_anatomical_angles, swings};
 use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, NV};
 use crate::sim::body::{Body, Links};
 use crate::sim::contact::Tissue;
+use crate::sim::dynamics::Terms;
 use crate::sim::dynamics::{Kinematics, kinetic_energy, rotor_energy};
 use crate::sim::figure::plan_task::Planning;
 use crate::sim::figure::rehearsed::MotorLaw;
 use crate::sim::figure::tick::TickContext;
 use crate::sim::figure::torque_step::{
-    ExternalForces, MotorCommand, StepInput, Stepper, TorqueRange, TorqueStepper,
+    ExternalForces, MotorCommand, StepInput, Stepper, TickStart, TorqueRange, TorqueStepper,
 };
 use crate::sim::figure::{ControllerKind, FigureSetup};
 use crate::sim::math::vec3::vec3;
@@ -79,8 +80,9 @@ impl Rig {
         self.terms
             .compute(&self.links, state, &[], self.world.gravity);
         let h = self.world.dt / f64::from(self.world.substeps);
-        let tissue = Tissue::new(&self.strength, state, self.world.substeps, h);
-        let angles = anatomical_angles(&state.posture);
+        let swings = swings(&state.posture);
+        let tissue = Tissue::new(&self.strength, (state, &swings), self.world.substeps, h);
+        let angles = angles_of(&swings, &state.posture);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);
         let scale = StrengthScale {
             all: self.share,
@@ -106,10 +108,13 @@ impl Rig {
             links: &self.links,
             strength: &self.strength,
             scale: &scale,
-            terms: &self.terms,
+            start: TickStart {
+                terms: &self.terms,
+                swings: &swings,
+                available: &available,
+            },
             last_acceleration: &[0.0; NV],
             command: &command,
-            available: &available,
             tissue: Some(&tissue),
             forces: ExternalForces {
                 applied: &[],

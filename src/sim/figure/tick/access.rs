@@ -5,13 +5,14 @@ use super::{ExitPlan, Figure, StreamEntryPlan};
 use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::body::{Body, Links, SegmentId, State};
 use crate::sim::collide::shape::BodyShape;
-use crate::sim::dynamics::Terms;
+use crate::sim::dynamics::{Dynamics, Placement};
 use crate::sim::figure::constraints::Constraint;
 use crate::sim::figure::drive::{Drive, LivePlayback, QueuedClip};
 use crate::sim::figure::events::FigureEvent;
 use crate::sim::figure::following::Following;
 use crate::sim::figure::plan_task::{LatePlans, PlanRequest};
 use crate::sim::figure::second_hand::{Help, SecondHand};
+use crate::sim::figure::tasks::TaskWorkspace;
 use crate::sim::figure::touches::Touches;
 use crate::sim::math::Vec3;
 use crate::sim::motion::{PlanarTransform, TargetPair};
@@ -74,12 +75,12 @@ impl Figure {
         self.physical.frozen
     }
     /// Where its segments are in the present substep.
-    pub(crate) fn substep_terms(&self) -> &Terms {
-        &self.workspace.steppers.torque.terms
+    pub(crate) fn substep_dynamics(&self) -> &Dynamics {
+        &self.workspace.steppers.torque.dynamics
     }
     /// Where its segments were at the start of the tick.
-    pub(crate) fn tick_terms(&self) -> &Terms {
-        &self.scratch.terms
+    pub(crate) fn placement(&self) -> &Placement {
+        &self.scratch.placement
     }
     /// Events of the last tick.
     pub fn events(&self) -> &[FigureEvent] {
@@ -188,7 +189,7 @@ impl Figure {
         (
             self.outcome.report.balance.com,
             self.outcome.report.balance.com_velocity,
-        ) = self.scratch.tasks.center_of_mass(&links, &state);
+        ) = TaskWorkspace::default().center_of_mass(&links, &state);
     }
     /// Forgets what passes from tick to tick but state, motion and fatigue.
     pub(super) fn forget(&mut self) {

@@ -1,6 +1,7 @@
 //! Stages 4 and 5: what the muscles can give, what the motion asks for, and the controller's answer.
 
-use super::state::{Scratch, StageResults};
+use super::state::StageResults;
+use super::workspace::Workspace;
 use super::{Figure, StepDemand, TickContext};
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::control::{
@@ -26,7 +27,8 @@ impl Figure {
         }
         if self.motion.gets_up() {
             let last = self.desired.target.next.posture;
-            let (body, Scratch { terms, get_up, .. }) = (&self.setup.body, &mut self.scratch);
+            let (body, get_up) = (&self.setup.body, &mut self.scratch.get_up);
+            let terms = &self.workspace.terms;
             return self.desired.get_up.targets(body, get_up, terms, &last, dt);
         }
         if !self.steps() {
@@ -39,7 +41,7 @@ impl Figure {
             Drive::Live(live) => live.stream_time(t),
             _ => t,
         };
-        let (tracker, terms) = (&mut self.desired.tracker, &self.scratch.terms);
+        let (tracker, terms) = (&mut self.desired.tracker, &self.workspace.terms);
         let pair = |now, next| drive.pair(now, next);
         tracker.targets(time, dt, terms, clip_time, pair, carried)
     }
@@ -60,7 +62,7 @@ impl Figure {
         let flight = self.desired.tracker.next_flight()?;
         let spin = match self.motion.source() {
             Drive::Clip(play) => self
-                .scratch
+                .workspace
                 .tasks
                 .spin(&self.physical.links, &play.sample(flight.middle)),
             Drive::Live(live) => live.motion.spin_at(live.stream_time(flight.middle))?,
@@ -128,9 +130,14 @@ impl Figure {
             hands[free] = hand;
             free += 1;
         }
+        let active = self.active_controller();
+        let braces = active == ControllerKind::Motors && self.braces();
+        let Workspace {
+            terms, controllers, ..
+        } = &mut *self.workspace;
         let input = ControlInput {
             carried: self.desired.load_compensation.in_hands(),
-            terms: &self.scratch.terms,
+            terms,
             body: &self.setup.body,
             support: &self.surroundings.support,
             target: &self.desired.target,
@@ -161,20 +168,16 @@ impl Figure {
                 .map_or([0.0; 2], |a| a.planned()),
             kinematic: self.stepping.prescribed,
         };
-        let (command, saturation_speed) = match self.active_controller() {
+        let (command, saturation_speed) = match active {
             ControllerKind::Paper => (
-                self.workspace.controllers.paper.control(&input),
+                controllers.paper.control(&input),
                 motors::FEED_FORWARD_SPEED,
             ),
-            ControllerKind::Modern => (
-                self.workspace.controllers.modern.control(&input),
-                motors::MODERN_SPEED,
-            ),
+            ControllerKind::Modern => (controllers.modern.control(&input), motors::MODERN_SPEED),
             ControllerKind::Motors => {
-                let braces = self.braces();
                 let limp = self.motion.is_limp() && !braces;
                 let braced = braces.then(|| {
-                    let (body, terms) = (&self.setup.body, &self.scratch.terms);
+                    let body = &self.setup.body;
                     let desired = &self.desired.target.next.posture;
                     let held = bracing::posture(body, terms, desired, world.gravity);
                     TargetPair {

@@ -1,6 +1,7 @@
 //! Stage 6 of figures that are near something: the world solves substep by substep for all of them together
 //! (`world::collisions`).
 
+use super::workspace::Workspace;
 use super::{Figure, Integration, TickContext};
 use crate::sim::body::SegmentId;
 use crate::sim::body::topology::{L_FOOT, NV, R_FOOT};
@@ -39,7 +40,7 @@ impl Figure {
     /// Shows where the segments are now that it has moved.
     pub(crate) fn show_moved(&mut self, world: &TickContext) {
         let applied = self.surroundings.disturbances.applied();
-        self.workspace.steppers.torque.terms.compute(
+        self.workspace.steppers.torque.dynamics.compute(
             &self.physical.links,
             &self.physical.state,
             applied,
@@ -87,7 +88,7 @@ impl Figure {
     pub(crate) fn record_impact(&mut self, what: &Contacting, dt: f64) {
         self.surroundings
             .touches
-            .add(&self.workspace.steppers.torque.terms, what, dt);
+            .add(&self.workspace.steppers.torque.dynamics, what, dt);
     }
 
     /// Something will be met, and contact acts by forces: torques take over before the tick begins.
@@ -97,11 +98,10 @@ impl Figure {
     }
     /// Shows where the segments are before it is known which stepper moves them.
     pub(crate) fn show(&mut self) {
-        self.workspace
-            .steppers
-            .torque
-            .terms
-            .clone_from(&self.scratch.terms);
+        let Workspace {
+            terms, steppers, ..
+        } = &mut *self.workspace;
+        steppers.torque.dynamics.clone_from(terms);
     }
 
     /// Starts the tick.
@@ -132,7 +132,7 @@ impl Figure {
             .push(what.segment, what.position, what.impulse * (1.0 / h));
         self.surroundings
             .touches
-            .add(&self.workspace.steppers.torque.terms, what, dt);
+            .add(&self.workspace.steppers.torque.dynamics, what, dt);
     }
     /// Closes substep `i` and moves.
     pub(crate) fn close_substep(&mut self, world: &TickContext, i: u32) {

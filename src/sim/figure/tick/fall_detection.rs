@@ -41,12 +41,12 @@ impl Figure {
             false if modern => Reach::Body,
             _ => Reach::Paper,
         };
-        let height = self.scratch.terms.com.z / self.constants.standing_com_height;
+        let height = self.workspace.terms.com.z / self.constants.standing_com_height;
         let before = self.surroundings.balance.lost();
         let off = self.desired.tracker.off_plan().filter(|_| self.steps());
         self.surroundings.balance.observe(&Observation {
             body: &s.body,
-            terms: &self.scratch.terms,
+            terms: &self.workspace.terms,
             support: &self.surroundings.support,
             gravity: world.gravity,
             dt: world.dt,
@@ -83,7 +83,7 @@ impl Figure {
     pub(super) fn braces(&self) -> bool {
         let s = &self.setup;
         let person = s.controller == ControllerKind::Modern && s.params.protective_steps;
-        let terms = &self.scratch.terms;
+        let terms = &self.workspace.terms;
         let wanted = self.desired.com.now;
         let falls = if self.motion.is_limp() {
             let head = terms.point_velocity(HEAD.index(), s.body.segment(HEAD).com);
@@ -115,7 +115,7 @@ impl Figure {
         let r = &self.outcome.report;
         if self.stepping.prescribed && self.setup.params.hand_over {
             let saturated = (r.joints.saturated | r.joints.saturated_secondary) != 0;
-            let arrives = other_part_arrives(&self.setup.body, &self.scratch.terms, dt);
+            let arrives = other_part_arrives(&self.setup.body, &self.workspace.terms, dt);
             let fast = self.physical.state.velocity[6..]
                 .iter()
                 .any(|v| v.abs() > SPEED_CAP);
@@ -206,7 +206,7 @@ impl Figure {
 
     /// Falls and rises.
     pub(super) fn detect_fall(&mut self) {
-        let height = self.scratch.terms.com.z / self.constants.standing_com_height;
+        let height = self.workspace.terms.com.z / self.constants.standing_com_height;
         let on_other = self
             .outcome
             .report

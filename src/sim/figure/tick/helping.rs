@@ -71,7 +71,7 @@ impl Figure {
 
     /// True if the centre of mass is low and something else than feet touches.
     fn lies(&self) -> bool {
-        let height = self.scratch.terms.com.z / self.constants.standing_com_height;
+        let height = self.workspace.terms.com.z / self.constants.standing_com_height;
         height < FALLEN_HEIGHT && !self.only_feet_touch()
     }
 
@@ -85,7 +85,7 @@ impl Figure {
     fn is_on_feet(&self) -> bool {
         let standing = self.constants.standing_com_height;
         let is_up = |height: f64| height > RISEN_HEIGHT * standing;
-        is_up(self.scratch.terms.com.z) && is_up(self.desired.com.now.z) && self.only_feet_touch()
+        is_up(self.workspace.terms.com.z) && is_up(self.desired.com.now.z) && self.only_feet_touch()
     }
 
     /// What leads the pelvis back to the motion, if anything does.

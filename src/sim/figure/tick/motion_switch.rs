@@ -295,7 +295,7 @@ impl Figure {
 
     /// True if it hardly moves, or stands in its motion.
     pub(super) fn is_slow(&self) -> bool {
-        self.scratch.terms.com_velocity.level() < SLOW || !self.desired.tracker.is_walking()
+        self.scratch.com_velocity.level() < SLOW || !self.desired.tracker.is_walking()
     }
 
     /// States the ends of the motion.
@@ -333,7 +333,7 @@ impl Figure {
             return;
         }
         let last = &self.desired.target.next.posture;
-        let stand = self.desired.tracker.break_off(&self.scratch.terms, last);
+        let stand = self.desired.tracker.break_off(&self.workspace.terms, last);
         let next = self.motion.take_next();
         self.motion.follow(Drive::Hold(stand));
         if let Some(next) = next {

@@ -3,7 +3,6 @@
 
 use super::fall_detection::FEET;
 use super::motion_switch::ExitGoal;
-use super::state::Scratch;
 use super::{Figure, TickContext};
 use crate::sim::body::Posture;
 use crate::sim::figure::drive::{ClipPlayback, Drive, Entry, EntryProblem, QueuedClip};
@@ -49,7 +48,11 @@ impl Figure {
         let led = begin.upright && !fixed;
         let rises = self.motion.gets_up();
         let moves = rises || self.is_busy(time) || led && self.crouches();
-        let stands = !moves && !self.desired.tracker.comes_to_stand(&self.scratch.terms);
+        let stands = !moves
+            && !self
+                .desired
+                .tracker
+                .comes_to_stand(self.scratch.com_velocity);
         let begins_so = |stand: &Posture| {
             let motion = play.motion();
             !led || motion.begins_as(&self.setup.body, first, stand)
@@ -211,7 +214,11 @@ impl Figure {
 
     /// True while it is in the middle of a clip or a step, or on its way to a stand. One that has fallen is not.
     pub fn comes_to_stand(&self, time: f64) -> bool {
-        let ends = || self.desired.tracker.comes_to_stand(&self.scratch.terms);
+        let ends = || {
+            self.desired
+                .tracker
+                .comes_to_stand(self.scratch.com_velocity)
+        };
         self.steps() && !self.motion.has_fallen() && (self.is_busy(time) || ends())
     }
 
@@ -230,7 +237,7 @@ impl Figure {
             true
         } else {
             let soon = time >= q.from.max(q.due - EARLIEST_BEGIN)
-                && self.desired.tracker.is_settled(&self.scratch.terms);
+                && self.desired.tracker.is_settled(self.scratch.com_velocity);
             soon && self.has_come(time)
         };
         if !ready {
@@ -242,7 +249,7 @@ impl Figure {
             self.outcome.late.entry = true;
             return;
         }
-        let stance = self.desired.tracker.stance(&self.scratch.terms);
+        let stance = self.desired.tracker.stance(&self.scratch.placement);
         if let Some(mut q) = self.motion.take_next() {
             if let Some(way) = q.entry.take().and_then(|e| e.task.take()) {
                 let begins = way.clip.sample(0.0).posture;
@@ -272,11 +279,7 @@ impl Figure {
         }
         let height = self.desired.com.now.z / self.constants.standing_com_height;
         let get_up = &mut self.desired.get_up;
-        let Scratch {
-            terms,
-            get_up: solver,
-            ..
-        } = &self.scratch;
+        let (terms, solver) = (&self.workspace.terms, &self.scratch.get_up);
         match get_up.decide(solver, terms, height, self.motion.gets_up()) {
             GetUpDecision::Continue => {}
             GetUpDecision::Begin => {
@@ -306,7 +309,7 @@ impl Figure {
     /// True if only its feet touch, as its way has it, and it is up.
     fn stands_on_feet(&self) -> bool {
         let points = self.surroundings.support.points();
-        self.scratch.terms.com.z > UP_HEIGHT * self.constants.standing_com_height
+        self.workspace.terms.com.z > UP_HEIGHT * self.constants.standing_com_height
             && self.desired.target.next.planted == [true; 2]
             && points.iter().all(|p| FEET.contains(&p.segment))
             && self.surroundings.support.rests().is_empty()

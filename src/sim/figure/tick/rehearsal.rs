@@ -37,7 +37,7 @@ impl Figure {
         // Where the clip lies, or where the feet are: prepared clip and recording need not begin in one place.
         let (tracker, state) = (&self.desired.tracker, &self.physical.state);
         let first = tracker.stance_of(&self.setup.body, &motion.start().posture);
-        let feet = Anchor::between(first, tracker.stance(&self.scratch.terms)).transform();
+        let feet = Anchor::between(first, tracker.stance(&self.scratch.placement)).transform();
         let able = self.setup.controller == ControllerKind::Modern && !self.motion.has_fallen();
         let here = RehearsedPlayback::new(Arc::clone(motion), time);
         let way = [play.origin, feet].map(|origin| here.clone().at(origin));
@@ -69,7 +69,7 @@ impl Figure {
         let tracker = &self.desired.tracker;
         let asked = tracker.stance_of(&self.setup.body, &next.posture);
         // Where its feet are: they need not have come down where the recording has them.
-        let feet = Anchor::between(asked, tracker.stance(&self.scratch.terms)).transform();
+        let feet = Anchor::between(asked, tracker.stance(&self.scratch.placement)).transform();
         feet.apply_to(&mut next);
         let posture = next.posture;
         self.set_drive(Drive::Hold(posture));

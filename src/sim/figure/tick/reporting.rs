@@ -1,6 +1,6 @@
 //! Stage 8: what a tick showed.
 
-use super::state::StageResults;
+use super::state::{PhysicalState, StageResults};
 use super::{Figure, TickContext};
 use crate::sim::body::topology::{DOF_COUNT, NV};
 use crate::sim::figure::following::FollowMode;
@@ -20,6 +20,8 @@ fn at_limit(torque: &[f64; DOF_COUNT], available: &TorqueRange) -> u64 {
 impl Figure {
     /// What the tick showed, for everyone outside.
     pub(super) fn write_report(&mut self, world: &TickContext, frozen: bool) {
+        let PhysicalState { links, state, .. } = &self.physical;
+        let com = self.workspace.tasks.center_of_mass(links, state);
         let StageResults {
             before, available, ..
         } = &self.scratch.results;
@@ -62,18 +64,15 @@ impl Figure {
             force += c.force;
             moment += c.position.cross(c.force);
         }
-        r.balance.zmp = zmp_above(1e-3 * self.scratch.terms.mass, force, moment);
+        r.balance.zmp = zmp_above(1e-3 * self.workspace.terms.mass, force, moment);
         r.balance.margin = r
             .balance
             .zmp
             .and_then(|z| self.surroundings.support.margin(z));
-        (r.balance.com, r.balance.com_velocity) = self
-            .scratch
-            .tasks
-            .center_of_mass(&self.physical.links, &self.physical.state);
+        (r.balance.com, r.balance.com_velocity) = com;
         r.balance.com_desired = self.desired.com.next;
         r.constraint_error.clear();
-        let missing = self.desired.constraints.errors(&self.scratch.terms);
+        let missing = self.desired.constraints.errors(&self.workspace.terms);
         r.constraint_error.extend_from_slice(missing);
         r.joints.joint_error = before
             .posture
@@ -98,11 +97,11 @@ impl Figure {
         }
         r.audit.clone_from(&f.audit);
         let a = &r.acceleration;
-        self.physical.com_acceleration = self.scratch.terms.com_bias
+        self.physical.com_acceleration = self.workspace.terms.com_bias
             + Vec3 {
-                x: (0..NV).map(|i| self.scratch.terms.jc[0][i] * a[i]).sum(),
-                y: (0..NV).map(|i| self.scratch.terms.jc[1][i] * a[i]).sum(),
-                z: (0..NV).map(|i| self.scratch.terms.jc[2][i] * a[i]).sum(),
+                x: (0..NV).map(|i| self.workspace.terms.jc[0][i] * a[i]).sum(),
+                y: (0..NV).map(|i| self.workspace.terms.jc[1][i] * a[i]).sum(),
+                z: (0..NV).map(|i| self.workspace.terms.jc[2][i] * a[i]).sum(),
             };
         self.outcome.reported = true;
         self.note_following(world, frozen);

@@ -9,6 +9,7 @@ use super::state::{
 };
 use super::workspace::{Loan, Memory};
 use crate::sim::body::State;
+use crate::sim::dynamics::Terms;
 use crate::sim::figure::activity::MotionState;
 use crate::sim::figure::drive::Drive;
 use crate::sim::setup::FigureSetup;
@@ -128,11 +129,11 @@ impl Figure {
         let mut scratch = Scratch::new(&setup);
         scratch.results.before = before.into_owned();
         if outcome.reported {
-            let applied = surroundings.disturbances.applied();
             let state = &scratch.results.before;
-            scratch
-                .terms
-                .compute(&physical.links, state, applied, gravity);
+            scratch.placement.set_state(&physical.links, state);
+            let mut terms = Terms::default();
+            terms.compute_placed(&physical.links, &scratch.placement, &[], gravity);
+            scratch.com_velocity = terms.com_velocity;
         }
         Ok(Self {
             constants: BodyConstants::new(&setup.body, &setup.strength),

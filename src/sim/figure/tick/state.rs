@@ -3,13 +3,13 @@
 //! comes next, with what controllers and steppers remember ([`Loan`](super::workspace::Loan)). [`Scratch`] holds what
 //! stages hand on; of it, only dynamics and state at the start of a tick are looked at after it.
 
-use crate::sim::body::angles::anatomical_angles;
+use crate::sim::body::angles::{Swings, anatomical_angles, swings};
 use crate::sim::body::topology::DOF_COUNT;
 use crate::sim::body::{Body, Links, Posture, State};
 use crate::sim::collide::shape::BodyShape;
 use crate::sim::contact::Tissue;
 use crate::sim::control::PointTarget;
-use crate::sim::dynamics::{Kinematics, Terms, center_of_mass};
+use crate::sim::dynamics::{Kinematics, Placement, center_of_mass};
 use crate::sim::figure::assist::Assist;
 use crate::sim::figure::balance_loss::BalanceWatch;
 use crate::sim::figure::constraints::Constraints;
@@ -20,7 +20,7 @@ use crate::sim::figure::load_compensation::LoadCompensation;
 use crate::sim::figure::loads::Disturbances;
 use crate::sim::figure::plan_task::LatePlans;
 use crate::sim::figure::second_hand::SecondHand;
-use crate::sim::figure::tasks::{TaskPoints, TaskWorkspace};
+use crate::sim::figure::tasks::TaskPoints;
 use crate::sim::figure::torque_step::{MotorCommand, TorqueRange};
 use crate::sim::figure::touches::Touches;
 use crate::sim::get_up::GetUpSolver;
@@ -166,10 +166,10 @@ pub(super) struct StepperChoice {
 /// Buffers of a tick, and what its stages hand on to each other.
 #[derive(Debug)]
 pub(super) struct Scratch {
-    /// Dynamics of the state at the start of the tick.
-    pub terms: Terms,
-    /// Kinematics of the desired motion.
-    pub tasks: TaskWorkspace,
+    /// Where the segments are at the start of the tick.
+    pub placement: Placement,
+    /// Velocity of the centre of mass then, m/s.
+    pub com_velocity: Vec3,
     /// Inverse kinematics of getting up.
     pub get_up: Box<GetUpSolver>,
     /// Heights at which getting up has the contact points, m.
@@ -181,8 +181,8 @@ pub(super) struct Scratch {
 impl Scratch {
     pub fn new(setup: &FigureSetup) -> Self {
         Self {
-            terms: Terms::default(),
-            tasks: TaskWorkspace::default(),
+            placement: Placement::default(),
+            com_velocity: Vec3::zero(),
             get_up: Box::new(GetUpSolver::new(&setup.body, &at_ease(&setup.body))),
             floor: Box::new([0.0; MAX_CONTACTS]),
             results: StageResults::new(&setup.state),
@@ -193,7 +193,8 @@ impl Scratch {
 /// What the stages of a tick hand on.
 #[derive(Debug)]
 pub(super) struct StageResults {
-    /// Anatomical angles, rad, and rates of the joints, rad/s, at the start of the tick.
+    /// Swings, anatomical angles, rad, and rates of the joints, rad/s, at the start of the tick.
+    pub swings: Swings,
     pub angles: [f64; DOF_COUNT],
     pub rates: [f64; DOF_COUNT],
     /// Available torque at these.
@@ -214,6 +215,7 @@ impl StageResults {
     fn new(state: &State) -> Self {
         let z = [0.0; DOF_COUNT];
         Self {
+            swings: swings(&state.posture),
             angles: anatomical_angles(&state.posture),
             rates: z,
             available: TorqueRange { lower: z, upper: z },

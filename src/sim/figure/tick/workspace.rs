@@ -6,15 +6,21 @@
 
 use crate::sim::body::SegmentId;
 use crate::sim::control::{Command, Controller, Modern, ModernMemory, Paper, PaperMemory};
+use crate::sim::dynamics::Terms;
 use crate::sim::figure::kinematic_step::KinematicStepper;
+use crate::sim::figure::tasks::TaskWorkspace;
 use crate::sim::figure::torque_step::TorqueStepper;
 use crate::sim::math::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 use std::ops::{Deref, DerefMut};
 
-/// Controllers and steppers.
+/// Controllers and steppers, and what they read of the figure whose tick it is.
 #[derive(Debug)]
 pub(crate) struct Workspace {
+    /// Dynamics of the state at the start of the tick.
+    pub(super) terms: Terms,
+    /// Kinematics of the desired motion.
+    pub(super) tasks: TaskWorkspace,
     pub(super) controllers: Controllers,
     pub(super) steppers: Steppers,
 }
@@ -39,6 +45,8 @@ impl Default for Workspace {
     /// Of no figure yet; each that borrows it sets the friction of its ground. Allocates.
     fn default() -> Self {
         Self {
+            terms: Terms::default(),
+            tasks: TaskWorkspace::default(),
             controllers: Controllers {
                 paper: Box::default(),
                 modern: Box::new(Modern::new(1.0)),
@@ -137,6 +145,7 @@ impl Loan {
         let Workspace {
             controllers,
             steppers: Steppers { torque, kinematic },
+            ..
         } = &mut *self.slot;
         controllers.paper.swap_memory(&mut self.memory.paper);
         controllers.modern.swap_memory(&mut self.memory.modern);
@@ -154,6 +163,7 @@ impl Loan {
         let Workspace {
             controllers,
             steppers: Steppers { torque, kinematic },
+            ..
         } = &mut *self.slot;
         controllers.paper.swap_memory(&mut self.memory.paper);
         controllers.modern.swap_memory(&mut self.memory.modern);

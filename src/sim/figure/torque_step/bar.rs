@@ -4,7 +4,7 @@ use super::TorqueStepper;
 use crate::sim::body::topology::{NV, SegmentId};
 use crate::sim::contact::Outcome;
 use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::dynamics::{Terms, factor, solve};
+use crate::sim::dynamics::{Dynamics, factor, solve};
 use crate::sim::figure::assist::Spring;
 use crate::sim::figure::loads::Bar;
 use crate::sim::figure::params::bar;
@@ -24,7 +24,7 @@ pub(super) struct BarRow {
 }
 
 impl BarRow {
-    pub(super) fn new(bar: &Bar, terms: &Terms, h: f64) -> Self {
+    pub(super) fn new(bar: &Bar, terms: &Dynamics, h: f64) -> Self {
         let ends = bar.ends.map(|(s, p)| (s, terms.point_world(s.index(), p)));
         let span = ends[1].1 - ends[0].1;
         let length = span.norm();
@@ -101,7 +101,7 @@ impl TorqueStepper {
     /// what is there is of another one, and maybe of another figure: then by the mass matrix.
     fn slope(&mut self, bar: &BarRow, factored: bool) -> f64 {
         if !factored {
-            self.solver.hessian.rows = self.terms.mass_matrix.rows;
+            self.solver.hessian.rows = self.dynamics.mass_matrix.rows;
             factor(&mut self.solver.hessian);
         }
         let mut x = [0.0; NV];

@@ -21,7 +21,7 @@ impl TorqueStepper {
         state: &State,
         spring: Option<&Spring>,
     ) {
-        let t = &self.terms;
+        let t = &self.dynamics;
         let mut momentum = [0.0; NV];
         t.mass_matrix.mul(&state.velocity, &mut momentum);
         for i in 0..NV {
@@ -48,7 +48,7 @@ impl TorqueStepper {
             &mut self.solver.newton,
         );
         let body = (input.body, input.own.as_ref());
-        let mass = &self.terms.mass_matrix;
+        let mass = &self.dynamics.mass_matrix;
         self.own.correct(body, mass, None, &state.velocity);
         let mut x = momentum;
         for round in 0..=self_contact::ROUNDS {
@@ -58,7 +58,7 @@ impl TorqueStepper {
             let last = round + 1 >= self_contact::ROUNDS;
             let known = self.solution.outcome.iterations > 0 && !last;
             let solved = known.then_some(&self.solver.hessian);
-            let mass = &self.terms.mass_matrix;
+            let mass = &self.dynamics.mass_matrix;
             if round == self_contact::ROUNDS || !self.own.correct(body, mass, solved, &v) {
                 break;
             }
@@ -161,7 +161,7 @@ impl TorqueStepper {
         let matrix = if assisted {
             springs
         } else {
-            &self.terms.mass_matrix
+            &self.dynamics.mass_matrix
         };
         substep_kernel(matrix, &self.problem, momentum, stop, v, hessian, newton)
     }
@@ -177,7 +177,7 @@ impl TorqueStepper {
         let mut fixed: [Option<Vec3>; 2] = [None; 2];
         let mut total = Outcome::default();
         loop {
-            self.solver.assisted.rows = self.terms.mass_matrix.rows;
+            self.solver.assisted.rows = self.dynamics.mass_matrix.rows;
             let mut b = *momentum;
             let given = spring.given.unwrap_or([Vec3::zero(); 2]);
             if spring.given.is_some() {
@@ -231,7 +231,10 @@ impl TorqueStepper {
     ) -> Outcome {
         for j in 0..DOF_COUNT {
             // The same torque at the speed the joint has now, and a hundredth of the gain around it.
-            let (m, now) = (&mut self.problem.motors, self.terms.state.velocity[6 + j]);
+            let (m, now) = (
+                &mut self.problem.motors,
+                self.dynamics.state.velocity[6 + j],
+            );
             let torque = (m.gain[j] * (m.rest[j] - now)).clamp(m.lower[j], m.upper[j]);
             m.gain[j] *= motors::SOFTENING;
             m.rest[j] = now + torque / m.gain[j];

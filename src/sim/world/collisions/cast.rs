@@ -5,7 +5,7 @@ use crate::sim::body::SegmentId;
 use crate::sim::collide::narrow::PosedBox;
 use crate::sim::collide::shape::Capsule;
 use crate::sim::collide::{Obstacle, ObstacleKey, Other, Shape};
-use crate::sim::dynamics::Terms;
+use crate::sim::dynamics::Placement;
 use crate::sim::figure::{Figure, FigureKey};
 use crate::sim::math::Vec3;
 
@@ -28,7 +28,7 @@ impl Cast<'_> {
     pub fn velocity(&self, participant: Participant, part: usize, p: Vec3) -> Vec3 {
         match participant {
             Participant::Figure(i) => {
-                let t = self.figures[i].1.substep_terms();
+                let t = self.figures[i].1.substep_dynamics();
                 t.kin.velocity[part] + t.kin.omega[part].cross(p - t.segment_position(part))
             }
             Participant::Free(i) => self.free[i].1.point_velocity(p),
@@ -115,7 +115,7 @@ impl Posed {
 }
 
 /// A capsule of a segment in the world.
-pub(super) fn posed(t: &Terms, s: usize, c: &Capsule) -> Capsule {
+pub(super) fn posed(t: &Placement, s: usize, c: &Capsule) -> Capsule {
     let (p, r) = (t.segment_position(s), t.segment_rotation(s));
     Capsule {
         a: p + r * c.a,

@@ -116,7 +116,7 @@ fn clearance(p: Vec3, radius: f64, shape: &PosedShape) -> f64 {
 
 /// Ball around a segment with the speed of its fastest point.
 fn ball(f: &Figure, s: usize) -> (Vec3, f64, f64) {
-    let (t, (c, radius)) = (f.substep_terms(), f.shape().bound[s]);
+    let (t, (c, radius)) = (f.substep_dynamics(), f.shape().bound[s]);
     let r = t.kin.rotation[s] * c;
     let v = t.kin.velocity[s] + t.kin.omega[s].cross(r);
     (
@@ -183,9 +183,9 @@ impl Cluster {
                 let participant = [Participant::Figure(i), Participant::Figure(j)];
                 let mut best = Best::<POINTS_ROUND>::new(cast, participant, [s, t], h);
                 for c in &a.shape().capsules[s] {
-                    let c = posed(a.substep_terms(), s, c);
+                    let c = posed(a.substep_dynamics(), s, c);
                     for e in &b.shape().capsules[t] {
-                        let e = posed(b.substep_terms(), t, e);
+                        let e = posed(b.substep_dynamics(), t, e);
                         narrow::capsule_points(&c, &e, |near| best.push(near));
                     }
                 }
@@ -206,7 +206,7 @@ impl Cluster {
             let mut best = Best::<POINTS_FLAT>::new(cast, participant, [s, 0], h);
             if is_foot(s) {
                 // Soles are flat: their own points carry, as on the ground.
-                let t = f.substep_terms();
+                let t = f.substep_dynamics();
                 for point in &f.body().segments[s].contact_points {
                     if let Some(near) = point_at(t.point_world(s, *point), &o.shape) {
                         best.push(near);
@@ -214,7 +214,7 @@ impl Cluster {
                 }
             }
             for c in &f.shape().capsules[s] {
-                round_at(&posed(f.substep_terms(), s, c), &o.shape, |near| {
+                round_at(&posed(f.substep_dynamics(), s, c), &o.shape, |near| {
                     best.push(near)
                 });
             }

@@ -238,7 +238,7 @@ fn add_contact(
         },
         |side, visit| match c.participant[side] {
             Participant::Figure(i) => {
-                let t = cast.figures[i].1.substep_terms();
+                let t = cast.figures[i].1.substep_dynamics();
                 let r = n.position - t.state.posture.root_position;
                 for_each_column(&t.kin, c.part[side], r, |k, _, v| visit(k, v));
             }

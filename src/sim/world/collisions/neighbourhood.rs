@@ -37,8 +37,8 @@ const ALONE: usize = usize::MAX;
 
 /// A box around the figure for a tick of `dt`.
 fn figure_bounds(f: &Figure, body: usize, dt: f64) -> Bounds {
-    let (t, shape) = (f.tick_terms(), f.shape());
-    let (mut low, mut high) = (t.com, t.com);
+    let (t, shape) = (f.placement(), f.shape());
+    let (mut low, mut high) = (t.segment_position(0), t.segment_position(0));
     for s in 0..SEGMENT_COUNT {
         let (centre, radius) = shape.bound[s];
         let r = t.kin.rotation[s] * centre;
@@ -349,11 +349,11 @@ impl Neighbourhood {
 fn overlap(a: &Figure, b: &Figure) -> bool {
     (0..SEGMENT_COUNT).any(|s| {
         a.shape().capsules[s].iter().any(|c| {
-            let c = posed(a.tick_terms(), s, c);
+            let c = posed(a.placement(), s, c);
             (0..SEGMENT_COUNT).any(|t| {
                 b.shape().capsules[t]
                     .iter()
-                    .any(|e| narrow::capsules(&c, &posed(b.tick_terms(), t, e)).gap < -THROUGH)
+                    .any(|e| narrow::capsules(&c, &posed(b.placement(), t, e)).gap < -THROUGH)
             })
         })
     })

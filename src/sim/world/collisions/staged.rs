@@ -91,7 +91,7 @@ impl Cluster {
                     continue;
                 }
                 let f = &cast.figures[i].1;
-                let t = f.substep_terms();
+                let t = f.substep_dynamics();
                 let velocity = match stage {
                     Stage::Impact => t.state.velocity,
                     Stage::Correction => [0.0; NV],
@@ -100,7 +100,7 @@ impl Cluster {
                 self.block[i] = Some(b);
                 // A foot does not pull on the floor by more than the body weighs in this tick.
                 let least = match stage {
-                    Stage::Impact => -t.mass * world.gravity * world.dt,
+                    Stage::Impact => -t.composite.mass[0] * world.gravity * world.dt,
                     Stage::Correction => f64::NEG_INFINITY,
                 };
                 hold_feet(&mut self.impact, f, b, least);
@@ -118,7 +118,7 @@ impl Cluster {
                 match c.participant[side] {
                     Participant::Figure(i) => {
                         row.bodies[side] = self.block[i];
-                        let t = cast.figures[i].1.substep_terms();
+                        let t = cast.figures[i].1.substep_dynamics();
                         let r = c.near.position - t.state.posture.root_position;
                         let j = &mut row.jacobian[side];
                         for_each_column(&t.kin, c.part[side], r, |d, _, v| j[d] = n.dot(v));
@@ -178,7 +178,7 @@ const HOLDS: usize = 1 << 16;
 
 /// Rows by which what the figure stands on holds still: whole feet, or the point about which one tips.
 fn hold_feet(impact: &mut Impact, f: &crate::sim::figure::Figure, body: usize, least: f64) {
-    let t = f.substep_terms();
+    let t = f.substep_dynamics();
     for (n, (segment, point)) in f.held_still().into_iter().flatten().enumerate() {
         let group = 4 * body + n;
         let s = segment.index();
