@@ -718,18 +718,26 @@ pub fn event_kind(e: &FigureEvent, name: impl Fn(Other) -> String) -> EventKind 
     }
 }
 
-/// What a figure looks like after the tick that began at world time `start`; its loads are those of that tick.
-pub fn snapshot(figure: &Figure, start: f64, dt: f64, applied: (i64, i64)) -> FigureSnapshot {
+/// What a figure looks like after the tick of `dt` that began at world time `start`; its loads are those of that tick.
+/// `name`: what is touched, as it is called outside.
+pub fn snapshot(
+    figure: &Figure,
+    (start, dt): (f64, f64),
+    applied: (i64, i64),
+    name: impl Fn(Other) -> String,
+) -> FigureSnapshot {
     let soon = start + 1e-9 * dt; // as the physics has it: times on a tick boundary belong to that tick
+    let report = figure.report();
+    let touches = report.map_or(&[][..], |r| &r.touches);
     FigureSnapshot {
+        touched: touches.iter().map(|t| name(t.other)).collect(),
         body: figure.body().clone(),
         state: *figure.state(),
-        report: figure.report().cloned(),
+        report: report.cloned(),
         desired: figure.target().next.clone(),
         applied_sequence: applied.0,
         applied_source_ns: applied.1,
         loads: figure.held(soon).collect(),
-        touched: Vec::new(),
         follows: follows(figure),
     }
 }

@@ -88,7 +88,7 @@ impl Merit {
     }
 
     fn summary(&self, ticks: u64, rate_hz: f64, hash: u64) -> SimulationSummary {
-        let times = percentiles(&self.micros);
+        let times = percentiles(self.micros.iter().copied());
         SimulationSummary {
             ticks,
             rate_hz,
@@ -274,7 +274,12 @@ impl Frames {
             server_ns: 0,
             roster_version: 1,
             roster: self.roster.clone(),
-            figures: vec![engine::snapshot(figure, before, world.dt(), (-1, 0))],
+            figures: vec![engine::snapshot(
+                figure,
+                (before, world.dt()),
+                (-1, 0),
+                |_| String::new(),
+            )],
             obstacles: Vec::new(),
         };
         world_frame(&snapshot, view)

@@ -1,7 +1,7 @@
 //! Live desired motion: the stream and its unary twin take the same way into the world.
 
-use super::permit::Permit;
-use super::{Api, Place, refusal, stopped};
+use super::permit::{Ending, Permit};
+use super::{Api, Place, refusal};
 use crate::server::access::caller::Caller;
 use crate::server::ingest::mailbox::{DriverId, Mailbox};
 use crate::server::tick::command::Origin;
@@ -10,9 +10,10 @@ use crate::wire::convert::motion;
 use crate::wire::pb::{self, drive_figures_request::Message};
 use crate::wire::status::Fault;
 use crate::wire::types::DriveOpen;
+use std::pin::pin;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use tokio::sync::{mpsc, watch};
+use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
 use tonic::{Response, Status, Streaming};
 
@@ -23,6 +24,9 @@ pub type Feedbacks = ReceiverStream<Result<pb::DriveFiguresResponse, Status>>;
 const HEADER_TIME: Duration = Duration::from_secs(10);
 /// Interval of feedback.
 const FEEDBACK_EVERY: Duration = Duration::from_millis(100);
+/// Feedback that is due waits so long at most for a message of the driver to come along with: then no timer has to wake
+/// for it, and the next message does not come while the world is being asked.
+const FEEDBACK_SLACK: Duration = Duration::from_millis(20);
 /// How long the reason of the end of a stream waits for a driver who does not read.
 const LAST_WORD: Duration = Duration::from_secs(5);
 /// Who pushes without giving a name.
@@ -125,10 +129,9 @@ pub(super) async fn stream(
         connection,
         out,
         ended: false,
-        permit,
         _place: place,
     };
-    tokio::spawn(session.run(inbound, api.stopping.clone()));
+    tokio::spawn(session.run(inbound, permit.ending(api.stopping.clone())));
     Ok(Response::new(ReceiverStream::new(feedbacks)))
 }
 
@@ -138,21 +141,15 @@ struct Session {
     connection: u64,
     out: mpsc::Sender<Result<pb::DriveFiguresResponse, Status>>,
     ended: bool,
-    permit: Permit,
     _place: Place,
 }
 
 impl Session {
-    async fn run(
-        mut self,
-        mut inbound: Streaming<pb::DriveFiguresRequest>,
-        mut stopping: watch::Receiver<bool>,
-    ) {
-        let mut closed = self.handle.closed.clone();
-        let mut timer = tokio::time::interval(FEEDBACK_EVERY);
-        timer.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+    async fn run(mut self, mut inbound: Streaming<pb::DriveFiguresRequest>, mut ending: Ending) {
+        let mut due = Instant::now();
+        let mut timer = pin!(tokio::time::sleep(Duration::ZERO));
         let lost = loop {
-            let step = tokio::select! {
+            let taken = tokio::select! {
                 message = inbound.message() => match message {
                     Ok(Some(m)) => self.take(m),
                     Ok(None) => break false,
@@ -163,11 +160,17 @@ impl Session {
                     }
                     Err(_) => break true,
                 },
-                _ = timer.tick() => self.feedback().await,
-                // An error means that the world's thread is gone, which says the same.
-                _ = closed.changed() => Err(Fault::not_found("world", format!("worlds/{}", self.handle.id))),
-                () = stopped(&mut stopping) => Err(Fault::Draining),
-                fault = self.permit.ended() => Err(fault),
+                () = &mut timer => Ok(()),
+                fault = &mut ending => Err(fault),
+            };
+            let step = match taken {
+                Ok(()) if due <= Instant::now() => {
+                    let told = self.feedback().await;
+                    due = (due + FEEDBACK_EVERY).max(Instant::now());
+                    timer.as_mut().reset((due + FEEDBACK_SLACK).into());
+                    told
+                }
+                taken => taken.map(|()| true),
             };
             match step {
                 Ok(true) => {}
@@ -191,8 +194,8 @@ impl Session {
         self.close(lost);
     }
 
-    /// Checks a batch and leaves it for the next tick; true to go on. One that came too fast is dropped and counted.
-    fn take(&mut self, m: pb::DriveFiguresRequest) -> Result<bool, Fault> {
+    /// Checks a batch and leaves it for the next tick. One that came too fast is dropped and counted.
+    fn take(&mut self, m: pb::DriveFiguresRequest) -> Result<(), Fault> {
         let Some(Message::Batch(b)) = m.message else {
             return Err(Fault::invalid(
                 "message",
@@ -204,7 +207,7 @@ impl Session {
             let batch = motion::batch("batch", &b, self.mailbox.figures())?;
             self.mailbox.deliver(Some(self.connection), batch, now)?;
         }
-        Ok(true)
+        Ok(())
     }
 
     /// Tells the driver; true to go on.

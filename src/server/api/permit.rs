@@ -1,16 +1,21 @@
 //! How long a stream may go on: as long as its caller has the role that it was opened with, and its proof of identity.
 
-use super::App;
+use super::{App, stopped};
 use crate::server::access::caller::Caller;
 use crate::server::worlds::WorldHandle;
 use crate::server::worlds::usage::InUse;
 use crate::wire::status::Fault;
+use std::future::Future;
+use std::pin::Pin;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 use tokio::sync::watch;
 
 /// Longest sleep of a timer.
 const DAY: Duration = Duration::from_secs(86_400);
+
+/// Completes with the reason when a stream has to end.
+pub(super) type Ending = Pin<Box<dyn Future<Output = Fault> + Send>>;
 
 /// The right of a stream to go on.
 pub(super) struct Permit {
@@ -51,6 +56,20 @@ impl Permit {
             Err(fault @ Fault::Denied { .. }) => Err(fault),
             _ => Ok(()),
         }
+    }
+
+    /// Completes with the reason when the stream has to end: the server stops, the world is gone, the right ends. It is
+    /// kept from one message to the next, so that waiting for one neither looks at the right anew nor sets a timer.
+    pub(super) fn ending(mut self, mut stopping: watch::Receiver<bool>) -> Ending {
+        let mut closed = self.handle.closed.clone();
+        Box::pin(async move {
+            tokio::select! {
+                () = stopped(&mut stopping) => Fault::Draining,
+                // An error means that the world's thread is gone, which says the same.
+                _ = closed.changed() => self.handle.no_more(),
+                fault = self.ended() => fault,
+            }
+        })
     }
 
     /// Completes with the reason when the right ends. May be dropped and called again.

@@ -89,7 +89,7 @@ impl StateService for Api {
                 handle,
                 (&view, channel),
                 past,
-                (self.stopping.clone(), permit),
+                permit.ending(self.stopping.clone()),
                 place,
             ))
         };
@@ -112,7 +112,7 @@ impl StateService for Api {
             Ok(watching::events(
                 handle,
                 filter,
-                (self.stopping.clone(), permit),
+                permit.ending(self.stopping.clone()),
                 place,
             ))
         };

@@ -2,14 +2,14 @@
 //! skips frames instead of collecting them.
 
 use super::late::Late;
-use super::permit::Permit;
-use super::{Place, refusal, stopped};
+use super::permit::Ending;
+use super::{Place, refusal};
 use crate::server::fanout::hub::{Channel, Encoded, Resuming};
+use crate::server::telemetry::metrics::frames_sent;
 use crate::server::worlds::WorldHandle;
 use crate::wire::convert::state::{event_out, wanted};
 use crate::wire::frame::shared_roster;
 use crate::wire::pb;
-use crate::wire::status::Fault;
 use crate::wire::types::{EventFilter, Snapshot, ViewSpec, WorldEvent};
 use crate::wire::watched::WatchWorldResponse;
 use prost::bytes::Bytes;
@@ -25,23 +25,6 @@ use tonic::Status;
 pub type Frames = Pin<Box<dyn Stream<Item = Result<WatchWorldResponse, Status>> + Send>>;
 /// Events as they come.
 pub type Events = Pin<Box<dyn Stream<Item = Result<pb::WatchEventsResponse, Status>> + Send>>;
-
-/// Why a stream ends.
-enum End {
-    World,
-    Server,
-    Refused(Fault),
-}
-
-impl End {
-    fn fault(&self, handle: &WorldHandle) -> Fault {
-        match self {
-            Self::World => Fault::not_found("world", format!("worlds/{}", handle.id)),
-            Self::Server => Fault::Draining,
-            Self::Refused(fault) => fault.clone(),
-        }
-    }
-}
 
 /// Ticks before the latest.
 pub(super) enum Before {
@@ -62,9 +45,7 @@ struct Viewer {
     ready: VecDeque<Bytes>,
     roster: Option<i32>,
     last: Option<u64>,
-    closed: watch::Receiver<()>,
-    stopping: watch::Receiver<bool>,
-    permit: Permit,
+    ending: Ending,
     over: bool,
     _place: Place,
 }
@@ -83,14 +64,13 @@ pub(super) fn frames(
     handle: Arc<WorldHandle>,
     (view, channel): (&ViewSpec, Arc<Channel>),
     past: Before,
-    (stopping, permit): (watch::Receiver<bool>, Permit),
+    ending: Ending,
     place: Place,
 ) -> Frames {
     let mut frames = channel.subscribe();
     frames.mark_changed(); // what is there already is the first to send
     handle.viewers.fetch_add(1, Ordering::Relaxed);
     let viewer = Viewer {
-        closed: handle.closed.clone(),
         handle,
         channel,
         view: view.clone(),
@@ -99,8 +79,7 @@ pub(super) fn frames(
         ready: VecDeque::new(),
         roster: None,
         last: None,
-        stopping,
-        permit,
+        ending,
         over: false,
         _place: place,
     };
@@ -140,7 +119,7 @@ impl Viewer {
     async fn next(&mut self) -> Option<Result<WatchWorldResponse, Status>> {
         loop {
             if let Some(bytes) = self.ready.pop_front() {
-                metrics::counter!("sinew_frames_sent_total").increment(1);
+                frames_sent().increment(1);
                 return Some(Ok(WatchWorldResponse::Encoded(bytes)));
             }
             if self.over {
@@ -159,10 +138,8 @@ impl Viewer {
                 }
                 Some(Before::Late(late)) => {
                     let next = tokio::select! {
-                        next = late.take_next() => next.map_err(End::Refused),
-                        () = stopped(&mut self.stopping) => Err(End::Server),
-                        _ = self.closed.changed() => Err(End::World),
-                        fault = self.permit.ended() => Err(End::Refused(fault)),
+                        next = late.take_next() => next,
+                        fault = &mut self.ending => Err(fault),
                     };
                     match next {
                         Ok(Some(s)) if s.tick % u64::from(self.view.divisor) != 0 => {
@@ -170,9 +147,9 @@ impl Viewer {
                         }
                         Ok(Some(snapshot)) => self.catch_up(&snapshot),
                         Ok(None) => self.past = Some(self.held_on()),
-                        Err(end) => {
+                        Err(fault) => {
                             self.over = true;
-                            return Some(Err(refusal(end.fault(&self.handle))));
+                            return Some(Err(refusal(fault)));
                         }
                     }
                     continue;
@@ -180,14 +157,12 @@ impl Viewer {
                 None => {}
             }
             let ended = tokio::select! {
-                changed = self.frames.changed() => changed.is_err().then_some(End::World),
-                () = stopped(&mut self.stopping) => Some(End::Server),
-                _ = self.closed.changed() => Some(End::World),
-                fault = self.permit.ended() => Some(End::Refused(fault)),
+                changed = self.frames.changed() => changed.err().map(|_| self.handle.no_more()),
+                fault = &mut self.ending => Some(fault),
             };
-            if let Some(end) = ended {
+            if let Some(fault) = ended {
                 self.over = true;
-                return Some(Err(refusal(end.fault(&self.handle))));
+                return Some(Err(refusal(fault)));
             }
             let Some(new) = self.frames.borrow_and_update().clone() else {
                 continue;
@@ -220,11 +195,9 @@ struct Listener {
     handle: Arc<WorldHandle>,
     filter: EventFilter,
     events: broadcast::Receiver<Arc<Vec<WorldEvent>>>,
-    closed: watch::Receiver<()>,
-    stopping: watch::Receiver<bool>,
     missed: u64,
     begun: bool,
-    permit: Permit,
+    ending: Ending,
     over: bool,
     _place: Place,
 }
@@ -239,17 +212,15 @@ impl Drop for Listener {
 pub(super) fn events(
     handle: Arc<WorldHandle>,
     filter: EventFilter,
-    (stopping, permit): (watch::Receiver<bool>, Permit),
+    ending: Ending,
     place: Place,
 ) -> Events {
     handle.viewers.fetch_add(1, Ordering::Relaxed);
     let listener = Listener {
         events: handle.outlet.events.subscribe(),
-        closed: handle.closed.clone(),
         handle,
         filter,
-        stopping,
-        permit,
+        ending,
         missed: 0,
         begun: false,
         over: false,
@@ -267,7 +238,7 @@ impl Listener {
             return Some(Ok(pb::WatchEventsResponse::default()));
         }
         while !self.over {
-            let end = tokio::select! {
+            let fault = tokio::select! {
                 // The last events come before the end of their world.
                 biased;
                 received = self.events.recv() => match received {
@@ -290,14 +261,12 @@ impl Listener {
                         metrics::counter!("sinew_events_missed_total").increment(n);
                         continue;
                     }
-                    Err(broadcast::error::RecvError::Closed) => End::World,
+                    Err(broadcast::error::RecvError::Closed) => self.handle.no_more(),
                 },
-                () = stopped(&mut self.stopping) => End::Server,
-                _ = self.closed.changed() => End::World,
-                fault = self.permit.ended() => End::Refused(fault),
+                fault = &mut self.ending => fault,
             };
             self.over = true;
-            return Some(Err(refusal(end.fault(&self.handle))));
+            return Some(Err(refusal(fault)));
         }
         None
     }

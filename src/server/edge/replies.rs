@@ -29,39 +29,80 @@ const RETRY: Duration = Duration::from_millis(20);
 /// Parts that wait.
 #[derive(Debug)]
 pub(super) struct Unread {
+    /// Times are counted from here.
+    start: Instant,
     bytes: AtomicU64,
     /// Bytes of whole answers.
     whole: AtomicU64,
     most: u64,
     next: AtomicU64,
-    waiting: Mutex<BTreeMap<u64, Waiting>>,
+    responses: Mutex<BTreeMap<u64, Arc<Response>>>,
 }
 
-/// A part that waits.
+/// A response of which something may wait.
 #[derive(Debug)]
-struct Waiting {
-    since: Instant,
+struct Response {
+    /// Since when something does, ns after the start; [`NOTHING`]: nothing does.
+    since: AtomicU64,
     open: Arc<Open>,
 }
 
-/// A part that is counted as long as this lives.
-struct Part {
+/// Nothing of a response waits.
+const NOTHING: u64 = u64::MAX;
+
+/// A response that is known as long as this lives.
+struct Entry {
     unread: Arc<Unread>,
     number: u64,
+    response: Arc<Response>,
+}
+
+impl Entry {
+    /// What waits of it, waits from now on.
+    fn touch(&self) {
+        let since = self.unread.start.elapsed().as_nanos() as u64;
+        self.response.since.store(since, Ordering::Relaxed);
+    }
+}
+
+impl Drop for Entry {
+    fn drop(&mut self) {
+        self.unread.lock().remove(&self.number);
+    }
+}
+
+/// The part of a response that waits, if one does. It is counted.
+struct Part {
+    entry: Entry,
     bytes: u64,
+}
+
+impl Part {
+    /// One waits.
+    fn waits(&mut self, bytes: u64) {
+        self.taken();
+        self.bytes = bytes;
+        self.entry.unread.bytes.fetch_add(bytes, Ordering::Relaxed);
+        self.entry.touch();
+    }
+
+    /// It is on its way.
+    fn taken(&mut self) {
+        let bytes = std::mem::take(&mut self.bytes);
+        self.entry.unread.bytes.fetch_sub(bytes, Ordering::Relaxed);
+        self.entry.response.since.store(NOTHING, Ordering::Relaxed);
+    }
 }
 
 impl Drop for Part {
     fn drop(&mut self) {
-        self.unread.bytes.fetch_sub(self.bytes, Ordering::Relaxed);
-        self.unread.lock().remove(&self.number);
+        self.taken();
     }
 }
 
 /// An answer that is counted as a whole as long as this lives.
 pub(super) struct Whole {
-    unread: Arc<Unread>,
-    number: u64,
+    entry: Entry,
     bytes: u64,
 }
 
@@ -70,55 +111,55 @@ impl Whole {
     pub(super) fn sent(&mut self, bytes: u64) {
         let bytes = bytes.min(self.bytes);
         self.bytes -= bytes;
-        self.unread.whole.fetch_sub(bytes, Ordering::Relaxed);
-        // The client reads.
-        if let Some(waiting) = self.unread.lock().get_mut(&self.number) {
-            waiting.since = Instant::now();
-        }
+        self.entry.unread.whole.fetch_sub(bytes, Ordering::Relaxed);
+        self.entry.touch(); // the client reads
     }
 }
 
 impl Drop for Whole {
     fn drop(&mut self) {
-        self.unread.whole.fetch_sub(self.bytes, Ordering::Relaxed);
-        self.unread.lock().remove(&self.number);
+        let unread = &self.entry.unread;
+        unread.whole.fetch_sub(self.bytes, Ordering::Relaxed);
     }
 }
 
 impl Unread {
     pub(super) fn new(most: u64) -> Arc<Self> {
         Arc::new(Self {
+            start: Instant::now(),
             bytes: AtomicU64::new(0),
             whole: AtomicU64::new(0),
             most,
             next: AtomicU64::new(0),
-            waiting: Mutex::default(),
+            responses: Mutex::default(),
         })
     }
 
-    fn lock(&self) -> std::sync::MutexGuard<'_, BTreeMap<u64, Waiting>> {
+    fn lock(&self) -> std::sync::MutexGuard<'_, BTreeMap<u64, Arc<Response>>> {
         // A poisoned map is as good as any: entries are whole.
-        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
+        let responses = self.responses.lock();
+        responses.unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn enter(&self, open: &Arc<Open>) -> u64 {
+    fn enter(self: &Arc<Self>, open: &Arc<Open>) -> Entry {
         let number = self.next.fetch_add(1, Ordering::Relaxed);
-        self.lock().insert(
+        let response = Arc::new(Response {
+            since: AtomicU64::new(NOTHING),
+            open: open.clone(),
+        });
+        self.lock().insert(number, response.clone());
+        Entry {
+            unread: self.clone(),
             number,
-            Waiting {
-                since: Instant::now(),
-                open: open.clone(),
-            },
-        );
-        number
+            response,
+        }
     }
 
-    fn add(self: &Arc<Self>, bytes: u64, open: &Arc<Open>) -> Part {
-        self.bytes.fetch_add(bytes, Ordering::Relaxed);
+    /// A response of which nothing waits yet.
+    fn part(self: &Arc<Self>, open: &Arc<Open>) -> Part {
         Part {
-            unread: self.clone(),
-            number: self.enter(open),
-            bytes,
+            entry: self.enter(open),
+            bytes: 0,
         }
     }
 
@@ -145,28 +186,30 @@ impl Unread {
                 retry: Some(4 * PATIENCE),
             });
         }
-        Ok(Whole {
-            unread: self.clone(),
-            number: self.enter(open),
-            bytes,
-        })
+        let entry = self.enter(open);
+        entry.touch();
+        Ok(Whole { entry, bytes })
     }
 
     /// Whether there is room for one more part; closes connections to make some. Whole answers leave half of it.
-    fn room(&self, now: Instant) -> bool {
+    fn room(&self, now: impl Fn() -> Instant) -> bool {
         let whole = self.whole.load(Ordering::Relaxed).min(self.most / 2);
         if self.bytes.load(Ordering::Relaxed) + whole <= self.most {
             return true;
         }
-        self.close_stalled(now);
+        self.close_stalled(now());
         false
     }
 
     fn close_stalled(&self, now: Instant) {
+        let now = now - self.start;
+        let stalled = |r: &&Arc<Response>| {
+            let since = r.since.load(Ordering::Relaxed);
+            since != NOTHING && now.saturating_sub(Duration::from_nanos(since)) >= PATIENCE
+        };
         // Closing one takes a moment to be felt here, so all that have waited too long go at once.
-        let waiting = self.lock();
-        for part in waiting.values().filter(|w| now - w.since >= PATIENCE) {
-            part.open.close(Why::Unread);
+        for response in self.lock().values().filter(stalled) {
+            response.open.close(Why::Unread);
         }
     }
 }
@@ -208,12 +251,10 @@ impl HttpBody for Reply {
         mut self: Pin<&mut Self>,
         cx: &mut Context<'_>,
     ) -> Poll<Option<Result<Frame<Bytes>, axum::Error>>> {
-        self.part = None; // there is room in the connection: the part before is on its way
-        while self
-            .unread
-            .as_ref()
-            .is_some_and(|u| !u.room(Instant::now()))
-        {
+        if let Some(part) = &mut self.part {
+            part.taken(); // there is room in the connection: the part before is on its way
+        }
+        while self.unread.as_ref().is_some_and(|u| !u.room(Instant::now)) {
             let wait = self
                 .wait
                 .get_or_insert_with(|| Box::pin(tokio::time::sleep(RETRY)));
@@ -222,8 +263,13 @@ impl HttpBody for Reply {
         }
         let frame = ready!(Pin::new(&mut self.body).poll_frame(cx));
         if let Some(data) = frame.as_ref().and_then(|f| f.as_ref().ok()?.data_ref()) {
-            let add = |unread: &Arc<Unread>| unread.add(data.len() as u64, &self.open);
-            self.part = self.unread.as_ref().map(add);
+            let Self {
+                unread, part, open, ..
+            } = &mut *self;
+            if let Some(unread) = unread {
+                let part = part.get_or_insert_with(|| unread.part(open));
+                part.waits(data.len() as u64);
+            }
         }
         Poll::Ready(frame)
     }
@@ -262,14 +308,14 @@ mod tests {
             assert_eq!(part(r).await, 100);
         }
         // 300 of 250 bytes wait, but not for long enough.
-        assert!(!unread.room(Instant::now()));
+        assert!(!unread.room(Instant::now));
         assert!(stalled.iter().all(|p| !p.is_closed()));
-        assert!(!unread.room(Instant::now() + PATIENCE));
+        assert!(!unread.room(|| Instant::now() + PATIENCE));
         assert!(stalled.iter().all(|p| p.is_closed()));
         held.clear(); // as the connections do when they close
         let reader = Peer::alone();
         assert_eq!(part(&mut reply(&unread, &reader)).await, 100);
-        assert!(unread.room(Instant::now()) && !reader.is_closed());
+        assert!(unread.room(Instant::now) && !reader.is_closed());
         assert_eq!(unread.bytes.load(Ordering::Relaxed), 0);
         assert!(unread.lock().is_empty());
     }
@@ -289,8 +335,9 @@ mod tests {
         first.sent(30);
         let second = unread.add_whole(60, &other_open).unwrap();
         // Parts of streams have half of it in any case.
-        let part = unread.add(50, &other_open);
-        assert!(unread.room(Instant::now()));
+        let mut part = unread.part(&other_open);
+        part.waits(50);
+        assert!(unread.room(Instant::now));
         drop((part, second));
         unread.close_stalled(Instant::now() + PATIENCE);
         assert!(slow.is_closed() && !other.is_closed());

@@ -200,6 +200,30 @@ enum Order {
     Stale,
 }
 
+/// Where an instant lies among the frames.
+#[derive(Clone, Copy)]
+struct Found {
+    supply: Supply,
+    /// Frame at or before it.
+    frame: usize,
+    /// Time since that one, s.
+    since: f64,
+}
+
+/// Velocities of two frames in a row: the curves of a tick that is as long as a frame meet in one.
+#[derive(Default)]
+struct Velocities([Option<(usize, [f64; NV])>; 2]);
+
+impl Velocities {
+    fn of(&mut self, buffer: &JitterBuffer, i: usize) -> [f64; NV] {
+        let held = &mut self.0[i % 2];
+        match held {
+            Some((known, v)) if *known == i => *v,
+            _ => held.insert((i, buffer.velocity(i))).1,
+        }
+    }
+}
+
 /// The desired motion at one instant.
 struct Answer {
     /// Everything but the planted feet.
@@ -524,33 +548,65 @@ impl JitterBuffer {
         v
     }
 
-    /// The desired motion at playout time `p`.
-    fn at(&self, p: f64) -> Answer {
+    /// What playout time `p` is answered by.
+    fn find(&self, p: f64) -> Found {
         let after = self.frames.partition_point(|f| self.seconds(f) <= p + SAME);
-        if after == 0 {
-            return Answer {
-                target: Target::still(self.last.posture),
+        let Some(i) = after.checked_sub(1) else {
+            return Found {
                 supply: Supply::Waiting,
                 frame: 0,
-                feet: None,
+                since: 0.0,
             };
+        };
+        let since = (p - self.seconds(&self.frames[i])).max(0.0);
+        let limit = self.settings.extrapolation;
+        let supply = if since <= SAME {
+            Supply::Present
+        } else if after < self.frames.len() {
+            Supply::Interpolated
+        } else if since < limit {
+            Supply::Extrapolated
+        } else if since - limit - self.settings.hold <= 0.0 {
+            Supply::Held
+        } else {
+            Supply::Relaxed
+        };
+        Found {
+            supply,
+            frame: i,
+            since,
         }
-        let i = after - 1;
-        let answer = |target, supply, feet| Answer {
+    }
+
+    /// The desired motion at playout time `p`.
+    fn at(&self, p: f64) -> Answer {
+        self.at_with(p, &mut Velocities::default())
+    }
+
+    /// The same, with the velocities that are known already.
+    fn at_with(&self, p: f64, velocities: &mut Velocities) -> Answer {
+        let Found {
+            supply,
+            frame: i,
+            since,
+        } = self.find(p);
+        let answer = |target, feet| Answer {
             target,
             supply,
             frame: i,
             feet,
         };
+        if supply == Supply::Waiting {
+            return answer(Target::still(self.last.posture), None);
+        }
         let from = &self.frames[i];
-        let since = (p - self.seconds(from)).max(0.0);
-        let v0 = self.velocity(i);
+        let v0 = velocities.of(self, i);
         if let Some(to) = self.frames.get(i + 1) {
             // Cubic Hermite curve in the tangent space of the frame before.
             let h = self.seconds(to) - self.seconds(from);
             let u = (since / h).clamp(0.0, 1.0);
             let d = from.posture.difference(&to.posture);
-            let v1 = self.velocity(i + 1);
+            let v1 = velocities.of(self, i + 1);
             let measured = from.velocity.is_some() && to.velocity.is_some();
             let mut x = [0.0; NV];
             let mut v = [0.0; NV];
@@ -570,21 +626,12 @@ impl JitterBuffer {
                 };
             }
             let feet = if u < 0.5 { i } else { i + 1 };
-            let supply = if since <= SAME {
-                Supply::Present
-            } else {
-                Supply::Interpolated
-            };
-            return answer(on_curve(&from.posture, &x, v, a), supply, Some(feet));
+            return answer(on_curve(&from.posture, &x, v, a), Some(feet));
         }
         let limit = self.settings.extrapolation;
-        if since <= SAME {
+        if supply == Supply::Present {
             let still = [0.0; NV];
-            return answer(
-                on_curve(&from.posture, &still, v0, still),
-                Supply::Present,
-                Some(i),
-            );
+            return answer(on_curve(&from.posture, &still, v0, still), Some(i));
         }
         // The last velocity fades out linearly over the limit.
         let u = since.min(limit);
@@ -593,20 +640,16 @@ impl JitterBuffer {
         } else {
             [0.0; NV]
         };
-        if since < limit {
+        if supply == Supply::Extrapolated {
             let v = v0.map(|v| v * (1.0 - u / limit));
             let a = v0.map(|v| -v / limit);
-            return answer(
-                on_curve(&from.posture, &x, v, a),
-                Supply::Extrapolated,
-                Some(i),
-            );
+            return answer(on_curve(&from.posture, &x, v, a), Some(i));
         }
         let held = on_curve(&from.posture, &x, [0.0; NV], [0.0; NV]);
-        let over = since - limit - self.settings.hold;
-        if over <= 0.0 {
-            return answer(held, Supply::Held, Some(i));
+        if supply == Supply::Held {
+            return answer(held, Some(i));
         }
+        let over = since - limit - self.settings.hold;
         let d = held.posture.difference(&self.standing(&held.posture));
         let u = (over / RELAX).min(1.0);
         let s = u * u * (3.0 - 2.0 * u);
@@ -622,20 +665,15 @@ impl JitterBuffer {
                 d.map(|d| d * s1),
                 d.map(|d| d * s2),
             ),
-            Supply::Relaxed,
             None,
         )
     }
 
-    /// As [`JitterBuffer::at`], with planted feet; and the frame at or before that instant.
-    fn target(&self, p: f64) -> (Target, Supply, usize) {
-        let answer = self.at(p);
-        let planted = answer.feet.map_or([true; 2], |i| self.planted(i));
-        let target = Target {
-            planted,
-            ..answer.target
-        };
-        (target, answer.supply, answer.frame)
+    /// As [`JitterBuffer::at_with`], with planted feet.
+    fn target(&self, p: f64, velocities: &mut Velocities) -> Answer {
+        let mut answer = self.at_with(p, velocities);
+        answer.target.planted = answer.feet.map_or([true; 2], |i| self.planted(i));
+        answer
     }
 
     /// Quiet standing where the held posture has its pelvis.
@@ -650,15 +688,15 @@ impl JitterBuffer {
 
     /// The desired motion over the tick that begins `at`. `None` while nothing was pushed or the first frame is still
     /// to come: what was asked of the figure before then goes on.
-    pub fn sample(&mut self, at: Now) -> Option<TargetPair> {
+    pub fn sample(&mut self, at: Now) -> Option<Box<TargetPair>> {
         let Some(p) = self.playout(at) else {
             return self.wait();
         };
         let t = at.time;
-        let (mut now, supply, i) = self.target(p);
-        self.supply = supply;
+        let found = self.find(p);
+        self.supply = found.supply;
         let began = self.applied.is_none();
-        match supply {
+        match found.supply {
             Supply::Waiting | Supply::None => return self.wait(),
             Supply::Present => self.counts.ticks[0] += 1,
             Supply::Interpolated => self.counts.ticks[1] += 1,
@@ -667,16 +705,19 @@ impl JitterBuffer {
             Supply::Relaxed => self.counts.ticks[4] += 1,
         }
         self.pace.played = p;
-        self.apply(Applied::new(&self.frames[i]));
-        let (mut next, _, _) = self.target(p + self.tick);
-        // A jump, at the start or after a gap, is spread over time.
-        if !(began && self.settings.reset) {
-            let jump = Box::new(now.posture.difference(&self.last.posture));
-            let expected = self.blend.is_some();
+        self.apply(Applied::new(&self.frames[found.frame]));
+        let mut velocities = Velocities::default();
+        let now = self.target(p, &mut velocities).target;
+        let next = self.target(p + self.tick, &mut velocities).target;
+        let mut pair = Box::new(TargetPair { now, next });
+        let TargetPair { now, next } = &mut *pair;
+        // A jump, at the start or after a gap, is spread over time; one that is expected is known.
+        if self.blend.is_none() && !(began && self.settings.reset) {
+            let jump = now.posture.difference(&self.last.posture);
             let beyond =
                 |(k, e): (usize, &f64)| e.abs() > JUMP + self.last.velocity[k].abs() * self.tick;
-            if !expected && jump.iter().enumerate().any(beyond) {
-                self.blend = Some((jump, t));
+            if jump.iter().enumerate().any(beyond) {
+                self.blend = Some((Box::new(jump), t));
             }
         }
         if let Some((jump, since)) = &self.blend {
@@ -694,32 +735,32 @@ impl JitterBuffer {
                     target.acceleration[k] += jump[k] * s2;
                 }
             };
-            fade(&mut now, t);
-            fade(&mut next, t + self.tick);
+            fade(now, t);
+            fade(next, t + self.tick);
             if t - since >= self.blend_time {
                 self.blend = None;
                 self.blend_time = BLEND;
             }
         }
-        self.last = next.clone();
+        self.last.clone_from(next);
         // Frames before the one in use serve only as neighbours of its velocity.
         while self.frames.len() > 2 && self.seconds(&self.frames[1]) < p - 2.0 * SLOPE {
             self.frames.pop_front();
         }
-        Some(TargetPair { now, next })
+        Some(pair)
     }
 
     /// What is asked of the figure before the first frame: nothing, or of a stream that begins anew the last posture.
-    fn wait(&mut self) -> Option<TargetPair> {
+    fn wait(&mut self) -> Option<Box<TargetPair>> {
         self.applied?;
         self.supply = Supply::Held;
         self.counts.ticks[3] += 1;
         let still = Target::still(self.last.posture);
         self.last = still.clone();
-        Some(TargetPair {
+        Some(Box::new(TargetPair {
             now: still.clone(),
             next: still,
-        })
+        }))
     }
 
     /// True if there is motion that was not handed to a window yet: a driver that repeats what it sent before does not
@@ -753,7 +794,7 @@ impl JitterBuffer {
             return None;
         }
         self.grid.head = Some(p);
-        self.supply = self.at(p.max(0.0)).supply;
+        self.supply = self.find(p.max(0.0)).supply;
         let k = match self.supply {
             Supply::Present => 0,
             Supply::Interpolated => 1,
@@ -769,8 +810,9 @@ impl JitterBuffer {
             self.grid.next = last;
         }
         let first = self.grid.next.max(last.saturating_sub(CAPACITY as i64));
+        let mut velocities = Velocities::default();
         for g in first..=last {
-            let answer = self.at(g as f64 / rate);
+            let answer = self.at_with(g as f64 / rate, &mut velocities);
             match answer.supply {
                 Supply::Present | Supply::Interpolated | Supply::Extrapolated => {
                     let frame = &self.frames[answer.frame];

@@ -378,7 +378,7 @@ pub(in crate::server) fn render() -> Option<String> {
     Some(handle.render())
 }
 
-/// Where the times of ticks are counted. A tick looks nothing up.
+/// Where ticks and their times are counted. A tick looks nothing up.
 pub(in crate::server) struct TickMeters {
     /// A whole tick.
     pub total: Histogram,
@@ -388,6 +388,14 @@ pub(in crate::server) struct TickMeters {
     pub stages: [Histogram; 4],
     /// From the arrival of desired motion to its frame.
     pub input_to_frame: Histogram,
+    /// Ticks.
+    pub ticks: metrics::Counter,
+    /// Those that were not done by the next deadline.
+    pub overrun: metrics::Counter,
+    /// Deadlines that were left out.
+    pub skipped: metrics::Counter,
+    /// Commands that a tick had no time for.
+    pub deferred: metrics::Counter,
 }
 
 /// The meters of ticks.
@@ -402,7 +410,20 @@ pub(in crate::server) fn ticks() -> &'static TickMeters {
             late: metrics::histogram!("sinew_tick_lateness_seconds"),
             stages: ["commands", "motion", "step", "publish"].map(stage),
             input_to_frame: metrics::histogram!("sinew_input_to_frame_seconds"),
+            ticks: metrics::counter!("sinew_ticks_total"),
+            overrun: metrics::counter!("sinew_ticks_overrun_total"),
+            skipped: metrics::counter!("sinew_ticks_skipped_total"),
+            deferred: metrics::counter!("sinew_commands_deferred_total"),
         }
+    })
+}
+
+/// Where frames are counted that are sent: nothing is looked up for one.
+pub(in crate::server) fn frames_sent() -> &'static metrics::Counter {
+    static SENT: OnceLock<metrics::Counter> = OnceLock::new();
+    SENT.get_or_init(|| {
+        metrics(); // before: handles of no recorder count nothing
+        metrics::counter!("sinew_frames_sent_total")
     })
 }
 

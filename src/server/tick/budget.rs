@@ -224,9 +224,8 @@ fn fair(needs: &[f64], capacity: f64, own: f64) -> f64 {
 pub struct Meter {
     account: Arc<Account>,
     budget: Arc<Budget>,
-    /// When this round began, and up to when it is counted, of the thread that runs it.
+    /// When this round began, of the thread that runs it. Reading that clock is a call of the system: twice a round.
     begun: Duration,
-    counted: Duration,
     /// Since the last tick.
     spent: Duration,
     allowance: f64,
@@ -240,7 +239,6 @@ impl Meter {
             account,
             budget,
             begun: Duration::ZERO,
-            counted: Duration::ZERO,
             spent: Duration::ZERO,
             allowance: 1.0,
             ticks: 0,
@@ -250,18 +248,13 @@ impl Meter {
     /// A round begins on this thread.
     pub fn begin(&mut self) {
         self.begun = processor_time();
-        self.counted = self.begun;
     }
 
     /// It ends. Returns the processor time that it took.
     pub fn end(&mut self) -> Duration {
-        self.count();
-        self.counted.saturating_sub(self.begun)
-    }
-
-    fn count(&mut self) {
-        let now = processor_time();
-        self.spent += now.saturating_sub(std::mem::replace(&mut self.counted, now));
+        let took = processor_time().saturating_sub(self.begun);
+        self.spent += took;
+        took
     }
 
     /// Mean processor time of recent ticks.
@@ -269,9 +262,9 @@ impl Meter {
         Duration::try_from_secs_f64(self.account.cost.get()).unwrap_or_default()
     }
 
-    /// Notes a tick that ends now and whose physics took `physics`. Returns how long the world has to rest.
+    /// Notes that the round that has ended did a tick, whose physics took `physics`. Returns how long the world has to
+    /// rest.
     pub fn tick(&mut self, physics: Duration, figures: usize) -> Duration {
-        self.count();
         let busy = std::mem::take(&mut self.spent);
         self.account.record(busy, physics.min(busy), figures);
         self.ticks = (self.ticks + 1) % LOOK;
@@ -372,6 +365,7 @@ mod tests {
         // It waits for a message that does not come.
         let (_held, never) = std::sync::mpsc::sync_channel::<()>(1);
         let _ = never.recv_timeout(Duration::from_millis(200));
+        meter.end();
         assert_eq!(meter.tick(Duration::ZERO, 0), Duration::ZERO);
         assert!(!cfg!(target_os = "linux") || a.cost.get() < 2e-3);
         // What others do on the thread between two rounds is not counted, and what the round does is.

@@ -297,20 +297,12 @@ impl Journal {
 
     /// Appends what changed the world.
     pub fn append(&self, record: Record) {
-        let mut inside = self.inside();
-        inside.hand_in(&Logged::Record(record.clone()));
-        if let Some(current) = &mut inside.current {
-            current.push(Logged::Record(record));
-        }
+        self.inside().append(Logged::Record(record));
     }
 
     /// Notes that a tick is done.
     pub fn stepped(&self, tick: u64, hash: u64) {
-        let mut inside = self.inside();
-        inside.hand_in(&Logged::Hash(tick, hash));
-        if let Some(current) = &mut inside.current {
-            current.push(Logged::Hash(tick, hash));
-        }
+        self.inside().append(Logged::Hash(tick, hash));
     }
 
     /// True if it is time for a checkpoint, and something has happened since the last one.
@@ -329,7 +321,10 @@ impl Journal {
     /// Begins a new segment with a checkpoint. What is too old is forgotten.
     pub fn begin(&self, capture: Capture, now: Instant) {
         let mut inside = self.inside();
-        let next = Segment::new(Arc::new(capture), now);
+        let mut next = Segment::new(Arc::new(capture), now);
+        // As many as before will come: so they are not moved as the vector grows.
+        let count = inside.current.as_ref().map_or(0, |c| c.entries.len());
+        next.entries.reserve_exact(count);
         if let Some(before) = inside.current.replace(next) {
             let before = before.sealed();
             inside.pin(&before, None);
@@ -556,9 +551,12 @@ impl Inside {
         self.pins.retain(keeps);
     }
 
-    fn hand_in(&mut self, entry: &Logged) {
+    fn append(&mut self, entry: Logged) {
         if let Some(recorder) = self.recorder.as_ref().filter(|_| !self.holds) {
-            self.ticket = Some(hand_in(recorder, entry));
+            self.ticket = Some(hand_in(recorder, &entry));
+        }
+        if let Some(current) = &mut self.current {
+            current.push(entry);
         }
     }
 

@@ -18,6 +18,7 @@ pub mod scheduler;
 pub mod shard;
 pub mod stage_times;
 
+use crate::server::telemetry::metrics::ticks;
 use crate::wire::status::Fault;
 use crate::wire::types::{Described, EventKind, Snapshot, WorldEvent};
 use budget::Meter;
@@ -66,7 +67,7 @@ pub struct Outlet {
 impl Outlet {
     /// Shows a new world, with so many frames and messages of events held for those who read late.
     pub fn new(shard: &mut Shard, frames: usize, events: usize) -> Self {
-        let first = shard.snapshot();
+        let first = shard.snapshot(None);
         let mut history = History::new(frames);
         history.push(first.clone());
         let described = Described {
@@ -145,11 +146,18 @@ impl Runner {
     pub fn round(&mut self) -> Next {
         self.meter.begin();
         let mut goes_on = self.inbox.fetch();
+        let mut ticked = None;
         if goes_on {
-            self.step();
+            ticked = self.step();
             goes_on = self.shard.closing.is_none();
         }
         self.took = self.meter.end();
+        if let Some(physics) = ticked {
+            let rest = self.meter.tick(physics, self.shard.figure_count());
+            if !rest.is_zero() && !self.shard.paused {
+                self.shard.clock.rest(Instant::now() + rest);
+            }
+        }
         if !goes_on {
             self.end();
             return Next::Ended;
@@ -186,14 +194,15 @@ impl Runner {
         }
     }
 
-    fn step(&mut self) {
+    /// A round but for its account. Returns the time of the physics if there was a tick.
+    fn step(&mut self) -> Option<Duration> {
         let Self {
             shard,
             inbox,
             outlet,
-            meter,
             ..
         } = self;
+        let meters = ticks();
         let stopped = shard.paused || shard.failed.is_some();
         let start = Instant::now();
         let late = start.saturating_duration_since(shard.clock.deadline());
@@ -216,14 +225,14 @@ impl Runner {
                 break;
             }
         }
-        metrics::counter!("sinew_commands_deferred_total").increment(inbox.left() as u64);
+        count(&meters.deferred, inbox.left() as u64);
         guarded(shard, "drives and plans", |s| {
             s.expire_drives(start);
             s.offer_plans();
         });
         if shard.closing.is_some() {
             publish_events(shard, outlet); // that it was deleted is the last one
-            return;
+            return None;
         }
         let commands_done = Instant::now();
 
@@ -238,12 +247,12 @@ impl Runner {
         if !due {
             guarded(shard, "the record", |s| s.note(false, start));
             if shard.changed {
-                publish(shard, outlet);
+                publish(shard, outlet, None);
             }
             describe(shard, outlet);
             publish_events(shard, outlet);
             shard.send_replies();
-            return;
+            return None;
         }
 
         guarded(shard, "sampling desired motion", Shard::sample_motion);
@@ -252,9 +261,9 @@ impl Runner {
             guarded(shard, "the physics", Shard::step_world);
         }
         let step_done = Instant::now();
-        guarded(shard, "the record", |s| s.note(true, start));
+        let hash = guarded(shard, "the record", |s| s.note(true, start)).flatten();
         let snapshot = match shard.failed {
-            None => publish(shard, outlet),
+            None => publish(shard, outlet, hash),
             Some(_) => None,
         };
         describe(shard, outlet);
@@ -264,18 +273,16 @@ impl Runner {
 
         // Account for time.
         let end = Instant::now();
-        let rest = meter.tick(step_done - motion_done, shard.figure_count());
         if !stopped {
             shard.clock.advance(end);
-            shard.clock.rest(end + rest);
         }
         outlet.ticks.fetch_add(1, Ordering::Relaxed);
         let (overruns, skipped) = (shard.clock.overruns, shard.clock.skipped);
         let overran = overruns - outlet.overruns.swap(overruns, Ordering::Relaxed);
         let left_out = skipped - outlet.skipped.swap(skipped, Ordering::Relaxed);
-        metrics::counter!("sinew_ticks_overrun_total").increment(overran);
-        metrics::counter!("sinew_ticks_skipped_total").increment(left_out);
-        metrics::counter!("sinew_ticks_total").increment(1);
+        count(&meters.overrun, overran);
+        count(&meters.skipped, left_out);
+        count(&meters.ticks, 1);
         let stages = [
             if stopped { Duration::ZERO } else { late },
             commands_done - start,
@@ -284,6 +291,7 @@ impl Runner {
             end - step_done,
             end - start,
         ];
+        let physics = step_done - motion_done;
         stage_times::count(&stages, !stopped);
         if let Ok(mut times) = outlet.times.try_lock() {
             times.record(stages);
@@ -291,6 +299,14 @@ impl Runner {
         if let Some(snapshot) = snapshot {
             finish_steps(shard, &snapshot); // last, so that who waits finds everything done
         }
+        Some(physics)
+    }
+}
+
+/// Adds to a counter what there is to add, which mostly is nothing.
+fn count(counter: &metrics::Counter, more: u64) {
+    if more > 0 {
+        counter.increment(more);
     }
 }
 
@@ -326,11 +342,11 @@ fn fail(shard: &mut Shard, what: &str, panic: &(dyn Any + Send)) {
     }
 }
 
-/// Shows the world as it is now; `None` if that fails.
-fn publish(shard: &mut Shard, outlet: &Outlet) -> Option<Arc<Snapshot>> {
+/// Shows the world as it is now; `None` if that fails. `hash`: of its state, if that is known.
+fn publish(shard: &mut Shard, outlet: &Outlet, hash: Option<u64>) -> Option<Arc<Snapshot>> {
     let snapshot = guarded(shard, "the frame", |s| {
         s.publish_feedback();
-        s.snapshot()
+        s.snapshot(hash)
     })?;
     if outlet.lost.borrow().is_some() {
         return None;

@@ -379,23 +379,23 @@ impl Shard {
     }
 
     /// Notes what this round has come to: changes, a tick if there was one, a checkpoint if it is time for one. A world
-    /// that has failed keeps the past up to there.
-    pub(super) fn note(&mut self, stepped: bool, now: Instant) {
+    /// that has failed keeps the past up to there. Returns the hash of the state after the tick if it was noted.
+    pub(super) fn note(&mut self, stepped: bool, now: Instant) -> Option<u64> {
         if self.failed.is_some() {
             self.scene.discard_record();
-            return;
+            return None;
         }
         self.flush();
-        let Some(journal) = self.journal.clone() else {
-            return;
-        };
-        if stepped {
-            let world = self.scene.world();
-            journal.stepped(world.tick(), world.state_hash());
+        let journal = self.journal.as_ref()?;
+        let world = self.scene.world();
+        let hash = stepped.then(|| world.state_hash());
+        if let Some(hash) = hash {
+            journal.stepped(world.tick(), hash);
         }
         if journal.wants_checkpoint(now) {
             journal.begin(self.scene.capture(), now);
         }
+        hash
     }
 
     /// Takes a checkpoint now, for its journal.
@@ -476,8 +476,8 @@ impl Shard {
         std::mem::take(&mut self.events)
     }
 
-    /// What the world looks like now.
-    pub fn snapshot(&mut self) -> Arc<Snapshot> {
+    /// What the world looks like now. `hash`: of its state, if that is known.
+    pub fn snapshot(&mut self, hash: Option<u64>) -> Arc<Snapshot> {
         let figures = self.scene.figures();
         let obstacles = self.obstacles();
         let since = SystemTime::now()
@@ -489,7 +489,7 @@ impl Shard {
             gravity: self.scene.settings().gravity,
             tick: self.scene.world().tick(),
             time: self.scene.world().time(),
-            hash: self.scene.world().state_hash(),
+            hash: hash.unwrap_or_else(|| self.scene.world().state_hash()),
             epoch: self.epoch,
             server_ns: i64::try_from(since.as_nanos()).unwrap_or(i64::MAX),
             roster_version: self.roster_version,

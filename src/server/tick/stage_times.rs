@@ -8,17 +8,18 @@ pub const STAGES: [&str; 6] = ["late", "commands", "motion", "step", "publish", 
 /// Ticks that are remembered: ten seconds at 60 Hz.
 const WINDOW: usize = 600;
 
-/// Times of recent ticks by stage.
+/// Times of recent ticks.
 #[derive(Clone, Debug)]
 pub struct StageTimes {
-    micros: [Vec<f32>; STAGES.len()],
+    /// By tick, then by stage: those of one tick lie together, where it writes them.
+    micros: Vec<[f32; STAGES.len()]>,
     next: usize,
 }
 
 impl Default for StageTimes {
     fn default() -> Self {
         Self {
-            micros: std::array::from_fn(|_| Vec::with_capacity(WINDOW)),
+            micros: Vec::with_capacity(WINDOW),
             next: 0,
         }
     }
@@ -51,8 +52,8 @@ pub fn count(stages: &[Duration; STAGES.len()], clocked: bool) {
 }
 
 /// Percentiles of some numbers; all zero for none.
-pub fn percentiles(values: &[f32]) -> Percentiles {
-    let mut sorted = values.to_vec();
+pub fn percentiles(values: impl Iterator<Item = f32>) -> Percentiles {
+    let mut sorted: Vec<f32> = values.collect();
     sorted.sort_unstable_by(f32::total_cmp);
     let at = |q: usize| {
         let rank = (sorted.len().saturating_sub(1)) * q / 100;
@@ -68,20 +69,18 @@ pub fn percentiles(values: &[f32]) -> Percentiles {
 impl StageTimes {
     /// Remembers one tick, forgetting the oldest.
     pub fn record(&mut self, stages: [Duration; STAGES.len()]) {
-        for (times, stage) in self.micros.iter_mut().zip(stages) {
-            let micros = stage.as_secs_f32() * 1e6;
-            if times.len() < WINDOW {
-                times.push(micros);
-            } else {
-                times[self.next] = micros;
-            }
+        let micros = stages.map(|stage| stage.as_secs_f32() * 1e6);
+        if self.micros.len() < WINDOW {
+            self.micros.push(micros);
+        } else {
+            self.micros[self.next] = micros;
         }
         self.next = (self.next + 1) % WINDOW;
     }
 
     /// Percentiles by stage.
     pub fn summary(&self) -> [Percentiles; STAGES.len()] {
-        std::array::from_fn(|i| percentiles(&self.micros[i]))
+        std::array::from_fn(|i| percentiles(self.micros.iter().map(|m| m[i])))
     }
 }
 

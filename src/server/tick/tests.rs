@@ -6,7 +6,7 @@ use super::scheduler::{Added, Plan, Priority, Scheduler};
 use super::shard::{Limits, Shard};
 use super::*;
 use crate::wire::convert;
-use crate::wire::types::WorldCondition;
+use crate::wire::types::{Overrun, WorldCondition, WorldUpdate};
 use std::sync::mpsc::sync_channel;
 
 /// Workers of a test: plain threads, so that tests beside it are not kept waiting.
@@ -140,5 +140,33 @@ fn a_frame_that_cannot_be_made_fails_the_world_and_not_its_thread() {
         "{condition:?}"
     );
     assert!(world.outlet.latest.borrow().figures.len() <= 1);
+    world.end();
+}
+
+/// What a long command held up is computed back to back, and nothing is left out.
+#[test]
+fn missed_ticks_are_caught_up_where_that_is_asked_for() {
+    let scheduler = Scheduler::start(workers(1)).unwrap();
+    let world = Running::start(&scheduler, 20.0);
+    let update = WorldUpdate {
+        overrun: Some(Overrun::CatchUp(100)),
+        ..WorldUpdate::default()
+    };
+    world.ask(|s| s.update(update).unwrap());
+    let (begun, before) = (Instant::now(), world.ticks());
+    world.ask(|_| {
+        let begun = Instant::now();
+        while begun.elapsed() < Duration::from_millis(180) {
+            std::hint::spin_loop();
+        }
+    });
+    let missed = world.outlet.latest.borrow().tick;
+    while world.outlet.overruns.load(Ordering::Relaxed) == 0 || world.ticks() < before + 6 {
+        assert!(begun.elapsed() < Duration::from_secs(20), "it stands still");
+        std::thread::yield_now();
+    }
+    let ticks = world.outlet.latest.borrow().tick;
+    assert!(ticks > missed);
+    assert_eq!(world.outlet.skipped.load(Ordering::Relaxed), 0);
     world.end();
 }

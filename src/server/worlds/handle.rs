@@ -131,8 +131,12 @@ impl WorldHandle {
     }
 
     fn gone(&self) -> Fault {
-        let missing = || Fault::not_found("world", format!("worlds/{}", self.id));
-        self.why_ended().unwrap_or_else(missing)
+        self.why_ended().unwrap_or_else(|| self.no_more())
+    }
+
+    /// What a stream learns when the world has ended.
+    pub fn no_more(&self) -> Fault {
+        Fault::not_found("world", format!("worlds/{}", self.id))
     }
 
     /// Why nobody waits for the world any more, if its tick does not end.

@@ -379,3 +379,38 @@ fn frames_that_come_again_are_no_new_beginning() {
     assert_eq!(b.counts().resyncs, 0);
     assert!(b.counts().stale > 1000);
 }
+
+/// A stream of somebody who turns all joints at once, at times that are never quite regular, without velocities.
+fn lively(frames: i64) -> JitterBuffer {
+    let mut b = buffer(Delay::Fixed(0.0));
+    for i in 0..frames {
+        let t = i as f64 / 75.0 + 0.003 * (17.0 * i as f64).sin();
+        let mut f = frame(i, false);
+        f.source_ns = (t * 1e9) as i64;
+        let v = std::array::from_fn(|k| 0.7 * (2.0 * t + k as f64).sin());
+        f.posture.integrate(&v, 1.0);
+        b.push(f, t);
+    }
+    b
+}
+
+#[test]
+fn velocities_that_are_known_already_are_those_that_would_be_found() {
+    let b = lively(40);
+    let bits = |a: &Answer| {
+        let mut posture: Vec<u64> = a.target.posture.hinge.map(f64::to_bits).to_vec();
+        let turns = a.target.posture.ball.iter().flat_map(|q| q.to_xyzw());
+        posture.extend(turns.map(f64::to_bits));
+        let rates = a.target.velocity.iter().chain(&a.target.acceleration);
+        posture.extend(rates.map(|x| x.to_bits()));
+        (posture, a.supply, a.frame, a.feet)
+    };
+    for step in [0.001, 1.0 / 75.0, TICK, 0.05] {
+        let mut velocities = Velocities::default();
+        for n in -3..(0.9 / step) as i64 {
+            let p = n as f64 * step;
+            let known = bits(&b.at_with(p, &mut velocities));
+            assert_eq!(known, bits(&b.at(p)), "{p} s in steps of {step} s");
+        }
+    }
+}

@@ -148,12 +148,12 @@ impl Scene {
             let Some((pair, reset)) = player.sample(now) else {
                 continue;
             };
-            let state = pair.now.state();
+            let first = reset.then(|| pair.now.state());
             // First: a reset follows a stop that is still being planned.
             if let Some(f) = self.world.figure_mut(key) {
-                f.set_drive(Motion::External(Box::new(pair)));
+                f.set_drive(Motion::External(pair));
             }
-            if reset {
+            if let Some(state) = first {
                 // What came over the wire was checked there, so there is nothing left to refuse.
                 let _ = engine::reset(&mut self.world, key, state);
             }

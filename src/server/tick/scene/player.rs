@@ -296,7 +296,7 @@ impl Player {
     }
 
     /// The desired motion over the tick that begins `now`, and whether the figure is to be put into it at once.
-    pub fn sample(&mut self, now: Now) -> Option<(TargetPair, bool)> {
+    pub fn sample(&mut self, now: Now) -> Option<(Box<TargetPair>, bool)> {
         let pair = self.buffer.sample(now)?;
         Some((pair, self.buffer.resets_now()))
     }

@@ -54,11 +54,7 @@ impl Scene {
         };
         let shown = |m: &super::Member| {
             let f = self.figure(m.key);
-            let mut shown = engine::snapshot(f, start, dt, applied(m.key));
-            if let Some(r) = &shown.report {
-                shown.touched = r.touches.iter().map(|t| self.name_of(t.other)).collect();
-            }
-            shown
+            engine::snapshot(f, (start, dt), applied(m.key), |other| self.name_of(other))
         };
         self.members.iter().map(shown).collect()
     }
