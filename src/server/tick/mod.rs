@@ -46,7 +46,7 @@ const COMMAND_LEAST: Duration = Duration::from_micros(200);
 pub struct Outlet {
     /// Why nobody waits for it any more: its tick does not end.
     pub lost: watch::Sender<Option<Fault>>,
-    /// Latest frame.
+    /// Latest frame. Who reads it finds it at once; who waits for the next one is told by [`Outlet::tell`].
     pub latest: watch::Sender<Arc<Snapshot>>,
     /// Frames of the last ticks. Whoever looks into it copies pointers, so a tick does not wait for long.
     pub history: Mutex<History>,
@@ -90,6 +90,13 @@ impl Outlet {
     }
 }
 
+impl Outlet {
+    /// Tells who waits for the next frame that it is there.
+    pub fn tell(&self) {
+        self.latest.send_modify(|_| {});
+    }
+}
+
 /// When a world wants to be run again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
@@ -111,6 +118,8 @@ pub struct Runner {
     long: bool,
     /// Processor time of the last round.
     took: Duration,
+    /// There is a frame that nobody was told of.
+    untold: bool,
 }
 
 impl Runner {
@@ -123,7 +132,13 @@ impl Runner {
             outlet: outlet.clone(),
             long: false,
             took: Duration::ZERO,
+            untold: false,
         }
+    }
+
+    /// What is to be told of the rounds since the last call: where there is a new frame, if there is one.
+    pub fn take_news(&mut self) -> Option<Arc<Outlet>> {
+        std::mem::take(&mut self.untold).then(|| self.outlet.clone())
     }
 
     /// The tick that it has come to.
@@ -200,6 +215,7 @@ impl Runner {
             shard,
             inbox,
             outlet,
+            untold,
             ..
         } = self;
         let meters = ticks();
@@ -247,7 +263,7 @@ impl Runner {
         if !due {
             guarded(shard, "the record", |s| s.note(false, start));
             if shard.changed {
-                publish(shard, outlet, None);
+                *untold |= publish(shard, outlet, None).is_some();
             }
             describe(shard, outlet);
             publish_events(shard, outlet);
@@ -266,6 +282,7 @@ impl Runner {
             None => publish(shard, outlet, hash),
             Some(_) => None,
         };
+        *untold |= snapshot.is_some();
         describe(shard, outlet);
         publish_events(shard, outlet);
 
@@ -342,7 +359,9 @@ fn fail(shard: &mut Shard, what: &str, panic: &(dyn Any + Send)) {
     }
 }
 
-/// Shows the world as it is now; `None` if that fails. `hash`: of its state, if that is known.
+/// Shows the world as it is now; `None` if that fails. Who waits for a frame is told later ([`Outlet::tell`]).
+///
+/// * `hash`: of its state, if that is known.
 fn publish(shard: &mut Shard, outlet: &Outlet, hash: Option<u64>) -> Option<Arc<Snapshot>> {
     let snapshot = guarded(shard, "the frame", |s| {
         s.publish_feedback();
@@ -357,7 +376,11 @@ fn publish(shard: &mut Shard, outlet: &Outlet, hash: Option<u64>) -> Option<Arc<
         .unwrap_or_else(PoisonError::into_inner);
     history.push(snapshot.clone());
     drop(history);
-    outlet.latest.send_replace(snapshot.clone());
+    let shown = snapshot.clone();
+    outlet.latest.send_if_modified(|latest| {
+        *latest = shown;
+        false // nobody is told yet
+    });
     shard.note_shown();
     Some(snapshot)
 }

@@ -170,3 +170,38 @@ fn missed_ticks_are_caught_up_where_that_is_asked_for() {
     assert_eq!(world.outlet.skipped.load(Ordering::Relaxed), 0);
     world.end();
 }
+
+/// Frames of several worlds that are due at once are told of together, and none is kept back: whoever waits sees the
+/// tick that is there, also when the worker has nothing left to do.
+#[test]
+fn who_waits_for_a_frame_is_told_of_the_latest_one() {
+    let scheduler = Scheduler::start(workers(1)).unwrap();
+    let worlds: Vec<_> = (0..5).map(|_| Running::start(&scheduler, 50.0)).collect();
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_time()
+        .build()
+        .unwrap();
+    for world in &worlds {
+        let mut frames = world.outlet.latest.subscribe();
+        let mut last = frames.borrow_and_update().tick;
+        for _ in 0..5 {
+            let told =
+                async { tokio::time::timeout(Duration::from_secs(10), frames.changed()).await };
+            runtime.block_on(told).expect("a frame in time").unwrap();
+            let tick = frames.borrow_and_update().tick;
+            assert!(tick > last, "{tick} after {last}");
+            last = tick;
+        }
+        // The last frame is told of, too: nothing comes after it.
+        world.ask(|s| s.pause().unwrap());
+        while last != world.outlet.latest.borrow().tick {
+            let told =
+                async { tokio::time::timeout(Duration::from_secs(10), frames.changed()).await };
+            runtime.block_on(told).expect("the last frame").unwrap();
+            last = frames.borrow_and_update().tick;
+        }
+    }
+    for world in worlds {
+        world.end();
+    }
+}

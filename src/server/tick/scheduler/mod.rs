@@ -13,6 +13,7 @@
 //!
 //! [`watchdog`] looks after rounds that do not end.
 
+mod news;
 mod priority;
 mod seat;
 #[cfg(test)]
@@ -28,6 +29,7 @@ use super::{Next, Outlet, Runner};
 use crate::server::ingest::mailbox::Mailboxes;
 use crate::wire::status::Fault;
 use crate::wire::types::{EventKind, WorldCondition, WorldEvent};
+use news::News;
 use priority::Duty;
 use seat::{Entry, Seat};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -355,7 +357,8 @@ impl Shared {
                 );
             }
         }
-        while let Some(entry) = self.next_entry(seat, epoch) {
+        let mut news = News::default();
+        while let Some(entry) = self.next_entry(seat, epoch, &mut news) {
             if std::mem::take(&mut lock(&self.seats[seat].queue).lowered) {
                 priority::raise(duty, self.plan.priority);
             }
@@ -366,6 +369,9 @@ impl Shared {
             let begun = Instant::now();
             let next = catch_unwind(AssertUnwindSafe(|| runner.round()));
             let took = begun.elapsed();
+            if let Some(outlet) = runner.take_news() {
+                news.add(outlet);
+            }
             if took > self.plan.slow {
                 let (world, tick) = (&*entry.slot.world, runner.tick());
                 let seconds = took.as_secs_f64();
@@ -386,11 +392,15 @@ impl Shared {
                 tracing::warn!(world, seconds, "a tick that was given up has ended");
                 return;
             }
+            // The next tick of the long lane may take long: nothing waits for it.
+            if duty == Duty::Long || news.is_due() {
+                news.tell();
+            }
         }
     }
 
-    /// Waits for the next world to run. None: the thread is to end.
-    fn next_entry(&self, own: usize, epoch: u64) -> Option<Entry> {
+    /// Waits for the next world to run; tells the news before. None: the thread is to end.
+    fn next_entry(&self, own: usize, epoch: u64, news: &mut News) -> Option<Entry> {
         let seat = &self.seats[own];
         let mut queue = lock(&seat.queue);
         let found = loop {
@@ -418,6 +428,12 @@ impl Shared {
             }
             if due.is_some() {
                 break queue.pop();
+            }
+            if !news.is_empty() {
+                drop(queue);
+                news.tell();
+                queue = lock(&seat.queue);
+                continue;
             }
             let look = hint.map(|(at, _)| (at + STEAL_AFTER).max(now + STEAL_EVERY));
             let until = [queue.top(), look].into_iter().flatten().min();
