@@ -17,7 +17,7 @@ pub use crate::sim::math::dense::WIDTH;
 pub type AppliedForce = (SegmentId, Vec3, Vec3);
 
 /// Where the segments are in one state, and how they move.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Placement {
     /// The state.
     pub state: State,
@@ -38,20 +38,6 @@ pub struct Dynamics {
     bias: RneaWorkspace<f64>,
     scratch: RneaWorkspace<f64>,
     external: [External; SEGMENT_COUNT],
-}
-
-impl Clone for Placement {
-    fn clone(&self) -> Self {
-        let mut out = Self::default();
-        out.clone_from(self);
-        out
-    }
-
-    /// Into place.
-    fn clone_from(&mut self, other: &Self) {
-        self.state = other.state;
-        self.kin.clone_from(&other.kin);
-    }
 }
 
 impl Deref for Dynamics {
