@@ -15,9 +15,7 @@ mod then;
 
 pub use body::{BodyArgs, BodyNameParser, describe, short_name};
 pub use constraint::ConstraintSpec;
-pub use control::{
-    ControllerArg, MetricArg, PaperOptions, PresetArg, PriorityArg, ShareArg, StepperArg,
-};
+pub use control::{ControllerArg, PaperOptions, PresetArg, StepperArg};
 pub use credentials::CredentialArgs;
 pub use load::LoadSpec;
 pub use obstacle::ObstacleSpec;

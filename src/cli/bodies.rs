@@ -3,12 +3,12 @@
 use super::args::{BodyArgs, describe};
 use super::exit::within;
 use super::terminal::print;
-use crate::sim::body::names::{NAMED_BODIES, sex_name};
-use crate::sim::body::topology::{DOF_NAMES, SEGMENT_NAMES};
-use crate::sim::body::{Body, DOF_COUNT, Profile};
-use crate::sim::strength::{MuscleScale, Provenance, Strength};
 use anyhow::{Context, Result};
 use serde_json::json;
+use sinew_physics::body::names::{NAMED_BODIES, sex_name};
+use sinew_physics::body::topology::{DOF_NAMES, SEGMENT_NAMES};
+use sinew_physics::body::{Body, DOF_COUNT, Profile};
+use sinew_physics::strength::{MuscleScale, Provenance, Strength};
 
 /// Lists the named bodies; with any option that chooses a body, its segments and degrees of freedom.
 #[derive(Clone, Debug, clap::Args)]

@@ -1,11 +1,11 @@
 //! The part of `sinew paper` that compares pairs of controller and stepper over motions, loads and pushes.
 
 use super::page::Page;
-use crate::evaluate::experiments::Pair;
-use crate::evaluate::experiments::compare::{Burden, IMPULSES, LOADS, Motion, Outcome, compare};
-use crate::evaluate::experiments::fall::DIRECTIONS;
-use crate::sim::body::Body;
-use crate::sim::world::World;
+use sinew_evaluate::experiments::Pair;
+use sinew_evaluate::experiments::compare::{Burden, IMPULSES, LOADS, Motion, Outcome, compare};
+use sinew_evaluate::experiments::fall::DIRECTIONS;
+use sinew_physics::body::Body;
+use sinew_physics::world::World;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 

@@ -4,7 +4,7 @@ use super::exit::usage;
 use super::number::counted;
 use super::serve;
 use super::terminal::{note, print, print_line};
-use crate::server::config::check::problems;
+use sinew_server::config::check::problems;
 use std::fmt::Write as _;
 
 /// Arguments of `sinew config`.

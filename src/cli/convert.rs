@@ -5,14 +5,14 @@ use super::number::{counted, hertz};
 use super::output::{check_folder, extension, write};
 use super::source::{Source, load, warn};
 use super::terminal::print_line;
-use crate::evaluate::table::{header, row};
-use crate::sim::body::Body;
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::motion::write_bvh;
-use crate::sim::retarget::{Preparation, RetargetOptions};
 use anyhow::{Context, Result};
 use serde_json::json;
+use sinew_evaluate::table::{header, row};
+use sinew_physics::body::Body;
+use sinew_physics::body::angles::anatomical_angles;
+use sinew_physics::body::topology::DOF_NAMES;
+use sinew_physics::motion::write_bvh;
+use sinew_physics::retarget::{Preparation, RetargetOptions};
 use std::path::PathBuf;
 
 /// Fits a recording to the body and writes the prepared motion.

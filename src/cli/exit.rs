@@ -89,7 +89,7 @@ pub fn code(done: anyhow::Result<Outcome>) -> Code {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::terminal::OutputClosed;
+    use crate::terminal::OutputClosed;
     use anyhow::Context as _;
 
     #[test]

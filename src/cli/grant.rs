@@ -4,8 +4,8 @@ use super::args::CredentialArgs;
 use super::exit::Usage;
 use super::terminal::print_line;
 use super::{explain, world_resource};
-use crate::client::Client;
-use crate::wire::pb;
+use sinew_client::Client;
+use sinew_wire::pb;
 use tonic::Code;
 
 /// Arguments of `sinew grant`.

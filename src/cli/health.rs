@@ -3,7 +3,7 @@
 use super::args::CredentialArgs;
 use super::explain;
 use super::terminal::print_line;
-use crate::server::health::{LIVENESS, READINESS};
+use sinew_server::health::{LIVENESS, READINESS};
 use std::time::Duration;
 
 /// How long the answer may take.

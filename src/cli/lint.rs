@@ -4,12 +4,12 @@ use super::args::{BodyArgs, RecordingArgs, check_tempo};
 use super::number::{counted, fixed, hertz, metres, rounded, seconds};
 use super::source::{Source, load};
 use super::terminal::{print, print_line};
-use crate::sim::body::Body;
-use crate::sim::plan::feasibility::{Consistency, Spread, consistency};
-use crate::sim::plan::prepare::ZmpOutside;
-use crate::sim::retarget::{Preparation, RetargetOptions, RetargetReport, UpAxis};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
+use sinew_physics::body::Body;
+use sinew_physics::plan::feasibility::{Consistency, Spread, consistency};
+use sinew_physics::plan::prepare::ZmpOutside;
+use sinew_physics::retarget::{Preparation, RetargetOptions, RetargetReport, UpAxis};
 use std::fmt::Write;
 
 /// Reads recordings and reports how they fit the body.

@@ -3,12 +3,12 @@
 use super::number::counted;
 use super::output::write;
 use super::terminal::print_line;
-use crate::evaluate::experiments::Record;
-use crate::evaluate::plot::Plot;
-use crate::evaluate::strip::{StripOptions, View, draw, raster};
-use crate::sim::body::Body;
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
+use sinew_evaluate::experiments::Record;
+use sinew_evaluate::plot::Plot;
+use sinew_evaluate::strip::{StripOptions, View, draw, raster};
+use sinew_physics::body::Body;
 use std::path::{Path, PathBuf};
 
 /// Scale of strips, pixels per metre.

@@ -6,22 +6,22 @@ use super::args::short_name;
 use super::compare;
 use super::page::{Page, progress};
 use super::source::load;
-use crate::evaluate::experiments::compare::Motion;
-use crate::evaluate::experiments::fall::{
+use anyhow::Result;
+use sinew_evaluate::experiments::compare::Motion;
+use sinew_evaluate::experiments::fall::{
     DIRECTIONS, Fall, LOW, fall, fall_on_toes, leaning, pendulum, pendulum_about_the_balls,
 };
-use crate::evaluate::experiments::lift::{Lift, lift, scene, weak_arm};
-use crate::evaluate::experiments::push::{Push, push, recovered};
-use crate::evaluate::experiments::statics::{Hold, hold};
-use crate::evaluate::experiments::touching::{FRICTION, Prop, Support, bump, hand_support};
-use crate::evaluate::experiments::{Pair, Sample};
-use crate::evaluate::plot::Plot;
-use crate::evaluate::strip::View;
-use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::body::{Body, Profile, Sex};
-use crate::sim::motion::builtin::{at_ease, builtin};
-use crate::sim::retarget::RetargetOptions;
-use anyhow::Result;
+use sinew_evaluate::experiments::lift::{Lift, lift, scene, weak_arm};
+use sinew_evaluate::experiments::push::{Push, push, recovered};
+use sinew_evaluate::experiments::statics::{Hold, hold};
+use sinew_evaluate::experiments::touching::{FRICTION, Prop, Support, bump, hand_support};
+use sinew_evaluate::experiments::{Pair, Sample};
+use sinew_evaluate::plot::Plot;
+use sinew_evaluate::strip::View;
+use sinew_physics::body::topology::DOF_NAMES;
+use sinew_physics::body::{Body, Profile, Sex};
+use sinew_physics::motion::builtin::{at_ease, builtin};
+use sinew_physics::retarget::RetargetOptions;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;

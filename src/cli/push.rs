@@ -6,20 +6,21 @@ use super::number::{counted, hertz};
 use super::source::BUILTIN;
 use super::terminal::{note, print_line};
 use super::{explain, world_resource};
-use crate::client::{Client, Driver};
-use crate::server::engine;
-use crate::sim::body::names::DEFAULT_BODY;
-use crate::sim::body::{Body, Profile};
-use crate::sim::math::Quat;
-use crate::sim::motion::{Bvh, Clip, PlanarTransform};
-use crate::sim::plan::cycle;
-use crate::sim::plan::stream::WINDOW;
-use crate::sim::retarget::{Preparation, RetargetOptions};
-use crate::wire::convert::{self, motion::figure_motion};
-use crate::wire::frame::values;
-use crate::wire::pb;
-use crate::wire::types::{BvhReading, Place};
 use anyhow::Context as _;
+use sinew_client::Network;
+use sinew_client::{Client, Driver};
+use sinew_physics::body::names::DEFAULT_BODY;
+use sinew_physics::body::{Body, Profile};
+use sinew_physics::math::Quat;
+use sinew_physics::motion::{Bvh, Clip, PlanarTransform};
+use sinew_physics::plan::cycle;
+use sinew_physics::plan::stream::WINDOW;
+use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_server::engine;
+use sinew_wire::convert::{self, motion::figure_motion};
+use sinew_wire::frame::values;
+use sinew_wire::pb;
+use sinew_wire::types::{BvhReading, Place};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use tonic::Code;
@@ -76,46 +77,6 @@ pub struct Args {
     /// can do
     #[arg(long, conflicts_with = "raw")]
     keep_runs: bool,
-}
-
-/// A network that delays and drops frames, the same way for the same seed.
-#[derive(Clone, Debug)]
-pub struct Network {
-    state: u64,
-    jitter: f64,
-    loss: f64,
-    last: f64,
-}
-
-impl Network {
-    /// Delays frames by up to `jitter` seconds and drops the fraction `loss` of them.
-    pub fn new(jitter: f64, loss: f64, seed: u64) -> Self {
-        Self {
-            state: seed,
-            jitter,
-            loss,
-            last: f64::NEG_INFINITY,
-        }
-    }
-
-    /// Uniform in 0…1 (splitmix64).
-    fn random(&mut self) -> f64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// When a frame that is sent at `t` (s) arrives, not before those sent earlier; `None` if it is lost.
-    pub fn arrival(&mut self, t: f64) -> Option<f64> {
-        let (late, lost) = (self.random(), self.random());
-        if lost < self.loss {
-            return None;
-        }
-        self.last = self.last.max(t + self.jitter * late);
-        Some(self.last)
-    }
 }
 
 /// Streams the file at its own rate.
@@ -245,7 +206,7 @@ fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
             preparation: Preparation::NONE,
             ..Default::default()
         });
-        let fitted = crate::sim::retarget::retarget(bvh, body, &options)
+        let fitted = sinew_physics::retarget::retarget(bvh, body, &options)
             .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
         (fitted.clip, fitted.report.warnings)
     } else {

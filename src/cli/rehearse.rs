@@ -7,23 +7,21 @@ use super::output::{check_folder, extension, write};
 use super::run::ViewArg;
 use super::source::{load, warn};
 use super::terminal::print;
-use crate::evaluate::Tick;
-use crate::evaluate::follow::{
-    Follow, Found, MOST_HELP, RehearsalOptions, RehearsalReport, follow,
-};
-use crate::evaluate::forecast::{Forecast, forecast};
-use crate::evaluate::strip::{Drawing, Frame, StripOptions, draw, evenly_spaced, raster};
-use crate::evaluate::survey::{Conditions, Outcome, Reference, watched};
-use crate::sim::body::Body;
-use crate::sim::figure::{FigureOptions, StrengthScale};
-use crate::sim::motion::{Clip, write_bvh};
-use crate::sim::rehearsal::Progress;
-use crate::sim::retarget::{Preparation, RetargetOptions};
-use crate::sim::strength::Strength;
-use crate::sim::world::WorldParams;
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
+use sinew_evaluate::Tick;
+use sinew_evaluate::follow::{Follow, Found, MOST_HELP, RehearsalOptions, RehearsalReport, follow};
+use sinew_evaluate::forecast::{Forecast, forecast};
+use sinew_evaluate::strip::{Drawing, Frame, StripOptions, draw, evenly_spaced, raster};
+use sinew_evaluate::survey::{Conditions, Outcome, Reference, watched};
+use sinew_physics::body::Body;
+use sinew_physics::figure::{FigureOptions, StrengthScale};
+use sinew_physics::motion::{Clip, write_bvh};
+use sinew_physics::rehearsal::Progress;
+use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::strength::Strength;
+use sinew_physics::world::WorldParams;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -285,7 +283,7 @@ fn read(args: &RehearseArgs, body: &Body) -> Result<(String, Forms)> {
 
 /// The forecast of plain tracking, with the loads that are carried.
 fn forecast_of(conditions: &Conditions, clip: &Clip) -> Forecast {
-    let mut links = crate::sim::body::Links::new(&conditions.body);
+    let mut links = sinew_physics::body::Links::new(&conditions.body);
     for load in conditions.perturbations.iter().filter_map(|p| p.load()) {
         for (segment, point, mass) in load.shares() {
             links.add_load(segment, point, mass);

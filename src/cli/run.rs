@@ -15,23 +15,23 @@ use super::exit::{Outcome, Usage, usage, within};
 use super::output::{check_folder, check_names, extension, for_clip, write};
 use super::source::{self, Source, load, warn};
 use super::terminal::print;
-use crate::evaluate::strip::{Frame, Thing, evenly_spaced};
-use crate::evaluate::{Metrics, RunEvent, RunReport, Tick};
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use crate::sim::body::{Body, SegmentId};
-use crate::sim::figure::{Constraint, ControlParams, FigureOptions, StrengthScale};
-use crate::sim::motion::{Clip, write_bvh};
-use crate::sim::plan::cycle;
-use crate::sim::retarget::{Preparation, RetargetOptions};
-use crate::sim::strength::fatigue::MAX_TIME_SCALE;
-use crate::sim::world::{
-    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, World, WorldError,
-    WorldParams,
-};
 use anyhow::{Context, Result};
 use csv::Csv;
 use document::document;
 use indicatif::MultiProgress;
+use sinew_evaluate::strip::{Frame, Thing, evenly_spaced};
+use sinew_evaluate::{Metrics, RunEvent, RunReport, Tick};
+use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES};
+use sinew_physics::body::{Body, SegmentId};
+use sinew_physics::figure::{Constraint, ControlParams, FigureOptions, StrengthScale};
+use sinew_physics::motion::{Clip, write_bvh};
+use sinew_physics::plan::cycle;
+use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::strength::fatigue::MAX_TIME_SCALE;
+use sinew_physics::world::{
+    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, World, WorldError,
+    WorldParams,
+};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};

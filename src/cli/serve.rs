@@ -3,10 +3,10 @@
 use super::exit::{Usage, usage};
 use super::interrupt::interrupted;
 use super::terminal::{OutputClosed, note, print, stderr_shows_colour};
-use crate::server::api::App;
-use crate::server::config::{Config, Sources};
-use crate::server::{self, telemetry};
 use anyhow::Context as _;
+use sinew_server::api::App;
+use sinew_server::config::{Config, Sources};
+use sinew_server::telemetry;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -131,12 +131,12 @@ async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::R
     app.restore().await;
     let mut figures = Vec::new();
     if !args.no_demo && app.worlds.get("demo").is_err() {
-        figures = server::demo::create(&app)
+        figures = sinew_server::demo::create(&app)
             .await
             .map_err(|e| anyhow::anyhow!(e))?;
     }
     let listener = socket.listen(BACKLOG).with_context(cannot_listen)?;
-    let serving = tokio::spawn(server::serve(app, listener, interrupted(), stop));
+    let serving = tokio::spawn(sinew_server::serve(app, listener, interrupted(), stop));
     // One write: a reader that wants the first line only takes the rest with it. A server without readers serves all
     // the same.
     match print(&greeting(address, &config, &figures)) {

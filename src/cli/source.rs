@@ -1,11 +1,11 @@
 //! Sources of motion: a BVH file or one of the built-in motions.
 
 use super::exit::Usage;
-use crate::sim::body::Body;
-use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
-use crate::sim::motion::{Bvh, Clip};
-use crate::sim::retarget::{RetargetOptions, RetargetReport, retarget};
 use anyhow::{Context, Result, bail};
+use sinew_physics::body::Body;
+use sinew_physics::motion::builtin::{BUILTIN_NAMES, builtin};
+use sinew_physics::motion::{Bvh, Clip};
+use sinew_physics::retarget::{RetargetOptions, RetargetReport, retarget};
 use std::path::Path;
 
 /// A motion fitted to a body.

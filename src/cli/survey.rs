@@ -11,14 +11,14 @@ use super::exit::within;
 use super::number::counted;
 use super::output::{check_folder, write};
 use super::rehearse::{FollowArg, HelpArgs};
-use crate::evaluate::follow::Follow;
-use crate::evaluate::survey::compare::compare;
-use crate::evaluate::survey::tables;
-use crate::sim::body::Body;
-use crate::sim::world::WorldParams;
 use anyhow::{Context, Result, bail};
 use page::PageSpec;
 use push::SurveyPush;
+use sinew_evaluate::follow::Follow;
+use sinew_evaluate::survey::compare::compare;
+use sinew_evaluate::survey::tables;
+use sinew_physics::body::Body;
+use sinew_physics::world::WorldParams;
 use std::io::Write;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -249,7 +249,7 @@ fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_jso
     let pushes: Vec<String> = args.push.iter().map(ToString::to_string).collect();
     let world = WorldParams::default();
     let all = serde_json::json!({
-        "sex": crate::sim::body::names::sex_name(p.sex),
+        "sex": sinew_physics::body::names::sex_name(p.sex),
         "age_years": p.age,
         "height_m": p.height,
         "mass_kg": p.mass,
@@ -266,7 +266,7 @@ fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_jso
         "rate_hz": args.rate,
         "substeps": world.substeps,
         "copies": args.copies,
-        "noise_mm": crate::evaluate::survey::stats::short(1e3 * args.noise.metres),
+        "noise_mm": sinew_evaluate::survey::stats::short(1e3 * args.noise.metres),
         "noise_deg": args.noise.degrees,
     });
     match all {
@@ -285,7 +285,7 @@ fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_jso
 
 /// A hash of bytes as sixteen digits.
 fn hash(parts: &[&[u8]]) -> String {
-    let mut h = crate::sim::math::hash::Fnv::default();
+    let mut h = sinew_physics::math::hash::Fnv::default();
     for part in parts {
         h.u64(part.len() as u64);
         for word in part.chunks(8) {

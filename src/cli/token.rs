@@ -2,9 +2,9 @@
 
 use super::exit::Usage;
 use super::terminal::{note, print_line};
-use crate::server::access::roles::Role;
-use crate::server::access::tokens::{NewToken, create_secret, read_secret, sign};
 use anyhow::Context as _;
+use sinew_server::access::roles::Role;
+use sinew_server::access::tokens::{NewToken, create_secret, read_secret, sign};
 use std::path::PathBuf;
 use std::time::Duration;
 

@@ -4,9 +4,9 @@ use super::args::CredentialArgs;
 use super::exit::{Usage, within};
 use super::terminal::print_line;
 use super::{explain, world_resource};
-use crate::wire::frame::values;
-use crate::wire::pb;
-use crate::wire::watched::WatchWorldResponse;
+use sinew_wire::frame::values;
+use sinew_wire::pb;
+use sinew_wire::watched::WatchWorldResponse;
 
 /// Arguments of `sinew watch`.
 #[derive(Clone, Debug, clap::Args)]
@@ -141,7 +141,7 @@ fn line(frame: &pb::WorldFrame, names: &Names) -> String {
                 ", tracking error {:.2}° rms",
                 s.tracking_joint_rms_rad.to_degrees()
             );
-            for (bit, flag) in crate::sim::figure::Flags::NAMES.iter().enumerate() {
+            for (bit, flag) in sinew_physics::figure::Flags::NAMES.iter().enumerate() {
                 if s.flags >> bit & 1 == 1 {
                     let _ = write!(out, " {flag}");
                 }

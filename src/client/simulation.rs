@@ -1,7 +1,7 @@
 //! A simulation without a world, put together step by step.
 
 use super::Client;
-use crate::wire::pb;
+use sinew_wire::pb;
 use tonic::Status;
 
 /// A clip tracked by one figure, with what happens to it meanwhile. Everything that is not said has its default.

@@ -6,11 +6,11 @@
 //! nothing explains; a real figure has none.
 
 use super::pose::{SegmentPose, segment_poses};
-use crate::sim::body::state::ball_rate_vector;
-use crate::sim::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, PARENT};
-use crate::sim::body::{DOF_COUNT, Links, NV, SEGMENT_COUNT, State};
-use crate::sim::figure::Audit;
-use crate::sim::math::{Sym3, Vec3};
+use sinew_physics::body::state::ball_rate_vector;
+use sinew_physics::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, PARENT};
+use sinew_physics::body::{DOF_COUNT, Links, NV, SEGMENT_COUNT, State};
+use sinew_physics::figure::Audit;
+use sinew_physics::math::{Sym3, Vec3};
 
 /// What an audit found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -231,17 +231,22 @@ fn joint_axis(s: usize, k: usize, poses: &[SegmentPose; SEGMENT_COUNT]) -> Vec3 
 }
 
 #[cfg(test)]
+#[allow(dead_code, reason = "shared with tests/physics")]
+#[path = "../../tests/physics/oracle/bodies.rs"]
+mod bodies;
+
+#[cfg(test)]
 mod tests {
     //! The rebuilt equations agree with the kernels of `sim::dynamics`, to which they owe nothing, and wrong physics is
     //! far off.
 
+    use super::bodies::{random_body, random_state};
     use super::*;
-    use crate::sim::body::SegmentId;
-    use crate::sim::dynamics::tests::{random_links, random_state};
-    use crate::sim::dynamics::{External, ExternalForces, Kinematics, RneaWorkspace, rnea};
-    use crate::sim::figure::ContactPoint;
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64Mcg;
+    use sinew_physics::body::SegmentId;
+    use sinew_physics::dynamics::{External, ExternalForces, Kinematics, RneaWorkspace, rnea};
+    use sinew_physics::figure::ContactPoint;
 
     fn random_vector<const N: usize>(rng: &mut Pcg64Mcg, most: f64) -> [f64; N] {
         std::array::from_fn(|_| rng.random_range(-most..most))
@@ -250,7 +255,7 @@ mod tests {
     /// A sample that `rnea` calls consistent: its root wrench is supplied by a contact couple, its joints by the
     /// torques.
     fn consistent_sample(rng: &mut Pcg64Mcg, links: &Links) -> Audit {
-        let state = random_state(rng);
+        let state = random_state(rng, 1.0);
         let acceleration: [f64; NV] = random_vector(rng, 20.0);
         let mut kin = Kinematics::default();
         kin.set_state(links, &state);
@@ -310,7 +315,7 @@ mod tests {
             external[0].force += force;
             external[0].moment += (point - origin).cross(force);
             contacts.push(ContactPoint {
-                segment: crate::sim::body::topology::PELVIS,
+                segment: sinew_physics::body::topology::PELVIS,
                 vertex: 0,
                 position: point,
                 force,
@@ -342,7 +347,10 @@ mod tests {
     fn inertial_forces_agree_with_recursive_newton_euler() {
         let mut rng = Pcg64Mcg::seed_from_u64(11);
         for _ in 0..200 {
-            let (links, state) = (random_links(&mut rng), random_state(&mut rng));
+            let (links, state) = (
+                Links::new(&random_body(&mut rng, 0.05)),
+                random_state(&mut rng, 1.0),
+            );
             let a: [f64; NV] = random_vector(&mut rng, 20.0);
             let (mut kin, mut tau) = (Kinematics::default(), [0.0; NV]);
             kin.set_state(&links, &state);
@@ -372,7 +380,7 @@ mod tests {
     fn consistent_sample_leaves_no_residual_and_wrong_ones_leave_much() {
         let mut rng = Pcg64Mcg::seed_from_u64(12);
         for _ in 0..50 {
-            let links = random_links(&mut rng);
+            let links = Links::new(&random_body(&mut rng, 0.05));
             let sample = consistent_sample(&mut rng, &links);
             let found = audit(&links, &sample, 9.81);
             assert!(found.relative < 1e-12, "{found:?}");
@@ -408,7 +416,7 @@ mod tests {
     #[test]
     fn weightless_rest_is_exact() {
         let mut rng = Pcg64Mcg::seed_from_u64(13);
-        let links = random_links(&mut rng);
+        let links = Links::new(&random_body(&mut rng, 0.05));
         let sample = Audit {
             state: State::default(),
             acceleration: [0.0; NV],

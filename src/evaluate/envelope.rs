@@ -8,11 +8,11 @@
 //! curves keep their shape, and no muscle becomes weaker: a motion shows what a person can do, not what they cannot.
 
 use super::forecast::{self, Needed};
-use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::body::{Body, DOF_COUNT, Links};
-use crate::sim::figure::StrengthScale;
-use crate::sim::motion::Clip;
-use crate::sim::strength::{MuscleScale, Strength};
+use sinew_physics::body::topology::DOF_NAMES;
+use sinew_physics::body::{Body, DOF_COUNT, Links};
+use sinew_physics::figure::StrengthScale;
+use sinew_physics::motion::Clip;
+use sinew_physics::strength::{MuscleScale, Strength};
 
 /// Width of an angle cell, rad (15°).
 const ANGLE_CELL: f64 = std::f64::consts::PI / 12.0;
@@ -22,9 +22,8 @@ const STILL: f64 = 0.5;
 const MOST: f64 = 100.0;
 
 /// How fast the muscle shortens.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "net", derive(serde::Serialize))]
-#[cfg_attr(feature = "net", serde(rename_all = "snake_case"))]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Speed {
     /// It is stretched.
     Lengthening,
@@ -35,8 +34,7 @@ pub enum Speed {
 }
 
 /// One cell of the envelope: what one direction of a DOF gave at these angles and speeds.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Cell {
     /// DOF, as `sinew bodies` names it.
     pub dof: &'static str,
@@ -173,14 +171,14 @@ impl Envelope {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::motion::builtin::builtin;
+    use sinew_physics::motion::builtin::builtin;
 
     fn of(all: f64) -> Envelope {
         let body = Body::adult_man();
         let clip = builtin(&body, "squat").expect("built in");
         let mut links = Links::new(&body);
-        let chest = crate::sim::body::SegmentId::from_name("chest").expect("a chest");
-        links.add_load(chest, crate::sim::math::Vec3::Z * 0.2, all);
+        let chest = sinew_physics::body::SegmentId::from_name("chest").expect("a chest");
+        links.add_load(chest, sinew_physics::math::Vec3::Z * 0.2, all);
         Envelope::of(&body, &links, &Strength::for_body(&body), &[&clip], 0.98)
     }
 

@@ -3,12 +3,12 @@
 use super::forecast::{Forecast, Verdict};
 use super::survey::stats::short;
 use super::survey::{Conditions, Outcome, Reference, RehearsedRun, run, watched};
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use crate::sim::figure::rehearsed::Stage;
-use crate::sim::figure::{FigureOptions, Perturbation};
-use crate::sim::motion::Clip;
-use crate::sim::rehearsal::{Problem, ProblemError, Progress, Rehearsal, Settings, rehearse};
-use crate::sim::world::{RehearsedMotion, WorldError};
+use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES};
+use sinew_physics::figure::rehearsed::Stage;
+use sinew_physics::figure::{FigureOptions, Perturbation};
+use sinew_physics::motion::Clip;
+use sinew_physics::rehearsal::{Problem, ProblemError, Progress, Rehearsal, Settings, rehearse};
+use sinew_physics::world::{RehearsedMotion, WorldError};
 use std::sync::Arc;
 
 /// What may be done so that a clip is followed.
@@ -38,9 +38,8 @@ impl Follow {
 pub const MOST_HELP: f64 = 0.3;
 
 /// In what way a clip is followed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "net", serde(rename_all = "snake_case"))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Way {
     /// By plain tracking, as it is.
     #[default]
@@ -66,8 +65,7 @@ impl Way {
 }
 
 /// How a clip was followed, and why so.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Followed {
     /// In what way.
     pub way: Way,
@@ -78,8 +76,7 @@ pub struct Followed {
 }
 
 /// What came of a rehearsal, in figures.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RehearsalReport {
     /// The mean distance from the recording never exceeded 0.5 m.
     pub completed: bool,

@@ -6,17 +6,17 @@
 //! speeds. [`Limits`] turns both into a verdict with its reason.
 
 use super::survey::stats::short;
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::{
+use sinew_physics::body::angles::anatomical_angles;
+use sinew_physics::body::topology::{
     DOF_LEN, DOF_NAMES, DOF_SEGMENT, DOF_START, L_FOOT, L_TOES, PARENT, R_FOOT, R_TOES,
 };
-use crate::sim::body::{Body, DOF_COUNT, Links, SEGMENT_COUNT, SegmentId};
-use crate::sim::dynamics::{ExternalForces, Kinematics, RneaWorkspace, center_of_mass, rnea};
-use crate::sim::figure::StrengthScale;
-use crate::sim::math::Vec3;
-use crate::sim::math::nnls::nnls;
-use crate::sim::motion::{Clip, GRAVITY, Target};
-use crate::sim::strength::{MuscleScale, Strength};
+use sinew_physics::body::{Body, DOF_COUNT, Links, SEGMENT_COUNT, SegmentId};
+use sinew_physics::dynamics::{ExternalForces, Kinematics, RneaWorkspace, center_of_mass, rnea};
+use sinew_physics::figure::StrengthScale;
+use sinew_physics::math::Vec3;
+use sinew_physics::math::nnls::nnls;
+use sinew_physics::motion::{Clip, GRAVITY, Target};
+use sinew_physics::strength::{MuscleScale, Strength};
 
 /// Samples per second that are looked at: motion is below 6 Hz.
 const RATE: f64 = 30.0;
@@ -49,8 +49,7 @@ const LONGEST: f64 = 900.0;
 
 /// How hard a motion is. Forces in body weights, moments in weight × metre, torques over the strength at that
 /// instant, times on the clip's clock.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Difficulty {
     /// Force that the floor lacks, root mean square over the clip, weights.
     pub lacking_force_rms: f64,
@@ -115,9 +114,19 @@ pub struct Difficulty {
 }
 
 /// What will come of a motion.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "net", serde(rename_all = "snake_case"))]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    serde::Serialize,
+    serde::Deserialize,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The figure follows it by its own strength.
     #[default]
@@ -143,8 +152,7 @@ impl Verdict {
 }
 
 /// A forecast with its reason.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Forecast {
     /// What will come of it.
     pub verdict: Verdict,
@@ -731,8 +739,8 @@ fn torques(demands: &[Demand], out: &mut Difficulty) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::Posture;
-    use crate::sim::motion::builtin::{at_ease, builtin};
+    use sinew_physics::body::Posture;
+    use sinew_physics::motion::builtin::{at_ease, builtin};
 
     /// A clip of 1.5 s in the posture of quiet standing, changed by `place`.
     fn clip(planted: bool, place: impl Fn(f64, &mut Posture)) -> Clip {
@@ -798,7 +806,7 @@ mod tests {
         // times the lean.
         let lean = |angle: f64| {
             of(&clip(true, move |_, p| {
-                let q = crate::sim::math::Quat::exp(Vec3::Y * angle);
+                let q = sinew_physics::math::Quat::exp(Vec3::Y * angle);
                 p.root_position = q.rotate(p.root_position);
                 p.root_rotation = q * p.root_rotation;
             }))

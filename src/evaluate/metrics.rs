@@ -3,13 +3,13 @@
 use super::audit::audit;
 use super::pose::segment_poses;
 use super::report::{MAX_EVENTS, RunEvent, RunReport};
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::body::{Body, DOF_COUNT, Links, Posture, SEGMENT_COUNT, State};
-use crate::sim::figure::{Figure, Flags, TickReport};
-use crate::sim::math::Vec3;
-use crate::sim::motion::TargetPair;
-use crate::sim::strength::{MuscleScale, Strength};
+use sinew_physics::body::angles::anatomical_angles;
+use sinew_physics::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use sinew_physics::body::{Body, DOF_COUNT, Links, Posture, SEGMENT_COUNT, State};
+use sinew_physics::figure::{Figure, Flags, TickReport};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::TargetPair;
+use sinew_physics::strength::{MuscleScale, Strength};
 
 /// A foot contact point carries weight above this force, N.
 const CARRIES_N: f64 = 5.0;

@@ -1,7 +1,7 @@
 //! A recording with a little noise: does what came of it depend on luck?
 
-use crate::sim::motion::Bvh;
-use crate::sim::motion::bvh::BvhChannel;
+use sinew_physics::motion::Bvh;
+use sinew_physics::motion::bvh::BvhChannel;
 
 /// `bytes`, a BVH file that parses as `bvh`, with every number of its motion off by up to `distance` (file units) or
 /// `angle` (degrees), evenly distributed if `random`, which gives numbers from -1 to 1, is. `None` if the file has no

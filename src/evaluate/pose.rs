@@ -1,9 +1,9 @@
 //! World poses of the segments by plain forward kinematics, joint by joint: the oracle of `sim::dynamics::Kinematics`
 //! and of `sim::motion::leg_ik::forward`, and so independent of both.
 
-use crate::sim::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, PARENT};
-use crate::sim::body::{Posture, SEGMENT_COUNT};
-use crate::sim::math::{Quat, Vec3};
+use sinew_physics::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, PARENT};
+use sinew_physics::body::{Posture, SEGMENT_COUNT};
+use sinew_physics::math::{Quat, Vec3};
 
 /// Where a segment is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,38 +4,37 @@
 //!
 //! Measures named `tracking_…` are distances from the *target*, the posture that the controller is asked for. The
 //! target is not fixed in the world: after a step, the reference motion is moved to where the foot landed
-//! ([`crate::sim::track::planned_to_world`]), and planned steps that a disturbance changed are part of it. A figure
+//! ([`sinew_physics::track::planned_to_world`]), and planned steps that a disturbance changed are part of it. A figure
 //! that drifts away from the recording with every step therefore still has small tracking errors. Errors against the
 //! recording itself, fixed in the world, are those of `sinew survey`.
 
-use crate::sim::body::DOF_COUNT;
-use crate::sim::body::topology::DOF_NAMES;
+use sinew_physics::body::DOF_COUNT;
+use sinew_physics::body::topology::DOF_NAMES;
 
 /// Events kept in a report; later ones are counted only, so that a chattering figure cannot fill memory.
 pub const MAX_EVENTS: usize = 10_000;
 
 /// Something that happened at one instant of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize))]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct RunEvent {
     /// End of the tick in which it happened, s from the start.
     pub time_s: f64,
     /// What happened, for example `fell` or `support_lost`.
     pub kind: &'static str,
     /// Segment concerned, if any.
-    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub segment: Option<&'static str>,
     /// DOF concerned, if any.
-    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub dof: Option<&'static str>,
     /// Mass of the load concerned, if any, kg.
-    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
     /// Hand that helps with a load, if one does.
-    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub hand: Option<&'static str>,
     /// Share of its strength that the arm needs to hold that load alone, and with help.
-    #[cfg_attr(feature = "net", serde(skip_serializing_if = "Option::is_none"))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub need: Option<[f64; 2]>,
 }
 
@@ -43,8 +42,7 @@ pub struct RunEvent {
 ///
 /// Tracking errors, slip and margin end with the tick in which the figure falls: afterwards there is nothing left to
 /// track. Limits, residuals and penetration cover every tick.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RunReport {
     /// Ticks per second.
     pub rate_hz: f64,
@@ -66,7 +64,7 @@ pub struct RunReport {
     /// Largest violation of a torque limit, relative to that limit; 0 when none.
     pub over_limit_max: f64,
     /// Time each DOF spent at its limit, s, in DOF order.
-    #[cfg_attr(feature = "net", serde(serialize_with = "by_dof"))]
+    #[serde(serialize_with = "by_dof")]
     pub saturated_s: [f64; DOF_COUNT],
     /// Largest relative residual of the equations of motion (see [`super::audit`]).
     pub dynamics_residual_max: f64,
@@ -102,10 +100,10 @@ pub struct RunReport {
     /// When the figure was frozen because its state diverged, s; `None` in a sound run.
     pub quarantined_at_s: Option<f64>,
     /// Largest used share of the available muscle torque of each DOF.
-    #[cfg_attr(feature = "net", serde(serialize_with = "by_dof"))]
+    #[serde(serialize_with = "by_dof")]
     pub utilisation_max: [f64; DOF_COUNT],
     /// Root mean square of target ⊖ actual of each DOF, degrees.
-    #[cfg_attr(feature = "net", serde(serialize_with = "by_dof"))]
+    #[serde(serialize_with = "by_dof")]
     pub tracking_joint_rms_by_dof_deg: [f64; DOF_COUNT],
     /// What happened, in order; at most [`MAX_EVENTS`].
     pub events: Vec<RunEvent>,
@@ -124,7 +122,6 @@ impl RunReport {
 }
 
 /// Writes one number per DOF as an object with DOF names.
-#[cfg(feature = "net")]
 fn by_dof<S: serde::Serializer>(
     values: &[f64; DOF_COUNT],
     serializer: S,

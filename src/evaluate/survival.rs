@@ -29,7 +29,6 @@ impl SurvivalMap {
     }
 
     /// The map as a self-contained SVG document.
-    #[cfg(feature = "net")]
     pub fn svg(&self) -> String {
         use svg::node::element::{Rectangle, Text};
         const CELL: f64 = 46.0;
@@ -109,7 +108,6 @@ impl SurvivalMap {
 }
 
 /// From paper to blue.
-#[cfg(feature = "net")]
 fn colour(share: f64) -> String {
     let mix = |a: f64, b: f64| (a + (b - a) * share.clamp(0.0, 1.0)).round();
     format!(
@@ -143,7 +141,6 @@ mod tests {
         assert_eq!(rows[2], ["all", "16/16", "12/16", "1/16"]);
     }
 
-    #[cfg(feature = "net")]
     #[test]
     fn the_drawing_has_a_cell_for_each_number_and_escapes_text() {
         let svg = map().svg();

@@ -1,8 +1,8 @@
 //! A run or a prepared motion as a table: comma-separated values, one row per tick.
 
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::body::{DOF_COUNT, Posture};
+use sinew_physics::body::angles::anatomical_angles;
+use sinew_physics::body::topology::DOF_NAMES;
+use sinew_physics::body::{DOF_COUNT, Posture};
 use std::fmt::Write;
 
 /// Torques of one row, N·m: muscle torque, least and largest available.

@@ -5,9 +5,9 @@ use super::api::App;
 use super::library::Manner;
 use super::tick::command::Origin;
 use super::worlds::Stored;
-use crate::wire::convert;
-use crate::wire::pb;
-use crate::wire::types::{ControlKey, Place, Playback};
+use sinew_wire::convert;
+use sinew_wire::pb;
+use sinew_wire::types::{ControlKey, Place, Playback};
 use std::sync::Arc;
 
 /// The built-in motion that everyone plays.

@@ -117,7 +117,7 @@ impl List {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wire::pb;
+    use sinew_wire::pb;
 
     #[test]
     fn pieces_decode_to_the_message_they_are_of() {

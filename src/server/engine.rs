@@ -3,45 +3,45 @@
 //! Everything else of the server goes through the types and functions that are named here, so that the seam between
 //! clock and physics is one file.
 
-use crate::evaluate::forecast::Verdict;
-use crate::server::workers::Turn;
-use crate::sim::body::palm::load_point;
-use crate::sim::body::provenance::Provenance;
-use crate::sim::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
-use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
-use crate::sim::collide::{MAX_OBSTACLES, ObstacleSetup, Other};
-use crate::sim::figure::loads::MAX_PERTURBATIONS;
-use crate::sim::figure::tasks::grip;
-use crate::sim::figure::{
+use crate::workers::Turn;
+use sinew_evaluate::forecast::Verdict;
+use sinew_physics::body::palm::load_point;
+use sinew_physics::body::provenance::Provenance;
+use sinew_physics::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
+use sinew_physics::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
+use sinew_physics::collide::{MAX_OBSTACLES, ObstacleSetup, Other};
+use sinew_physics::figure::loads::MAX_PERTURBATIONS;
+use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::{
     Constrained, Constraint, ControlParams, ControllerKind, FigureOptions, HeldLoad, Perturbation,
     StrengthScale,
 };
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::{Bvh, PlanarTransform, Target};
-use crate::sim::retarget::{
+use sinew_physics::math::{Quat, Vec3};
+use sinew_physics::motion::{Bvh, PlanarTransform, Target};
+use sinew_physics::retarget::{
     FileFacts, Preparation, RetargetError, RetargetOptions, UpAxis, retarget_unless,
 };
-use crate::sim::strength::Strength;
-use crate::sim::world::{FigureSetup, WorldError, WorldParams};
-use crate::wire::status::Fault;
-use crate::wire::types::{
+use sinew_physics::strength::Strength;
+use sinew_physics::world::{FigureSetup, WorldError, WorldParams};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{
     BvhReading, ConstraintSettings, Disturbance, EventKind, FigureSettings, FigureSnapshot,
     Follows, ForecastInfo, ForecastVerdict, MotionSource, Place, ReadingReport, SecondSegment,
     WorldSettings,
 };
 use std::sync::Arc;
 
-pub use crate::sim::collide::ObstacleKey;
-pub use crate::sim::figure::{PlanRequest, Planning};
-pub use crate::sim::motion::Clip;
-pub use crate::sim::motion::builtin::BUILTIN_NAMES;
-pub use crate::sim::world::{
+pub use sinew_physics::collide::ObstacleKey;
+pub use sinew_physics::figure::{PlanRequest, Planning};
+pub use sinew_physics::motion::Clip;
+pub use sinew_physics::motion::builtin::BUILTIN_NAMES;
+pub use sinew_physics::world::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureKey, LivePlayback, World,
 };
 
 /// Builds a body; the fault names the field of the profile that its tables do not cover.
-pub fn build_body(profile: crate::sim::body::Profile) -> Result<Body, Fault> {
-    use crate::sim::body::model::BodyError;
+pub fn build_body(profile: sinew_physics::body::Profile) -> Result<Body, Fault> {
+    use sinew_physics::body::model::BodyError;
     Body::humanoid(profile).map_err(|e| match e {
         BodyError::Profile { field, .. } => {
             let field = match field {
@@ -58,17 +58,17 @@ pub fn build_body(profile: crate::sim::body::Profile) -> Result<Body, Fault> {
 
 /// A body as MuJoCo XML, its actuators as strong as the average person that the body stands for.
 pub fn mjcf(body: &Body) -> String {
-    crate::sim::body::export::mjcf(body, &Strength::for_body(body).actuation())
+    sinew_physics::body::export::mjcf(body, &Strength::for_body(body).actuation())
 }
 
 /// A body as URDF, its joints as strong as the average person that the body stands for.
 pub fn urdf(body: &Body) -> String {
-    crate::sim::body::export::urdf(body, &Strength::for_body(body).actuation())
+    sinew_physics::body::export::urdf(body, &Strength::for_body(body).actuation())
 }
 
 /// A motion that comes with the program.
 pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
-    crate::sim::motion::builtin::builtin(body, name)
+    sinew_physics::motion::builtin::builtin(body, name)
 }
 
 /// Prepares a motion for a body. It is given up once `stop` says so.
@@ -114,7 +114,7 @@ pub fn prepare(
 /// What will come of a clip when `body` follows it by its own strength, without loads. Slow: not on the thread of a
 /// tick.
 pub fn forecast(body: &Body, clip: &Clip) -> ForecastInfo {
-    let f = crate::evaluate::forecast::forecast_plain(body, clip);
+    let f = sinew_evaluate::forecast::forecast_plain(body, clip);
     let d = f.difficulty;
     ForecastInfo {
         verdict: match f.verdict {
@@ -237,7 +237,7 @@ pub fn retarget(
 
 /// Lowest point of each foot (left, right) in a posture, with its world position.
 fn soles(body: &Body, posture: &Posture) -> [Vec3; 2] {
-    let poses = crate::wire::posture::segment_poses(body, posture);
+    let poses = sinew_wire::posture::segment_poses(body, posture);
     [
         [topology::L_FOOT, topology::L_TOES],
         [topology::R_FOOT, topology::R_TOES],

@@ -3,15 +3,15 @@
 use super::recordings::Recorded;
 use super::tick::replay::{Replay, ReplayError};
 use super::tick::scene::Scene;
-use crate::evaluate::table::{Torques, header, row};
-use crate::sim::body::{Body, Posture};
-use crate::sim::motion::bvh_write::write_bvh;
-use crate::wire::DESCRIPTOR_SET;
-use crate::wire::frame::world_frame;
-use crate::wire::status::Fault;
-use crate::wire::types::{Fields, NumberFormat, RosterEntry, ViewSpec};
 use mcap::write::NoSeek;
 use prost::Message;
+use sinew_evaluate::table::{Torques, header, row};
+use sinew_physics::body::{Body, Posture};
+use sinew_physics::motion::bvh_write::write_bvh;
+use sinew_wire::DESCRIPTOR_SET;
+use sinew_wire::frame::world_frame;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{Fields, NumberFormat, RosterEntry, ViewSpec};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -235,7 +235,7 @@ impl Writer for Mcap {
 fn chosen<'a>(
     wanted: &mut Option<String>,
     scene: &'a Scene,
-) -> Option<&'a crate::sim::world::Figure> {
+) -> Option<&'a sinew_physics::world::Figure> {
     let mut members = scene.members().iter();
     let member = match wanted {
         Some(id) => members.find(|m| m.id == *id),

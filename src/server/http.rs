@@ -7,12 +7,12 @@ use super::edge::connections::Peer;
 use super::telemetry;
 use super::viewer;
 use super::worlds::WorldHandle;
-use crate::wire::status::Fault;
 use axum::extract::State;
 use axum::http::{HeaderMap, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use axum::{Extension, Router};
+use sinew_wire::status::Fault;
 use std::fmt::Write as _;
 use std::sync::Arc;
 

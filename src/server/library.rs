@@ -5,13 +5,13 @@ use super::engine::{self, BUILTIN_NAMES, Clip};
 use super::rehearsals::{Rehearsed, Score};
 use super::shares::check_part;
 use super::workers::Turn;
-use crate::sim::body::{Body, Posture};
-use crate::sim::plan::cycle;
-use crate::sim::retarget::{SAMPLE_BYTES, TEMPI};
-use crate::wire::convert::body::{NAMED, by_id};
-use crate::wire::pb;
-use crate::wire::status::Fault;
-use crate::wire::types::{BodyRef, ClipInfo, FollowSettings, MotionSource};
+use sinew_physics::body::{Body, Posture};
+use sinew_physics::plan::cycle;
+use sinew_physics::retarget::{SAMPLE_BYTES, TEMPI};
+use sinew_wire::convert::body::{NAMED, by_id};
+use sinew_wire::pb;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{BodyRef, ClipInfo, FollowSettings, MotionSource};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -684,8 +684,8 @@ fn source_bytes(source: &MotionSource) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::motion::write_bvh;
-    use crate::wire::types::BvhReading;
+    use sinew_physics::motion::write_bvh;
+    use sinew_wire::types::BvhReading;
 
     #[test]
     fn a_recording_is_prepared_for_its_pace_and_nothing_else_is() {

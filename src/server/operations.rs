@@ -1,9 +1,9 @@
 //! Long work that goes on whether or not somebody waits for it, kept in memory with what came of it.
 
-use crate::server::progress::Progress;
-use crate::server::shares::part;
-use crate::wire::convert::names::OPERATION;
-use crate::wire::status::Fault;
+use crate::progress::Progress;
+use crate::shares::part;
+use sinew_wire::convert::names::OPERATION;
+use sinew_wire::status::Fault;
 use std::collections::BTreeMap;
 use std::future::Future;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

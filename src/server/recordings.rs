@@ -2,7 +2,7 @@
 
 use super::shares::{Client, check_part};
 use super::tick::journal::{Journal, Pin, PinEnd, Segment};
-use crate::wire::status::Fault;
+use sinew_wire::status::Fault;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;

@@ -2,23 +2,23 @@
 
 use super::engine::{self, Clip};
 use super::workers::Turn;
-use crate::evaluate::follow as evaluation;
-use crate::evaluate::forecast::forecast;
-use crate::evaluate::survey::{Conditions, Reference};
-use crate::sim::body::{Body, Links, Profile};
-use crate::sim::figure::rehearsed::RootStep;
-use crate::sim::figure::{FigureOptions, HeldLoad, Perturbation, StrengthScale};
-use crate::sim::motion::{Bvh, Target};
-use crate::sim::rehearsal::Progress;
-use crate::sim::retarget::{Preparation, RetargetError, retarget_unless};
-use crate::sim::strength::Strength;
-use crate::sim::world::{Figure, RehearsedMotion, WorldParams};
-use crate::wire::status::Fault;
-use crate::wire::types::{
-    BvhReading, Follow, FollowSettings, FollowWay, MotionSource, RehearsalInfo,
-};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use sinew_evaluate::follow as evaluation;
+use sinew_evaluate::forecast::forecast;
+use sinew_evaluate::survey::{Conditions, Reference};
+use sinew_physics::body::{Body, Links, Profile};
+use sinew_physics::figure::rehearsed::RootStep;
+use sinew_physics::figure::{FigureOptions, HeldLoad, Perturbation, StrengthScale};
+use sinew_physics::motion::{Bvh, Target};
+use sinew_physics::rehearsal::Progress;
+use sinew_physics::retarget::{Preparation, RetargetError, retarget_unless};
+use sinew_physics::strength::Strength;
+use sinew_physics::world::{Figure, RehearsedMotion, WorldParams};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{
+    BvhReading, Follow, FollowSettings, FollowWay, MotionSource, RehearsalInfo,
+};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};

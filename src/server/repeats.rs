@@ -5,9 +5,9 @@
 //! repeat that comes meanwhile waits for that task. Answers are kept for some time; requests that were refused have
 //! changed nothing and are forgotten, so that a repeat is a new attempt.
 
-use crate::server::shares::part;
-use crate::wire::status::Fault;
+use crate::shares::part;
 use bytes::Bytes;
+use sinew_wire::status::Fault;
 use std::collections::{HashMap, VecDeque};
 use std::future::Future;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -3,7 +3,7 @@
 //! Without accounts a client is a connection or an address. On the machine of the server every program has the same
 //! address, so there it is the connection; elsewhere it is the address, however many connections come from it.
 
-use crate::wire::status::Fault;
+use sinew_wire::status::Fault;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;

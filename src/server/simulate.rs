@@ -5,14 +5,14 @@ use super::engine::{self, Clip, Drive, FigureKey, World};
 use super::progress::Progress;
 use super::tick::stage_times::percentiles;
 use super::workers::Turn;
-use crate::sim::body::{Body, DOF_COUNT};
-use crate::sim::figure::{Flags, TickReport};
-use crate::sim::motion::GRAVITY;
-use crate::sim::world::WorldParams;
-use crate::wire::frame::world_frame;
-use crate::wire::pb;
-use crate::wire::status::Fault;
-use crate::wire::types::{
+use sinew_physics::body::{Body, DOF_COUNT};
+use sinew_physics::figure::{Flags, TickReport};
+use sinew_physics::motion::GRAVITY;
+use sinew_physics::world::WorldParams;
+use sinew_wire::frame::world_frame;
+use sinew_wire::pb;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{
     Overrun, Pace, RosterEntry, SimulationSettings, SimulationSummary, Snapshot, ViewSpec,
     WorldEvent, WorldSettings,
 };

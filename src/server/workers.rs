@@ -7,8 +7,8 @@
 //!
 //! Work that takes much memory says so before. It begins when there is room for it beside other such work.
 
-use crate::server::shares::Client;
-use crate::wire::status::Fault;
+use crate::shares::Client;
+use sinew_wire::status::Fault;
 use std::any::Any;
 use std::cell::Cell;
 use std::collections::BTreeMap;

@@ -12,18 +12,18 @@ mod reference_pose;
 mod solver;
 mod stages;
 
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::{
+use crate::body::angles::anatomical_angles;
+use crate::body::topology::{
     CHEST, HANDS, HEAD, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_TOES, L_UPPER_ARM, NV, R_FOOT,
     R_FOREARM, R_HAND, R_SHANK, R_TOES, R_UPPER_ARM, SEGMENT_COUNT, SHANKS, SegmentId, TOES,
 };
-use crate::sim::body::{Body, Posture};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::curve::{arc, smootherstep};
-use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::motion::builtin::REFERENCE_LEG;
-use crate::sim::motion::{PlanarTransform, Target, TargetPair};
+use crate::body::{Body, Posture};
+use crate::dynamics::Terms;
+use crate::math::curve::{arc, smootherstep};
+use crate::math::exp::exp;
+use crate::math::{Quat, Vec3, trig};
+use crate::motion::builtin::REFERENCE_LEG;
+use crate::motion::{PlanarTransform, Target, TargetPair};
 use goals::Goals;
 use params::layout::{LYING_HEIGHT, NEAR_HEIGHT, ON_SIDE, PRONE, TOUCH_HEIGHT, UPDATE_TIME};
 use reference_pose::ReferencePoses;
@@ -71,7 +71,7 @@ pub struct GetUpMotion {
     from: Goals,
     now: Goals,
     posture: Posture,
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     velocity: [f64; NV],
 }
 

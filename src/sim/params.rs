@@ -35,7 +35,7 @@ macro_rules! params {
         $($(#[doc = $doc])+ pub(crate) const $name: $type = $value;)+
 
         /// Everything that is declared here, in order.
-        pub const ALL: &[$crate::sim::params::Param] = &[$($crate::sim::params::Param {
+        pub const ALL: &[$crate::params::Param] = &[$($crate::params::Param {
             name: stringify!($name),
             what: concat!($($doc),+),
             value: $value as f64,
@@ -75,7 +75,7 @@ mod tests {
     /// What is not in a list is not in docs/parameters.md, and nothing checks its range.
     #[test]
     fn every_module_of_parameters_is_in_the_list_of_its_part() {
-        use crate::sim::{figure, get_up, plan, retarget, track};
+        use crate::{figure, get_up, plan, retarget, track};
         type Groups = Vec<(&'static str, &'static [super::Param])>;
         let parts: [(&str, Groups); 5] = [
             (

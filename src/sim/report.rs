@@ -1,8 +1,8 @@
 //! What one tick of one figure did: enough to check it from outside.
 
-use crate::sim::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
-use crate::sim::math::Vec3;
-use crate::sim::touch::{MAX_TOUCHES, Touch};
+use crate::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
+use crate::math::Vec3;
+use crate::touch::{MAX_TOUCHES, Touch};
 use serde::{Deserialize, Serialize};
 
 /// Most contact points of one segment.
@@ -15,7 +15,7 @@ pub const MAX_CONTACTS: usize = POINTS_PER_SEGMENT * SEGMENT_COUNT;
 pub struct ContactPoint {
     /// Segment that touches.
     pub segment: SegmentId,
-    /// Index of the point in [`Segment::contact_points`](crate::sim::body::Segment::contact_points).
+    /// Index of the point in [`Segment::contact_points`](crate::body::Segment::contact_points).
     pub vertex: usize,
     /// World position at the start of the tick (mean values) or substep (audit), m.
     pub position: Vec3,
@@ -84,13 +84,13 @@ pub struct Audit {
     pub state: State,
     /// Acceleration over the substep `(v⁺ − v)/h`, layout of `State::velocity`; with the kinematic stepper the one that
     /// was applied, to which impacts and the return of the support to its place come on top.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub acceleration: [f64; NV],
     /// Joint torques of muscles, N·m.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub torque: [f64; DOF_COUNT],
     /// Joint torques that no muscle gives: joint limits and stretched tissue, N·m.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub ligament_torque: [f64; DOF_COUNT],
     /// Ground and object contacts, at the start of the substep.
     pub contacts: Vec<ContactPoint>,
@@ -153,20 +153,20 @@ impl Clone for Audit {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointReport {
     /// Muscle torque, N·m.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub torque: [f64; DOF_COUNT],
     /// Ligament torque (joint limits), N·m.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub ligament_torque: [f64; DOF_COUNT],
     /// Least available torque at the start of the tick, N·m (negative).
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub torque_lower: [f64; DOF_COUNT],
     /// Largest available torque at the start of the tick, N·m.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub torque_upper: [f64; DOF_COUNT],
     /// What fatigue has left of the strength at the end of the tick, positive and negative direction of each DOF; 1
     /// when it is off.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub remaining: [[f64; 2]; DOF_COUNT],
     /// Largest violation of the strength of any substep relative to that limit (0 when none).
     pub over_limit: f64,
@@ -175,7 +175,7 @@ pub struct JointReport {
     /// DOFs in the saturated set L of the secondary constraints.
     pub saturated_secondary: u64,
     /// Joint error `desired ⊖ actual` at the start of the tick, rad.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub joint_error: [f64; DOF_COUNT],
 }
 
@@ -210,7 +210,7 @@ pub struct TickReport {
     /// Assist on the pelvis: moment about its origin (N·m), then force (N), world axes; zero unless it is on.
     pub assist: [f64; 6],
     /// Acceleration over the tick, layout of `State::velocity`.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub acceleration: [f64; NV],
     /// Touching points with their mean force.
     pub contacts: Vec<ContactPoint>,

@@ -34,8 +34,8 @@ use super::plan::contact_labels::phases;
 use super::plan::flight_phases;
 use super::plan::params::leg;
 use super::plan::prepare::{Draft, PrepareOptions, prepare};
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use crate::sim::body::{Body, Posture};
+use crate::body::topology::{DOF_COUNT, DOF_NAMES};
+use crate::body::{Body, Posture};
 use recording::Recording;
 use report::{mapped_bones, missing_segments};
 use scene::Scene;
@@ -438,7 +438,7 @@ mod tests {
     fn recording(frames: usize) -> String {
         let path = concat!(
             env!("CARGO_MANIFEST_DIR"),
-            "/tests/corpus/walk-normal.vrm.bvh"
+            "/../../tests/corpus/walk-normal.vrm.bvh"
         );
         let text = std::fs::read_to_string(path).unwrap();
         let (head, motion) = text.split_once("MOTION").unwrap();

@@ -60,7 +60,7 @@ pub fn with_definitions<T>(all: Vec<Definition>, read: impl FnOnce() -> T) -> T 
     within(table, read).0
 }
 
-/// An array of any length: `#[serde(with = "crate::sim::saved::array")]`.
+/// An array of any length: `#[serde(with = "crate::saved::array")]`.
 pub mod array {
     use serde::de::{Error, SeqAccess, Visitor};
     use serde::ser::SerializeTuple;
@@ -114,7 +114,7 @@ pub mod array {
     }
 }
 
-/// Bytes as they are: `#[serde(with = "crate::sim::saved::bytes")]`.
+/// Bytes as they are: `#[serde(with = "crate::saved::bytes")]`.
 pub mod bytes {
     use serde::de::{Error, Visitor};
     use serde::{Deserializer, Serializer};
@@ -151,7 +151,7 @@ pub mod bytes {
     }
 }
 
-/// A shared definition, referred to by number: `#[serde(with = "crate::sim::saved::definition")]`.
+/// A shared definition, referred to by number: `#[serde(with = "crate::saved::definition")]`.
 pub mod definition {
     use super::{Any, Arc, Definition, TABLE};
     use serde::de::Error as _;
@@ -236,7 +236,7 @@ pub mod definition {
     }
 }
 
-/// A box in a type that holds itself: `#[serde(with = "crate::sim::saved::nested")]`.
+/// A box in a type that holds itself: `#[serde(with = "crate::saved::nested")]`.
 pub mod nested {
     use super::DEPTH;
     use serde::de::Error;

@@ -1,12 +1,12 @@
 //! What a figure is made of and how it is controlled: set at creation, changeable between ticks.
 
-use crate::sim::body::topology::{L_HAND, R_HAND};
-use crate::sim::body::{Body, SegmentId, State};
-use crate::sim::math::Vec3;
+use crate::body::topology::{L_HAND, R_HAND};
+use crate::body::{Body, SegmentId, State};
+use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-pub use crate::sim::strength::StrengthScale;
+pub use crate::strength::StrengthScale;
 
 /// Everything a figure is made of.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -14,7 +14,7 @@ pub struct FigureSetup {
     /// Name, for people.
     pub name: String,
     /// The body.
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "crate::saved::definition")]
     pub body: Arc<Body>,
     /// Scale of its strength.
     pub strength: StrengthScale,
@@ -180,12 +180,12 @@ impl ControlParams {
 pub struct FigureOptions {
     /// Seconds of muscle fatigue per simulated second, 0…1000; 0: muscles never tire.
     pub fatigue_time_scale: f64,
-    /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](crate::sim::figure::assist::Assist). 0: none.
+    /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](crate::figure::assist::Assist). 0: none.
     pub assist: f64,
     /// Largest force over the weight of the help while a motion is being lost, 0…2:
-    /// [`Help`](crate::sim::figure::help::Help). 0: none. It needs the modern controller, and no `assist`.
+    /// [`Help`](crate::figure::help::Help). 0: none. It needs the modern controller, and no `assist`.
     pub max_help: f64,
-    /// The body does not pass through itself: [`self_contact`](crate::sim::figure::self_contact). Not within a
+    /// The body does not pass through itself: [`self_contact`](crate::figure::self_contact). Not within a
     /// rehearsed motion. Off by default: controllers do not know of it, and catch themselves a little worse with it.
     pub self_contact: bool,
 }

@@ -1,7 +1,7 @@
 //! What a body says about what it touches: plain data.
 
-use crate::sim::body::SegmentId;
-use crate::sim::math::Vec3;
+use crate::body::SegmentId;
+use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// Identity of an obstacle in a world; never used again after removal.

@@ -7,12 +7,12 @@ use super::types::{
     Fields, FigureSnapshot, NumberFormat, ObstacleInfo, RosterEntry, Snapshot, ViewSpec,
 };
 use super::watched::WatchWorldResponse;
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::{DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId};
-use crate::sim::collide::{Other, Touch};
-use crate::sim::figure::{Audit, ContactPoint, TickReport};
-use crate::sim::math::Vec3;
 use prost::bytes::Bytes;
+use sinew_physics::body::angles::anatomical_angles;
+use sinew_physics::body::{DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId};
+use sinew_physics::collide::{Other, Touch};
+use sinew_physics::figure::{Audit, ContactPoint, TickReport};
+use sinew_physics::math::Vec3;
 
 /// Names of the fields of a figure's frame that a view can choose, by bit of [`Fields`].
 pub const FIELD_NAMES: [&str; 19] = [

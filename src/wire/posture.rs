@@ -1,8 +1,10 @@
 //! Postures as rotations and positions, for frames and for desired motion given by bone.
 
-use crate::sim::body::topology::{BONE_NAMES, DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, PARENT};
-use crate::sim::body::{Body, Posture, SEGMENT_COUNT};
-use crate::sim::math::{Quat, Vec3};
+use sinew_physics::body::topology::{
+    BONE_NAMES, DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, PARENT,
+};
+use sinew_physics::body::{Body, Posture, SEGMENT_COUNT};
+use sinew_physics::math::{Quat, Vec3};
 
 /// Number of coordinates of [`positions`]: pelvis 7, nine quaternions, twelve angles.
 pub const POSITION_COUNT: usize = 7 + 9 * 4 + 12;

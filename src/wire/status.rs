@@ -191,7 +191,7 @@ fn valid_names(kind: &str) -> String {
     match kind {
         "body" => format!(
             "; the bodies are {}",
-            crate::sim::body::names::body_name_forms()
+            sinew_physics::body::names::body_name_forms()
         ),
         _ => String::new(),
     }

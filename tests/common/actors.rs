@@ -1,13 +1,13 @@
 //! People who do something, for tests that compare the bits of whole worlds. No platform mathematics.
 
 use super::{authored, bent, figure, man, people, play, still};
-use sinew::sim::body::angles::{anatomical_angles, set_anatomical_angles};
-use sinew::sim::body::topology::{CHEST, DOF_NAMES, L_HAND, R_HAND};
-use sinew::sim::body::{Body, Posture, Sex};
-use sinew::sim::figure::{ControllerKind, FigureSetup, HeldLoad, Perturbation};
-use sinew::sim::math::Vec3;
-use sinew::sim::motion::Clip;
-use sinew::sim::world::{Drive, FigureKey, World, WorldParams};
+use sinew_physics::body::angles::{anatomical_angles, set_anatomical_angles};
+use sinew_physics::body::topology::{CHEST, DOF_NAMES, L_HAND, R_HAND};
+use sinew_physics::body::{Body, Posture, Sex};
+use sinew_physics::figure::{ControllerKind, FigureSetup, HeldLoad, Perturbation};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::Clip;
+use sinew_physics::world::{Drive, FigureKey, World, WorldParams};
 use std::sync::Arc;
 
 /// All controllers.

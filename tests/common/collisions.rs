@@ -1,11 +1,11 @@
 //! Scenes with obstacles: an obstacle at rest, and the books of momentum, work and overlap of a world in which bodies
 //! collide.
 
-use sinew::evaluate::audit;
-use sinew::sim::collide::{Mobility, ObstacleSetup, Other, Shape};
-use sinew::sim::figure::{FigureEvent, Flags};
-use sinew::sim::math::{Quat, Vec3};
-use sinew::sim::world::World;
+use sinew_evaluate::audit;
+use sinew_physics::collide::{Mobility, ObstacleSetup, Other, Shape};
+use sinew_physics::figure::{FigureEvent, Flags};
+use sinew_physics::math::{Quat, Vec3};
+use sinew_physics::world::World;
 
 /// An obstacle at rest.
 pub fn obstacle(shape: Shape, mobility: Mobility, position: Vec3) -> ObstacleSetup {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 /// Bytes of a file of the corpus, `walk-normal.vrm` for example; panics if there is no such file.
 pub fn read(name: &str) -> Vec<u8> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus");
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("tests/corpus");
     let path = folder.join(format!("{name}.bvh"));
     std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }

@@ -6,17 +6,19 @@ pub mod collisions;
 pub mod corpus;
 pub mod mocap;
 
-use sinew::evaluate::pose::segment_poses;
-use sinew::evaluate::{Metrics, RunReport, Tick};
-use sinew::sim::body::angles::set_anatomical_angles;
-use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, R_FOOT};
-use sinew::sim::body::{Body, DOF_COUNT, Posture, Profile, Sex, State};
-use sinew::sim::figure::ControllerKind;
-use sinew::sim::motion::builtin::builtin;
-use sinew::sim::motion::{Bvh, Clip};
-use sinew::sim::plan::cycle;
-use sinew::sim::retarget::{RetargetOptions, retarget};
-use sinew::sim::world::{ClipPlayback, Drive, Figure, FigureKey, FigureSetup, World, WorldParams};
+use sinew_evaluate::pose::segment_poses;
+use sinew_evaluate::{Metrics, RunReport, Tick};
+use sinew_physics::body::angles::set_anatomical_angles;
+use sinew_physics::body::topology::{DOF_NAMES, L_FOOT, R_FOOT};
+use sinew_physics::body::{Body, DOF_COUNT, Posture, Profile, Sex, State};
+use sinew_physics::figure::ControllerKind;
+use sinew_physics::motion::builtin::builtin;
+use sinew_physics::motion::{Bvh, Clip};
+use sinew_physics::plan::cycle;
+use sinew_physics::retarget::{RetargetOptions, retarget};
+use sinew_physics::world::{
+    ClipPlayback, Drive, Figure, FigureKey, FigureSetup, World, WorldParams,
+};
 use std::sync::Arc;
 
 /// The reference body: a man of 30 years, 1.75 m, 75 kg.

@@ -2,7 +2,7 @@
 //! Method: `expected.json` beside the clips holds joint positions of four frames each, rounded to five decimals.
 
 use crate::common::mocap::read;
-use sinew::sim::motion::bvh::Bvh;
+use sinew_physics::motion::bvh::Bvh;
 
 /// Half a unit of the fifth decimal, with room for the rounding of both readers.
 const ROUNDING: f64 = 5.0e-6 + 1e-9;

@@ -4,15 +4,15 @@
 use crate::common::collisions::{Meter, obstacle};
 use crate::common::{figure, man, play, recorded_with};
 use crate::vec3;
-use sinew::evaluate::pose::segment_poses;
-use sinew::sim::body::Body;
-use sinew::sim::body::topology::{L_FOOT, R_FOOT};
-use sinew::sim::collide::{Mobility, ObstacleSetup, Shape};
-use sinew::sim::figure::ControllerKind;
-use sinew::sim::math::{Quat, Vec3};
-use sinew::sim::motion::Clip;
-use sinew::sim::retarget::RetargetOptions;
-use sinew::sim::world::{World, WorldParams};
+use sinew_evaluate::pose::segment_poses;
+use sinew_physics::body::Body;
+use sinew_physics::body::topology::{L_FOOT, R_FOOT};
+use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
+use sinew_physics::figure::ControllerKind;
+use sinew_physics::math::{Quat, Vec3};
+use sinew_physics::motion::Clip;
+use sinew_physics::retarget::RetargetOptions;
+use sinew_physics::world::{World, WorldParams};
 use std::sync::Arc;
 
 /// A recording where and as it was taken, so that partners stay partners.

@@ -4,16 +4,16 @@
 //! How well each is followed is in the survey (`sinew survey --live-window`).
 
 use crate::common::{figure, man, mocap, recorded, recorded_with};
-use sinew::sim::body::topology::{CHEST, L_FOOT, R_FOOT};
-use sinew::sim::body::{Body, Posture};
-use sinew::sim::figure::{ControllerKind, Flags, Perturbation};
-use sinew::sim::math::Vec3;
-use sinew::sim::motion::Clip;
-use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::plan::cycle;
-use sinew::sim::plan::stream::{RATE, StreamPlan};
-use sinew::sim::retarget::{Preparation, RetargetOptions};
-use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, World, WorldParams};
+use sinew_physics::body::topology::{CHEST, L_FOOT, R_FOOT};
+use sinew_physics::body::{Body, Posture};
+use sinew_physics::figure::{ControllerKind, Flags, Perturbation};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::Clip;
+use sinew_physics::motion::leg_ik::forward;
+use sinew_physics::plan::cycle;
+use sinew_physics::plan::stream::{RATE, StreamPlan};
+use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::world::{ClipPlayback, Drive, LivePlayback, World, WorldParams};
 use std::sync::Arc;
 
 /// A recording as it would be streamed.
@@ -98,7 +98,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
     let v = &f.state().velocity;
     out.speed = v[3].hypot(v[4]);
     let poses = forward(f.body(), &f.state().posture);
-    let foot = |s: sinew::sim::body::SegmentId| poses[s.index()].0;
+    let foot = |s: sinew_physics::body::SegmentId| poses[s.index()].0;
     out.apart = (foot(L_FOOT) - foot(R_FOOT)).norm();
     out
 }

@@ -28,7 +28,7 @@ mod transitions;
 mod variations;
 mod walking;
 
-use sinew::sim::math::Vec3;
+use sinew_physics::math::Vec3;
 
 /// A vector.
 fn vec3(x: f64, y: f64, z: f64) -> Vec3 {

@@ -4,13 +4,13 @@
 
 use crate::common::{Scene, authored, figure, man, people, play, recorded, recorded_with};
 use crate::vec3;
-use sinew::sim::body::topology::{CHEST, L_FOOT, L_TOES, R_FOOT, R_TOES, SegmentId};
-use sinew::sim::body::{Body, Sex};
-use sinew::sim::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
-use sinew::sim::math::Vec3;
-use sinew::sim::plan::stream::{RATE, StreamPlan};
-use sinew::sim::retarget::{Preparation, RetargetOptions};
-use sinew::sim::world::{ClipPlayback, Drive, LivePlayback, WorldParams};
+use sinew_physics::body::topology::{CHEST, L_FOOT, L_TOES, R_FOOT, R_TOES, SegmentId};
+use sinew_physics::body::{Body, Sex};
+use sinew_physics::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
+use sinew_physics::math::Vec3;
+use sinew_physics::plan::stream::{RATE, StreamPlan};
+use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::world::{ClipPlayback, Drive, LivePlayback, WorldParams};
 use std::sync::Arc;
 
 /// Feet and toes.

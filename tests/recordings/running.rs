@@ -3,13 +3,13 @@
 //! They begin and end in full stride: the figure begins in the state of the first sample.
 
 use crate::common::{man, mocap, recorded_with};
-use sinew::evaluate::experiments::walk::{Walk, Walker, walk};
-use sinew::sim::body::Posture;
-use sinew::sim::motion::Bvh;
-use sinew::sim::plan::pelvis_shift::mass_track;
-use sinew::sim::retarget::RetargetOptions;
-use sinew::sim::retarget::retarget;
-use sinew::sim::track::StepPlan;
+use sinew_evaluate::experiments::walk::{Walk, Walker, walk};
+use sinew_physics::body::Posture;
+use sinew_physics::motion::Bvh;
+use sinew_physics::plan::pelvis_shift::mass_track;
+use sinew_physics::retarget::RetargetOptions;
+use sinew_physics::retarget::retarget;
+use sinew_physics::track::StepPlan;
 
 const GRAVITY: f64 = 9.81;
 

@@ -1,14 +1,14 @@
 //! Goal: figures of human strength follow built-in standing motions closely, and whatever they are asked to do, their
 //! torques stay within their strength, no force holds them up that nothing explains, and no number is ever not finite.
-//! Method: recordings and built-in motions through whole worlds; every tick is audited by [`sinew::evaluate`], which
+//! Method: recordings and built-in motions through whole worlds; every tick is audited by [`sinew_evaluate`], which
 //! rebuilds the equations of motion from the body alone.
 
 use crate::common::mocap::CLIPS;
 use crate::common::{Scene, authored, man, recorded};
-use sinew::evaluate::RunReport;
-use sinew::sim::body::Body;
-use sinew::sim::figure::ControllerKind;
-use sinew::sim::motion::Clip;
+use sinew_evaluate::RunReport;
+use sinew_physics::body::Body;
+use sinew_physics::figure::ControllerKind;
+use sinew_physics::motion::Clip;
 use std::sync::Arc;
 
 /// A torque may exceed its limit by rounding only, relative.

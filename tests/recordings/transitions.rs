@@ -3,14 +3,14 @@
 //! spread over the first one, in torque simulation, 60 Hz with two substeps, the modern controller.
 
 use crate::common::{authored, figure, man, recorded, recorded_with};
-use sinew::evaluate::experiments::walk::Stance;
-use sinew::sim::body::Body;
-use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use sinew::sim::figure::ControllerKind;
-use sinew::sim::motion::Clip;
-use sinew::sim::plan::cycle;
-use sinew::sim::retarget::{Preparation, RetargetOptions};
-use sinew::sim::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
+use sinew_evaluate::experiments::walk::Stance;
+use sinew_physics::body::Body;
+use sinew_physics::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use sinew_physics::figure::ControllerKind;
+use sinew_physics::motion::Clip;
+use sinew_physics::plan::cycle;
+use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::sync::Arc;
 
 const RATE: f64 = 60.0;

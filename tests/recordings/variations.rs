@@ -4,13 +4,13 @@
 //! prepared, for comparison.
 
 use crate::common::{man, mocap, recorded_with};
-use sinew::evaluate::experiments::walk::{Walk, Walker, walk};
-use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use sinew::sim::body::{Body, Posture};
-use sinew::sim::motion::Bvh;
-use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::retarget::retarget;
-use sinew::sim::retarget::{Preparation, RetargetOptions};
+use sinew_evaluate::experiments::walk::{Walk, Walker, walk};
+use sinew_physics::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use sinew_physics::body::{Body, Posture};
+use sinew_physics::motion::Bvh;
+use sinew_physics::motion::leg_ik::forward;
+use sinew_physics::retarget::retarget;
+use sinew_physics::retarget::{Preparation, RetargetOptions};
 use std::sync::Arc;
 
 /// The recording as a server prepares it for a pace.
@@ -86,7 +86,7 @@ fn the_pace_changes_the_rate_and_not_the_samples_of_the_recording() {
     assert!((fast.rate_hz() / slow.rate_hz() - 4.0).abs() < 1e-12);
     assert!((slow.duration() / fast.duration() - 4.0).abs() < 1e-12);
     // The middle of the motion is the same posture; what is planned for the feet depends on the pace a little.
-    let middle = |clip: &sinew::sim::motion::Clip| clip.sample(0.5 * clip.duration()).posture;
+    let middle = |clip: &sinew_physics::motion::Clip| clip.sample(0.5 * clip.duration()).posture;
     let (a, b) = (middle(&slow), middle(&fast));
     assert!((a.root_position - b.root_position).norm() < 0.03);
     // Balance asks more of the faster one.

@@ -1,10 +1,10 @@
 //! Checkpoints over the wire: kept, read, restored and forked, and what viewers and drivers see of it.
 
 use crate::support::{TestServer, header, refusal, view};
-use sinew::wire::pb;
-use sinew::wire::pb::fork_world_request::Source as From;
-use sinew::wire::pb::restore_world_request::Source;
-use sinew::wire::watched::WatchWorldResponse;
+use sinew_wire::pb;
+use sinew_wire::pb::fork_world_request::Source as From;
+use sinew_wire::pb::restore_world_request::Source;
+use sinew_wire::watched::WatchWorldResponse;
 use tonic::{Code, Status};
 
 impl TestServer {

@@ -2,8 +2,8 @@
 
 use crate::corpus;
 use crate::support::{FALLEN, TestServer};
-use sinew::wire::frame::values;
-use sinew::wire::pb;
+use sinew_wire::frame::values;
+use sinew_wire::pb;
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_recording_is_uploaded_played_and_deleted() {
@@ -359,7 +359,7 @@ async fn a_walking_figure_goes_over_to_a_turn_without_a_stand() {
         let frame = server.frame(&world, &["status", "velocity"]).await;
         let f = &frame.figures[0];
         assert_eq!(f.status.as_ref().unwrap().flags & FALLEN, 0);
-        let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
+        let v = sinew_wire::frame::values(f.velocity.as_ref().unwrap());
         assert!(v[3].hypot(v[4]) > 0.3, "it stands at {now} s");
     }
     // Up to 0.4 s of it are left out.

@@ -2,8 +2,8 @@
 //! nothing.
 
 use crate::support::{TestServer, refusal};
-use sinew::wire::pb;
-use sinew::wire::pb::constraint::On;
+use sinew_wire::pb;
+use sinew_wire::pb::constraint::On;
 use tonic::{Code, Status};
 
 const PART: &str = "constraint_error";

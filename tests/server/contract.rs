@@ -1,7 +1,7 @@
 //! What docs/api.md promises of every resource: repeats, etags, masks, pages, trying out, idle worlds.
 
 use crate::support::{TestServer, arm_frame, header, refusal};
-use sinew::wire::pb;
+use sinew_wire::pb;
 use std::time::{Duration, Instant};
 use tonic::Code;
 
@@ -81,7 +81,7 @@ async fn a_request_under_one_name_is_done_once() {
     // The same from several connections at once.
     let mut all = Vec::new();
     for _ in 0..8 {
-        let client = sinew::client::Client::connect(&server.address.to_string())
+        let client = sinew_client::Client::connect(&server.address.to_string())
             .await
             .unwrap();
         let create = create.clone();

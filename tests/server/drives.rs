@@ -1,11 +1,11 @@
 //! Live desired motion: the stream, its unary twin, who may drive, what silence does.
 
 use crate::support::{TestServer, arm_frame, header, refusal};
-use sinew::wire::pb;
+use sinew_wire::pb;
 use tonic::Code;
 
 /// Waits until the server has taken everything up to `sequence`.
-async fn taken(driver: &mut sinew::client::Driver, sequence: i64) {
+async fn taken(driver: &mut sinew_client::Driver, sequence: i64) {
     while driver.feedback().await.unwrap().unwrap().received_sequence < sequence {}
 }
 

@@ -2,7 +2,7 @@
 
 use crate::raw::Raw;
 use crate::support::{TestServer, refusal, view};
-use sinew::wire::pb;
+use sinew_wire::pb;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tonic::codegen::http::uri::PathAndQuery;
 use tonic::{Code, Request, Status};

@@ -2,10 +2,10 @@
 //! pushed so that it loses its motion, with and without help that is allowed. What rehearsals show is in `rehearsals`.
 
 use crate::support::{TestServer, header};
-use sinew::sim::body::Body;
-use sinew::sim::motion::builtin::at_ease;
-use sinew::wire::convert::motion::figure_motion;
-use sinew::wire::pb;
+use sinew_physics::body::Body;
+use sinew_physics::motion::builtin::at_ease;
+use sinew_wire::convert::motion::figure_motion;
+use sinew_wire::pb;
 use std::time::Duration;
 use tonic::Code;
 

@@ -1,10 +1,10 @@
 //! Clips that are stored say what will come of them.
 
 use crate::support::TestServer;
-use sinew::sim::body::{Body, Posture};
-use sinew::sim::motion::builtin::builtin;
-use sinew::sim::motion::write_bvh;
-use sinew::wire::pb;
+use sinew_physics::body::{Body, Posture};
+use sinew_physics::motion::builtin::builtin;
+use sinew_physics::motion::write_bvh;
+use sinew_wire::pb;
 
 /// A built-in motion as a recording, changed by `place`, which gets the time in s.
 fn recording(name: &str, seconds: f64, place: impl Fn(f64, &mut Posture)) -> Vec<u8> {

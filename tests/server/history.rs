@@ -1,11 +1,11 @@
 //! The past of a world over the wire: going back, forking, doing it again, recording it.
 
 use crate::support::{TestServer, arm_frame, header, refusal, view};
-use sinew::client::Driver;
-use sinew::sim::motion::Bvh;
-use sinew::wire::pb;
-use sinew::wire::pb::fork_world_request::Source as From;
-use sinew::wire::watched::WatchWorldResponse;
+use sinew_client::Driver;
+use sinew_physics::motion::Bvh;
+use sinew_wire::pb;
+use sinew_wire::pb::fork_world_request::Source as From;
+use sinew_wire::watched::WatchWorldResponse;
 use std::path::{Path, PathBuf};
 use tonic::{Code, Status};
 

@@ -1,7 +1,7 @@
 //! Worlds that end while somebody still waits for something of theirs, or reads of them.
 
 use crate::support::{TestServer, refusal};
-use sinew::wire::pb;
+use sinew_wire::pb;
 use std::sync::Arc;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::time::Duration;
@@ -15,7 +15,7 @@ macro_rules! hold {
     ($server:expr, $pool:ident) => {{
         let (held, wait) = sync_channel::<()>(1);
         let app = $server.app.clone();
-        let work = move |_: &sinew::server::workers::Turn| {
+        let work = move |_: &sinew_server::workers::Turn| {
             let _ = wait.recv();
             Ok(())
         };

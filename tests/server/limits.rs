@@ -1,8 +1,8 @@
 //! What one client may have, and what the machine can bear.
 
 use crate::support::{TestServer, header, refusal, view};
-use sinew::client::Client;
-use sinew::wire::pb;
+use sinew_client::Client;
+use sinew_wire::pb;
 use tonic::{Code, Status};
 use tonic_types::StatusExt;
 

@@ -3,15 +3,15 @@
 
 use crate::corpus;
 use crate::support::{FALLEN, FROZEN, TestServer, header, refusal};
-use sinew::cli::push::Network;
-use sinew::server::engine;
-use sinew::sim::body::{Body, Posture};
-use sinew::sim::motion::{Bvh, Clip};
-use sinew::sim::plan::cycle;
-use sinew::sim::retarget::RetargetOptions;
-use sinew::sim::retarget::retarget;
-use sinew::wire::convert::motion::figure_motion;
-use sinew::wire::pb;
+use sinew_client::Network;
+use sinew_physics::body::{Body, Posture};
+use sinew_physics::motion::{Bvh, Clip};
+use sinew_physics::plan::cycle;
+use sinew_physics::retarget::RetargetOptions;
+use sinew_physics::retarget::retarget;
+use sinew_server::engine;
+use sinew_wire::convert::motion::figure_motion;
+use sinew_wire::pb;
 use std::time::Duration;
 use tonic::Code;
 
@@ -131,8 +131,8 @@ async fn stream(
         let f = &frame.figures[0];
         let flags = f.status.as_ref().unwrap().flags;
         assert_eq!(flags & FROZEN, 0);
-        let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
-        let p = sinew::wire::frame::values(f.root_pose.as_ref().unwrap());
+        let v = sinew_wire::frame::values(f.velocity.as_ref().unwrap());
+        let p = sinew_wire::frame::values(f.root_pose.as_ref().unwrap());
         out.speed = v[3].hypot(v[4]);
         out.far = out.far.max(p[0].hypot(p[1]));
         if flags & FALLEN != 0 && out.fell.is_none() {
@@ -270,7 +270,7 @@ async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
         let f = &frame.figures[0];
         let flags = f.status.as_ref().unwrap().flags;
         assert_eq!(flags & (FALLEN | FROZEN), 0, "after {} s", frame.time_s);
-        let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
+        let v = sinew_wire::frame::values(f.velocity.as_ref().unwrap());
         speed.push(v[3].hypot(v[4]));
     }
     let f = &feedback.unwrap().figures[0];
@@ -352,8 +352,8 @@ async fn who_is_led_into_a_wall_stands_and_walks_on_when_it_is_gone() {
             .await;
         let f = &frame.figures[0];
         let flags = f.status.as_ref().unwrap().flags;
-        let v = sinew::wire::frame::values(f.velocity.as_ref().unwrap());
-        let p = sinew::wire::frame::values(f.root_pose.as_ref().unwrap());
+        let v = sinew_wire::frame::values(f.velocity.as_ref().unwrap());
+        let p = sinew_wire::frame::values(f.root_pose.as_ref().unwrap());
         assert_eq!(flags & (FALLEN | FROZEN), 0, "after {} s", frame.time_s);
         speed.push(v[3].hypot(v[4]));
         far.push((p[0] - from.x).hypot(p[1] - from.y));

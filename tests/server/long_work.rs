@@ -1,10 +1,10 @@
 //! Long work: operations with progress and cancel, and streams that do the same.
 
 use crate::support::{TestServer, arm_frame, refusal, view};
-use sinew::server::workers::Turn;
-use sinew::wire::pb;
-use sinew::wire::pb::operation::Result as Done;
-use sinew::wire::pb::start_operation_request::Work;
+use sinew_server::workers::Turn;
+use sinew_wire::pb;
+use sinew_wire::pb::operation::Result as Done;
+use sinew_wire::pb::start_operation_request::Work;
 use std::time::{Duration, Instant};
 use tonic::Code;
 use tonic_types::StatusExt;

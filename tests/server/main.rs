@@ -1,9 +1,10 @@
 //! A real client against the server in this process, on a port of the system's choice.
-#![cfg(feature = "net")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
+mod access;
 mod checkpoints;
 mod clips;
+mod conformance;
 mod constraints;
 mod contract;
 #[allow(dead_code)] // not every function
@@ -14,19 +15,21 @@ mod edge;
 mod ending;
 mod following;
 mod forecast;
+mod fuzz;
 mod history;
 mod life;
 mod limits;
 mod live;
 mod long_work;
 mod obstacles;
+#[cfg(feature = "otlp")]
+mod otlp;
 mod pages;
 #[path = "../common/raw.rs"]
 mod raw;
 mod reasons;
 mod rehearsals;
 mod sharing;
-mod strength;
 mod support;
 mod watching;
 mod wire_faults;

@@ -1,8 +1,8 @@
 //! Obstacles over the wire: added, changed, listed, removed; seen in frames and events, and felt.
 
 use crate::support::{TestServer, refusal, view};
-use sinew::wire::frame::values;
-use sinew::wire::pb;
+use sinew_wire::frame::values;
+use sinew_wire::pb;
 use tonic::Code;
 
 fn place(x: f64, y: f64, z: f64) -> Option<pb::Pose> {

@@ -6,7 +6,7 @@ use hyper_util::client::legacy::Client;
 use hyper_util::client::legacy::connect::HttpConnector;
 use hyper_util::rt::TokioExecutor;
 use prost_reflect::{DescriptorPool, MethodDescriptor};
-use sinew::wire::{DESCRIPTOR_SET, pb};
+use sinew_wire::{DESCRIPTOR_SET, pb};
 use std::time::{Duration, Instant};
 use tonic::codegen::http::Uri;
 use tonic::metadata::{MetadataMap, MetadataValue};
@@ -180,7 +180,7 @@ async fn one_connection_has_so_many_requests_at_a_time_and_learns_of_it() {
         (code, reason.as_str()),
         (Code::ResourceExhausted, "LIMIT_REACHED")
     );
-    let other = sinew::client::Client::connect(&server.address.to_string())
+    let other = sinew_client::Client::connect(&server.address.to_string())
         .await
         .unwrap();
     let get = pb::GetWorldRequest {

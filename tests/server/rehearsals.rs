@@ -3,11 +3,11 @@
 //! soon; then the directory is damaged.
 
 use crate::support::TestServer;
-use sinew::sim::body::Body;
-use sinew::sim::motion::builtin::at_ease;
-use sinew::wire::convert::motion::figure_motion;
-use sinew::wire::frame::values;
-use sinew::wire::pb;
+use sinew_physics::body::Body;
+use sinew_physics::motion::builtin::at_ease;
+use sinew_wire::convert::motion::figure_motion;
+use sinew_wire::frame::values;
+use sinew_wire::pb;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

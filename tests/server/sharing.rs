@@ -2,9 +2,9 @@
 //! which to come again, long work is shared, clocks that start again are followed.
 
 use crate::support::{TestServer, arm_frame, header, refusal, view};
-use sinew::client::Client;
-use sinew::server::tick::command::Origin;
-use sinew::wire::pb;
+use sinew_client::Client;
+use sinew_server::tick::command::Origin;
+use sinew_wire::pb;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::time::Duration;
 use tonic::Code;

@@ -1,9 +1,9 @@
 //! The server in this process, and what tests keep asking of it.
 
-use sinew::client::Client;
-use sinew::server::api::App;
-use sinew::server::config::Config;
-use sinew::wire::pb;
+use sinew_client::Client;
+use sinew_server::api::App;
+use sinew_server::config::Config;
+use sinew_wire::pb;
 use std::net::SocketAddr;
 use std::sync::Arc;
 use tonic::{Code, Status};
@@ -48,7 +48,7 @@ impl TestServer {
             let shutdown = async move {
                 let _ = stopped.await;
             };
-            sinew::server::serve(served, listener, shutdown, signal)
+            sinew_server::serve(served, listener, shutdown, signal)
                 .await
                 .unwrap();
         });

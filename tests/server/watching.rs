@@ -1,8 +1,8 @@
 //! Streams of frames and events.
 
 use crate::support::{TestServer, refusal, view};
-use sinew::wire::pb;
-use sinew::wire::watched::WatchWorldResponse;
+use sinew_wire::pb;
+use sinew_wire::watched::WatchWorldResponse;
 use std::time::Duration;
 use tonic::{Code, Streaming};
 
@@ -130,7 +130,7 @@ async fn a_slow_viewer_gets_the_latest_frame_and_slows_nobody() {
         .watch(&world, view(&["*"]), None)
         .await
         .unwrap();
-    let quick_client = sinew::client::Client::connect(&server.address.to_string())
+    let quick_client = sinew_client::Client::connect(&server.address.to_string())
         .await
         .unwrap();
     let mut quick = quick_client

@@ -1,7 +1,7 @@
 //! Bad input is refused with the right code and the path of the field, and changes nothing.
 
 use crate::support::{TestServer, arm_frame, header, refusal, view};
-use sinew::wire::pb;
+use sinew_wire::pb;
 use tonic::{Code, Status};
 
 fn expect(status: Status, code: Code, field: &str) {

@@ -1,8 +1,8 @@
 //! Worlds, figures, perturbations, pages of the port.
 
 use crate::support::{TestServer, refusal, view};
-use sinew::wire::frame::values;
-use sinew::wire::pb;
+use sinew_wire::frame::values;
+use sinew_wire::pb;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tonic::Code;
 
@@ -477,7 +477,7 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
         .connect()
         .await
         .unwrap();
-    for service in sinew::server::api::SERVICE_NAMES {
+    for service in sinew_server::api::SERVICE_NAMES {
         let status = tonic_health::pb::health_client::HealthClient::new(channel.clone())
             .check(tonic_health::pb::HealthCheckRequest {
                 service: service.into(),
@@ -618,7 +618,7 @@ async fn a_panic_fails_its_world_and_no_other() {
     server.figure(&broken, "a").await;
     server.figure(&sound, "a").await;
     server.step(&broken, 3).await;
-    let origin = sinew::server::tick::command::Origin {
+    let origin = sinew_server::tick::command::Origin {
         client: "test".into(),
         sequence: 0,
     };

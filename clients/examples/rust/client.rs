@@ -1,6 +1,6 @@
 //! A small client: a man lifts 6 kg, and we see what that asks of his shoulder. `cargo run --example client [ADDRESS]`,
 //! with a server running.
-use sinew::client::{Client, Simulation, values};
+use sinew_client::{Client, Simulation, values};
 
 #[tokio::main]
 async fn main() -> Result<(), Box<dyn std::error::Error>> {

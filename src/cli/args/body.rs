@@ -1,13 +1,13 @@
 //! Which body the figure has.
 
-use crate::cli::exit::{Usage, usage};
-use crate::cli::number::kilograms;
-use crate::sim::body::model::BodyError;
-use crate::sim::body::names::{DEFAULT_BODY, NAMED_BODIES, body_name_forms, sex_name};
-use crate::sim::body::{Body, Profile};
+use crate::exit::{Usage, usage};
+use crate::number::kilograms;
 use anyhow::Result;
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::error::ErrorKind;
+use sinew_physics::body::model::BodyError;
+use sinew_physics::body::names::{DEFAULT_BODY, NAMED_BODIES, body_name_forms, sex_name};
+use sinew_physics::body::{Body, Profile};
 use std::ffi::OsStr;
 
 /// Which body the figure has.
@@ -157,7 +157,7 @@ pub fn short_name(p: &Profile) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::Sex;
+    use sinew_physics::body::Sex;
 
     #[test]
     fn options_change_the_named_profile() {

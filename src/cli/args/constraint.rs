@@ -1,11 +1,11 @@
 //! `--constrain`: target positions of segments and of the centre of mass.
 
 use super::spec::{SpecError, interval, number, segment};
-use crate::sim::body::topology::{L_HAND, R_HAND};
-use crate::sim::body::{Body, SegmentId};
-use crate::sim::figure::tasks::grip;
-use crate::sim::figure::{Constrained, Constraint};
-use crate::sim::math::{Quat, Vec3};
+use sinew_physics::body::topology::{L_HAND, R_HAND};
+use sinew_physics::body::{Body, SegmentId};
+use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::{Constrained, Constraint};
+use sinew_physics::math::{Quat, Vec3};
 use std::str::FromStr;
 
 /// `PART@x,y,z[@T0..T1][:qx,qy,qz,qw]`: target position and rotation of a segment, or target position of the centre of

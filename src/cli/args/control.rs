@@ -1,8 +1,8 @@
 //! Controller and stepper, and the options of the paper's controller.
 
-use crate::sim::figure::{ControlParams, ControllerKind, Metric, Priority, Share, StepperKind};
 use anyhow::{Result, ensure};
 use clap::ValueEnum;
+use sinew_physics::figure::{ControlParams, ControllerKind, Metric, Priority, Share, StepperKind};
 
 /// Controller that computes the torques.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, serde::Serialize)]

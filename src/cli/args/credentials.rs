@@ -1,7 +1,7 @@
 //! How a command says who it is to a server, and how it knows the server.
 
-use crate::client::{Client, Credentials};
 use anyhow::Context as _;
+use sinew_client::{Client, Credentials};
 use std::path::{Path, PathBuf};
 
 /// Credentials that commands share. A token comes by a file or the environment: arguments can be read by others.

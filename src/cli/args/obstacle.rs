@@ -1,8 +1,8 @@
 //! `--obstacle`: objects that figures collide with.
 
 use super::spec::{SpecError, number, numbers};
-use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
-use crate::sim::math::{Quat, Vec3};
+use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
+use sinew_physics::math::{Quat, Vec3};
 use std::str::FromStr;
 
 /// `SHAPE:SIZE@x,y,z[,yaw][:KGkg][:vx,vy,vz]`: an object that figures collide with. With a mass it moves freely; with a

@@ -1,9 +1,9 @@
 //! `--push`: pushes.
 
 use super::spec::{MAX_TIME, SpecError, number, segment};
-use crate::sim::body::{Body, SegmentId};
-use crate::sim::figure::Perturbation;
-use crate::sim::math::Vec3;
+use sinew_physics::body::{Body, SegmentId};
+use sinew_physics::figure::Perturbation;
+use sinew_physics::math::Vec3;
 use std::str::FromStr;
 
 /// `NS@SEGMENT@T:x,y,z`: a push of NS newton-seconds on a segment, starting at T seconds, along the world direction x,

@@ -1,8 +1,8 @@
 //! How a recording is read.
 
-use crate::cli::exit::within;
-use crate::sim::retarget::{FileFacts, Preparation, RetargetOptions, TEMPI, UpAxis};
+use crate::exit::within;
 use clap::ValueEnum;
+use sinew_physics::retarget::{FileFacts, Preparation, RetargetOptions, TEMPI, UpAxis};
 
 /// Which axis of the file points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,7 +1,7 @@
 //! Common parts of the formats of `--load`, `--push`, `--constrain`, `--obstacle` and `--then`.
 
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::SEGMENT_NAMES;
+use sinew_physics::body::SegmentId;
+use sinew_physics::body::topology::SEGMENT_NAMES;
 
 /// Why a `--load`, `--push`, `--constrain`, `--obstacle` or `--then` cannot be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -1,9 +1,9 @@
 //! Strength files: `sinew.v1.StrengthScale` as JSON, so that a request takes the same text.
 
-use crate::cli::exit::Usage;
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use crate::sim::figure::StrengthScale;
+use crate::exit::Usage;
 use anyhow::{Context, Result};
+use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES};
+use sinew_physics::figure::StrengthScale;
 use std::path::Path;
 
 /// Largest strength file that is read, bytes.

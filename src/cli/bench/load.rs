@@ -1,12 +1,12 @@
 //! The load: drivers that send by a schedule, viewers that notice what they are shown, and calls.
 
 use super::{Args, TAIL};
-use crate::cli::explain;
-use crate::client::Client;
-use crate::sim::body::topology::DOF_COUNT;
-use crate::wire::pb;
-use crate::wire::watched::WatchWorldResponse;
+use crate::explain;
 use hdrhistogram::Histogram;
+use sinew_client::Client;
+use sinew_physics::body::topology::DOF_COUNT;
+use sinew_wire::pb;
+use sinew_wire::watched::WatchWorldResponse;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::ops::Range;

@@ -14,8 +14,6 @@ use super::args::CredentialArgs;
 use super::interrupt::interrupted;
 use super::terminal::{note, print_line};
 use super::{explain, page::progress};
-use crate::client::Client;
-use crate::wire::pb;
 use anyhow::Context as _;
 use comparison::Comparison;
 use futures_util::FutureExt as _;
@@ -24,6 +22,8 @@ use load::{Load, Schedule};
 use own::{OwnArgs, OwnServer, Storing};
 use page::Page;
 use report::Report;
+use sinew_client::Client;
+use sinew_wire::pb;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 

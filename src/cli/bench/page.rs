@@ -1,8 +1,8 @@
 //! What a server says of itself: its page of metrics.
 
-use crate::cli::explain;
-use crate::client::Client;
+use crate::explain;
 use anyhow::Context as _;
+use sinew_client::Client;
 use std::collections::BTreeMap;
 
 /// A page of metrics at one instant.

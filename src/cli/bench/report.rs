@@ -3,7 +3,7 @@
 use super::Args;
 use super::load::Load;
 use super::page::{Page, quantile};
-use crate::cli::number;
+use crate::number;
 use hdrhistogram::Histogram;
 use serde::Serialize;
 use std::collections::BTreeMap;

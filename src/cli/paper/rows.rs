@@ -3,20 +3,20 @@
 mod second_hand;
 
 use super::or_dash;
-use crate::cli::page::Page;
-use crate::evaluate::experiments::Pair;
-use crate::evaluate::experiments::again::{Did, MARGIN, QUANTILE, again};
-use crate::evaluate::experiments::person::{
+use crate::page::Page;
+use anyhow::Result;
+use sinew_evaluate::experiments::Pair;
+use sinew_evaluate::experiments::again::{Did, MARGIN, QUANTILE, again};
+use sinew_evaluate::experiments::person::{
     BENDS, FOLDS, HELPS, LOADS, TRACKED, Trial, candidates, search, trial,
 };
-use crate::evaluate::experiments::touching::{Against, Prop, hand_support, reach};
-use crate::evaluate::strip::View;
-use crate::sim::body::{Body, Profile, Sex};
-use crate::sim::motion::Bvh;
-use crate::sim::motion::builtin::builtin;
-use crate::sim::retarget::{RetargetOptions, retarget};
-use crate::sim::support::sharing::{ALONG_REST, LEAST_WEIGHT};
-use anyhow::Result;
+use sinew_evaluate::experiments::touching::{Against, Prop, hand_support, reach};
+use sinew_evaluate::strip::View;
+use sinew_physics::body::{Body, Profile, Sex};
+use sinew_physics::motion::Bvh;
+use sinew_physics::motion::builtin::builtin;
+use sinew_physics::retarget::{RetargetOptions, retarget};
+use sinew_physics::support::sharing::{ALONG_REST, LEAST_WEIGHT};
 use std::sync::Arc;
 
 /// Panels of a strip.

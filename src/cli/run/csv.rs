@@ -1,8 +1,8 @@
 //! The CSV file of `--out`.
 
-use crate::evaluate::table::{Torques, header, row};
-use crate::sim::world::Figure;
 use anyhow::{Context, Result};
+use sinew_evaluate::table::{Torques, header, row};
+use sinew_physics::world::Figure;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};

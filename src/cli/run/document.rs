@@ -1,15 +1,15 @@
 //! What `--report` writes.
 
 use super::Scenario;
-use crate::cli::args::{ControllerArg, StepperArg};
-use crate::cli::lint;
-use crate::cli::source::Source;
-use crate::evaluate::RunReport;
-use crate::evaluate::forecast::Forecast;
-use crate::sim::body::SegmentId;
-use crate::sim::body::names::sex_name;
-use crate::sim::figure::SecondHand;
+use crate::args::{ControllerArg, StepperArg};
+use crate::lint;
+use crate::source::Source;
 use serde::Serialize;
+use sinew_evaluate::RunReport;
+use sinew_evaluate::forecast::Forecast;
+use sinew_physics::body::SegmentId;
+use sinew_physics::body::names::sex_name;
+use sinew_physics::figure::SecondHand;
 
 /// `report.json`: the scenario, how the motion was fitted, and the measures.
 #[derive(Serialize)]

@@ -1,10 +1,10 @@
 //! What will come of a clip, told beside what came of it.
 
 use super::Scenario;
-use crate::evaluate::forecast::{Forecast, forecast};
-use crate::sim::body::Links;
-use crate::sim::motion::Clip;
-use crate::sim::strength::Strength;
+use sinew_evaluate::forecast::{Forecast, forecast};
+use sinew_physics::body::Links;
+use sinew_physics::motion::Clip;
+use sinew_physics::strength::Strength;
 
 /// The forecast for a clip as it is played: with the strength and the loads of the scenario.
 pub(super) fn of(scenario: &Scenario<'_>, clip: &Clip) -> Forecast {

@@ -1,13 +1,13 @@
 //! The motion strip of `--strip`.
 
 use super::Scenario;
-use crate::cli::args::{LoadSpec, short_name};
-use crate::cli::output::{extension, write};
-use crate::evaluate::strip::{Frame, StripOptions, Thing, View, draw, raster, svg};
-use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
-use crate::sim::figure::Constraint;
-use crate::sim::math::{Quat, Vec3};
+use crate::args::{LoadSpec, short_name};
+use crate::output::{extension, write};
 use anyhow::{Context, Result};
+use sinew_evaluate::strip::{Frame, StripOptions, Thing, View, draw, raster, svg};
+use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
+use sinew_physics::figure::Constraint;
+use sinew_physics::math::{Quat, Vec3};
 use std::path::Path;
 
 /// Camera view of a strip.

@@ -1,12 +1,12 @@
 //! What is printed while clips run and when they are done.
 
 use super::{RunArgs, forecast};
-use crate::cli::number::{fixed, seconds};
-use crate::cli::terminal::{OutputClosed, print_line};
-use crate::evaluate::RunReport;
-use crate::evaluate::forecast::Forecast;
+use crate::number::{fixed, seconds};
+use crate::terminal::{OutputClosed, print_line};
 use anyhow::Result;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use sinew_evaluate::RunReport;
+use sinew_evaluate::forecast::Forecast;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Progress of one clip.

@@ -1,10 +1,10 @@
 //! What was given and has no effect.
 
 use super::RunArgs;
-use crate::cli::args::{ControllerArg, StepperArg};
-use crate::cli::number::seconds;
-use crate::cli::source::Source;
-use crate::cli::terminal::note;
+use crate::args::{ControllerArg, StepperArg};
+use crate::number::seconds;
+use crate::source::Source;
+use crate::terminal::note;
 
 /// Warns of it on standard error.
 pub(super) fn warn(args: &RunArgs, sources: &[Source]) {

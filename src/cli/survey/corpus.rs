@@ -1,9 +1,9 @@
 //! Which clips a survey is about.
 
-use crate::cli::exit::Usage;
-use crate::cli::source::{BUILTIN, no_builtin};
-use crate::sim::motion::builtin::BUILTIN_NAMES;
+use crate::exit::Usage;
+use crate::source::{BUILTIN, no_builtin};
 use anyhow::{Context, Result, ensure};
+use sinew_physics::motion::builtin::BUILTIN_NAMES;
 use std::path::{Path, PathBuf};
 
 /// Most clips of a survey.

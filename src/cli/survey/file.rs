@@ -1,12 +1,12 @@
 //! The file of a survey.
 
-use crate::cli::exit::Usage;
-use crate::cli::output::write;
-use crate::evaluate::survey::Row;
-use crate::evaluate::survey::tables::{self, Table};
+use crate::exit::Usage;
+use crate::output::write;
 use anyhow::{Context, Result, bail, ensure};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
+use sinew_evaluate::survey::Row;
+use sinew_evaluate::survey::tables::{self, Table};
 use std::path::Path;
 
 /// Counts up when rows change their meaning.

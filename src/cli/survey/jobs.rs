@@ -6,30 +6,30 @@
 
 use super::SurveyArgs;
 use super::corpus::{Entry, Source};
-use crate::cli::args::LoadSpec;
-use crate::cli::rehearse::FollowArg;
-use crate::evaluate::follow::{Found, RehearsalOptions, follow};
-use crate::evaluate::forecast::{Forecast, forecast};
-use crate::evaluate::noise::noisy;
-use crate::evaluate::survey::stats::short;
-use crate::evaluate::survey::{
-    self, Conditions, Copies, Lacks, Measured, Outcome, Reference, RehearsedRun, Row,
-};
-use crate::sim::body::{Body, Links, State};
-use crate::sim::figure::{FigureOptions, Perturbation, StrengthScale};
-use crate::sim::motion::builtin::{BUILTIN_NAMES, builtin};
-use crate::sim::motion::{Bvh, Clip};
-use crate::sim::plan::feasibility::consistency;
-use crate::sim::retarget::{Preparation, retarget};
-use crate::sim::retarget::{RetargetOptions, RetargetReport};
-use crate::sim::strength::Strength;
-use crate::sim::world::WorldParams;
+use crate::args::LoadSpec;
+use crate::rehearse::FollowArg;
 use anyhow::{Context, Result, anyhow};
 use indicatif::{ProgressBar, ProgressStyle};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+use sinew_evaluate::follow::{Found, RehearsalOptions, follow};
+use sinew_evaluate::forecast::{Forecast, forecast};
+use sinew_evaluate::noise::noisy;
+use sinew_evaluate::survey::stats::short;
+use sinew_evaluate::survey::{
+    self, Conditions, Copies, Lacks, Measured, Outcome, Reference, RehearsedRun, Row,
+};
+use sinew_physics::body::{Body, Links, State};
+use sinew_physics::figure::{FigureOptions, Perturbation, StrengthScale};
+use sinew_physics::motion::builtin::{BUILTIN_NAMES, builtin};
+use sinew_physics::motion::{Bvh, Clip};
+use sinew_physics::plan::feasibility::consistency;
+use sinew_physics::retarget::{Preparation, retarget};
+use sinew_physics::retarget::{RetargetOptions, RetargetReport};
+use sinew_physics::strength::Strength;
+use sinew_physics::world::WorldParams;
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::Write;

@@ -1,6 +1,6 @@
 //! `--page`: tables within a page that people write, with the command that makes them again.
 
-use crate::cli::output::write;
+use crate::output::write;
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;

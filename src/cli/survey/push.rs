@@ -1,11 +1,11 @@
 //! `--push` of a survey: as for `sinew run`, or at a time and in a direction that the clip and the copy decide.
 
-use crate::cli::args::PushSpec;
-use crate::sim::body::{Body, SegmentId};
-use crate::sim::figure::Perturbation;
-use crate::sim::math::Vec3;
+use crate::args::PushSpec;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use sinew_physics::body::{Body, SegmentId};
+use sinew_physics::figure::Perturbation;
+use sinew_physics::math::Vec3;
 use std::fmt;
 use std::str::FromStr;
 
@@ -69,13 +69,13 @@ impl FromStr for SurveyPush {
             return text
                 .parse()
                 .map(Self::At)
-                .map_err(|e: crate::cli::args::SpecError| {
+                .map_err(|e: crate::args::SpecError| {
                     format!("{e}; or NS@random, NS@SEGMENT@random")
                 });
         };
         let (impulse, name) = head.split_once('@').unwrap_or((head, "chest"));
         let segment = SegmentId::from_name(name)
-            .ok_or_else(|| crate::cli::args::SpecError::Segment(name.to_owned()).to_string())?;
+            .ok_or_else(|| crate::args::SpecError::Segment(name.to_owned()).to_string())?;
         match impulse.trim().parse::<f64>() {
             Ok(n) if (0.0..=MOST).contains(&n) => Ok(Self::Random {
                 segment,

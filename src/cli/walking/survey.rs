@@ -1,13 +1,13 @@
 //! Every clip in variations that change one condition at a time.
 
 use super::{Motion, Study, hundredths};
-use crate::cli::page::Page;
-use crate::evaluate::experiments::walk::{Hands, Walk, Walker, walk};
-use crate::sim::body::{Body, Profile, Sex};
-use crate::sim::motion::Bvh;
-use crate::sim::retarget::RetargetOptions;
-use crate::sim::retarget::retarget;
+use crate::page::Page;
 use anyhow::{Context, Result};
+use sinew_evaluate::experiments::walk::{Hands, Walk, Walker, walk};
+use sinew_physics::body::{Body, Profile, Sex};
+use sinew_physics::motion::Bvh;
+use sinew_physics::retarget::RetargetOptions;
+use sinew_physics::retarget::retarget;
 use std::sync::Arc;
 
 /// One variation.

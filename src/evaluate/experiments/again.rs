@@ -2,13 +2,13 @@
 //! it again in simulation.
 
 use super::{Pair, Record, carried, record};
-use crate::evaluate::envelope::Envelope;
-use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::body::{Body, Links};
-use crate::sim::figure::{Perturbation, StrengthScale};
-use crate::sim::motion::Clip;
-use crate::sim::strength::Strength;
-use crate::sim::world::{ClipPlayback, Drive};
+use crate::envelope::Envelope;
+use sinew_physics::body::topology::DOF_NAMES;
+use sinew_physics::body::{Body, Links};
+use sinew_physics::figure::{Perturbation, StrengthScale};
+use sinew_physics::motion::Clip;
+use sinew_physics::strength::Strength;
+use sinew_physics::world::{ClipPlayback, Drive};
 use std::sync::Arc;
 
 /// Quantile of the needed torque that counts, and what is given beyond it: defaults of `sinew strength`.

@@ -1,13 +1,13 @@
 //! Controllers against each other: the same motions, loads and pushes for every pair of controller and stepper.
 
 use super::{Pair, carried, push_at_chest};
-use crate::sim::body::Body;
-use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
-use crate::sim::figure::{StrengthScale, TickReport};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::Clip;
-use crate::sim::world::{ClipPlayback, Drive, FigureKey, World};
+use sinew_physics::body::Body;
+use sinew_physics::body::topology::DOF_COUNT;
+use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
+use sinew_physics::figure::{StrengthScale, TickReport};
+use sinew_physics::math::{Quat, Vec3};
+use sinew_physics::motion::Clip;
+use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World};
 use std::sync::Arc;
 
 /// A push begins at this time and lasts this long, s.

@@ -1,15 +1,15 @@
 //! Falls over an edge of the feet, against the physical pendulum.
 
 use super::{Pair, Record, record};
-use crate::evaluate::pose::segment_poses;
-use crate::sim::body::topology::{DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::body::{Body, Links, Posture, State};
-use crate::sim::dynamics::{Kinematics, center_of_mass, kinetic_energy, rotor_energy};
-use crate::sim::figure::StrengthScale;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::builtin::at_ease;
-use crate::sim::world::World;
+use crate::pose::segment_poses;
+use sinew_physics::body::topology::{DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use sinew_physics::body::{Body, Links, Posture, State};
+use sinew_physics::dynamics::{Kinematics, center_of_mass, kinetic_energy, rotor_energy};
+use sinew_physics::figure::StrengthScale;
+use sinew_physics::math::{Quat, Vec3};
+use sinew_physics::motion::GRAVITY;
+use sinew_physics::motion::builtin::at_ease;
+use sinew_physics::world::World;
 use std::sync::Arc;
 
 /// Height of the centre of mass that ends the comparison, m.
@@ -241,7 +241,7 @@ pub fn fall_on_toes(
 }
 
 /// One tick: displacement of the centre of mass from `start`, energy, and largest joint error (rad).
-fn tick(world: &mut World, key: crate::sim::world::FigureKey, start: Vec3) -> (Vec3, f64, f64) {
+fn tick(world: &mut World, key: sinew_physics::world::FigureKey, start: Vec3) -> (Vec3, f64, f64) {
     world.step();
     let figure = world.figure(key).expect("nobody removes the figure");
     let (com, energy) = com_and_energy(figure.links(), figure.state());

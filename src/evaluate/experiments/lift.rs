@@ -1,16 +1,16 @@
 //! Lifting a load with one arm: the paper's headline experiment.
 
 use super::{Pair, Record, record};
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
-use crate::sim::body::{Body, Links, State};
-use crate::sim::dynamics::Terms;
-use crate::sim::figure::tasks::grip;
-use crate::sim::figure::{Perturbation, StrengthScale};
-use crate::sim::motion::builtin::{LIFT_GRASP, builtin};
-use crate::sim::motion::{Clip, GRAVITY};
-use crate::sim::strength::Strength;
-use crate::sim::world::{ClipPlayback, Drive, FigureKey, World};
+use sinew_physics::body::angles::anatomical_angles;
+use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
+use sinew_physics::body::{Body, Links, State};
+use sinew_physics::dynamics::Terms;
+use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::{Perturbation, StrengthScale};
+use sinew_physics::motion::builtin::{LIFT_GRASP, builtin};
+use sinew_physics::motion::{Clip, GRAVITY};
+use sinew_physics::strength::Strength;
+use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World};
 use std::sync::Arc;
 
 /// Share of the static need of 3 kg that the arm has.

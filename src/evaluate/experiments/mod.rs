@@ -14,13 +14,13 @@ pub mod walk;
 
 use super::metrics::Tick;
 use super::strip::{Frame, Thing, evenly_spaced};
-use crate::sim::body::topology::{CHEST, DOF_COUNT, L_HAND, R_HAND};
-use crate::sim::body::{Body, SegmentId, State};
-use crate::sim::figure::{
+use sinew_physics::body::topology::{CHEST, DOF_COUNT, L_HAND, R_HAND};
+use sinew_physics::body::{Body, SegmentId, State};
+use sinew_physics::figure::{
     ControlParams, ControllerKind, Flags, Perturbation, StepperKind, StrengthScale,
 };
-use crate::sim::math::Vec3;
-use crate::sim::world::{FigureKey, FigureSetup, World, WorldParams};
+use sinew_physics::math::Vec3;
+use sinew_physics::world::{FigureKey, FigureSetup, World, WorldParams};
 use std::sync::Arc;
 
 /// Controller, stepper and choices that an experiment runs with.

@@ -3,14 +3,14 @@
 
 use super::lift::{DURATION, arm_use, scene_of};
 use super::{Pair, Record, record};
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
-use crate::sim::body::{Body, Profile, Sex};
-use crate::sim::figure::StrengthScale;
-use crate::sim::figure::tasks::grip;
-use crate::sim::motion::Clip;
-use crate::sim::motion::builtin::{LIFT_GRASP, LiftEnd, lift_to};
-use crate::sim::strength::Strength;
+use sinew_physics::body::angles::anatomical_angles;
+use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
+use sinew_physics::body::{Body, Profile, Sex};
+use sinew_physics::figure::StrengthScale;
+use sinew_physics::figure::tasks::grip;
+use sinew_physics::motion::Clip;
+use sinew_physics::motion::builtin::{LIFT_GRASP, LiftEnd, lift_to};
+use sinew_physics::strength::Strength;
 use std::sync::Arc;
 
 /// Loads of the text and of the figure of the paper, kg.

@@ -1,11 +1,11 @@
 //! Pushes of a standing figure, in units of what the linear inverted pendulum can stop.
 
 use super::{Pair, Record, push_at_chest, record};
-use crate::sim::body::{Body, State};
-use crate::sim::figure::StrengthScale;
-use crate::sim::math::Vec3;
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::builtin::at_ease;
+use sinew_physics::body::{Body, State};
+use sinew_physics::figure::StrengthScale;
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::GRAVITY;
+use sinew_physics::motion::builtin::at_ease;
 use std::sync::Arc;
 
 /// The push begins after the figure has settled, s, and lasts this long, s.

@@ -1,13 +1,13 @@
 //! The second hand: a lift with one hand, of loads that are too heavy for one arm.
 
 use super::{Pair, Record, record};
-use crate::sim::body::topology::{DOF_NAMES, R_HAND};
-use crate::sim::body::{Body, SegmentId};
-use crate::sim::dynamics::Kinematics;
-use crate::sim::figure::{FigureEvent, HeldLoad, Perturbation, SecondHand, StrengthScale};
-use crate::sim::math::Vec3;
-use crate::sim::motion::builtin::{LIFT_GRASP, builtin};
-use crate::sim::world::{ClipPlayback, Drive, Figure};
+use sinew_physics::body::topology::{DOF_NAMES, R_HAND};
+use sinew_physics::body::{Body, SegmentId};
+use sinew_physics::dynamics::Kinematics;
+use sinew_physics::figure::{FigureEvent, HeldLoad, Perturbation, SecondHand, StrengthScale};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::builtin::{LIFT_GRASP, builtin};
+use sinew_physics::world::{ClipPlayback, Drive, Figure};
 use std::sync::Arc;
 
 /// Loads of the ladder, kg.
@@ -63,7 +63,7 @@ pub fn rung(
 ) -> Rung {
     let clip = Arc::new(builtin(body, "lift").expect("there is a lift"));
     let (mut world, key) = pair.world(body, clip.sample(0.0).state(), StrengthScale::default());
-    let at = crate::sim::body::palm::load_point(body, R_HAND);
+    let at = sinew_physics::body::palm::load_point(body, R_HAND);
     let load = HeldLoad {
         segment: R_HAND,
         point: at,

@@ -1,13 +1,13 @@
 //! What people can hold still: arm straight out in front, and elbow bent.
 
-use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
-use crate::sim::body::{Body, Links, Posture, State};
-use crate::sim::dynamics::Terms;
-use crate::sim::figure::StrengthScale;
-use crate::sim::figure::tasks::grip;
-use crate::sim::motion::GRAVITY;
-use crate::sim::strength::Strength;
+use sinew_physics::body::angles::{anatomical_angles, set_anatomical_angles};
+use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
+use sinew_physics::body::{Body, Links, Posture, State};
+use sinew_physics::dynamics::Terms;
+use sinew_physics::figure::StrengthScale;
+use sinew_physics::figure::tasks::grip;
+use sinew_physics::motion::GRAVITY;
+use sinew_physics::strength::Strength;
 
 /// A posture that is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,18 +1,18 @@
 //! Hands on tables and walls (figure 3 of the paper), and two figures that run into each other.
 
 use super::{Pair, Record, push_at_chest, record};
-use crate::evaluate::pose::segment_poses;
-use crate::evaluate::strip::Thing;
-use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
-use crate::sim::body::topology::{DOF_NAMES, L_FOOT, R_HAND};
-use crate::sim::body::{Body, Posture, State};
-use crate::sim::collide::{Mobility, ObstacleSetup, Other, Shape};
-use crate::sim::figure::{Flags, StrengthScale};
-use crate::sim::math::curve::ramp;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::Clip;
-use crate::sim::motion::builtin::at_ease;
-use crate::sim::world::{ClipPlayback, Drive};
+use crate::pose::segment_poses;
+use crate::strip::Thing;
+use sinew_physics::body::angles::{anatomical_angles, set_anatomical_angles};
+use sinew_physics::body::topology::{DOF_NAMES, L_FOOT, R_HAND};
+use sinew_physics::body::{Body, Posture, State};
+use sinew_physics::collide::{Mobility, ObstacleSetup, Other, Shape};
+use sinew_physics::figure::{Flags, StrengthScale};
+use sinew_physics::math::curve::ramp;
+use sinew_physics::math::{Quat, Vec3};
+use sinew_physics::motion::Clip;
+use sinew_physics::motion::builtin::at_ease;
+use sinew_physics::world::{ClipPlayback, Drive};
 use std::sync::Arc;
 
 /// What the hand leans on.
@@ -283,7 +283,7 @@ pub fn bump(body: &Arc<Body>, pair: &Pair, impulse: f64, panels: usize) -> Bump 
     };
     let first = at(-0.5 * APART, 0.0);
     let (mut world, key) = pair.world(body, first, StrengthScale::default());
-    let second = crate::sim::world::FigureSetup {
+    let second = sinew_physics::world::FigureSetup {
         name: "other".to_owned(),
         state: at(0.5 * APART, std::f64::consts::PI),
         ..pair.setup(body, first, StrengthScale::default())
@@ -431,7 +431,7 @@ pub fn reach(body: &Arc<Body>, pair: &Pair, against: Against, arm: f64, panels: 
                 y: hand.position.y,
                 z: 0.0,
             };
-            let second = crate::sim::world::FigureSetup {
+            let second = sinew_physics::world::FigureSetup {
                 name: "other".to_owned(),
                 ..pair.setup(body, State::at_rest(posture), StrengthScale::default())
             };

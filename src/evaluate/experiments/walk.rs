@@ -1,14 +1,14 @@
 //! Recorded motion on two feet: tracked, pushed, by other people, with loads, on other floors, from noisy recordings.
 
 use super::{carried, push_at_chest};
-use crate::evaluate::metrics::{Metrics, Tick};
-use crate::evaluate::report::RunReport;
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::body::{Body, SegmentId};
-use crate::sim::figure::{ContactPoint, ControllerKind, Perturbation, StrengthScale};
-use crate::sim::math::Vec3;
-use crate::sim::motion::Clip;
-use crate::sim::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
+use crate::metrics::{Metrics, Tick};
+use crate::report::RunReport;
+use sinew_physics::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use sinew_physics::body::{Body, SegmentId};
+use sinew_physics::figure::{ContactPoint, ControllerKind, Perturbation, StrengthScale};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::Clip;
+use sinew_physics::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
 use std::sync::Arc;
 
 /// A push lasts this long, s.

@@ -1,10 +1,10 @@
 //! Measures of reports whose content is known.
 
 use super::*;
-use crate::sim::body::topology::R_HAND;
-use crate::sim::figure::ContactPoint;
-use crate::sim::motion::Target;
-use crate::sim::strength::MuscleScale;
+use sinew_physics::body::topology::R_HAND;
+use sinew_physics::figure::ContactPoint;
+use sinew_physics::motion::Target;
+use sinew_physics::strength::MuscleScale;
 
 /// A figure at rest in the zero pose that reports nothing unusual; tests change what they are about.
 struct Stand {

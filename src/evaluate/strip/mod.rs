@@ -7,9 +7,7 @@
 
 mod drawing;
 mod panel;
-#[cfg(feature = "net")]
 pub mod raster;
-#[cfg(feature = "net")]
 pub mod svg;
 mod things;
 
@@ -17,9 +15,9 @@ pub use drawing::{Drawing, Item, Rgba};
 pub use things::{Kind, Thing};
 
 use super::metrics::Tick;
-use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT};
-use crate::sim::figure::Flags;
-use crate::sim::math::Vec3;
+use sinew_physics::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT};
+use sinew_physics::figure::Flags;
+use sinew_physics::math::Vec3;
 
 /// From where the figure is seen, relative to its heading in the first frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

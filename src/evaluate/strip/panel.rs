@@ -2,12 +2,12 @@
 
 use super::drawing::{Anchor, Drawing, Item, Rgba};
 use super::{Frame, Kind, StripOptions, Thing, View};
-use crate::evaluate::pose::{SegmentPose, segment_poses};
-use crate::sim::body::topology::{DOF_COUNT, DOF_SEGMENT, SEGMENT_NAMES};
-use crate::sim::body::{Body, Mesh, Posture, SEGMENT_COUNT};
-use crate::sim::math::Vec3;
-use crate::sim::math::polygon::hull;
-use crate::sim::motion::GRAVITY;
+use crate::pose::{SegmentPose, segment_poses};
+use sinew_physics::body::topology::{DOF_COUNT, DOF_SEGMENT, SEGMENT_NAMES};
+use sinew_physics::body::{Body, Mesh, Posture, SEGMENT_COUNT};
+use sinew_physics::math::Vec3;
+use sinew_physics::math::polygon::hull;
+use sinew_physics::motion::GRAVITY;
 
 const BACKGROUND: Rgba = Rgba::hex(0xfb_fbf9);
 const GROUND: Rgba = Rgba::hex(0xec_ebe6);

@@ -1,5 +1,5 @@
 use super::*;
-use crate::sim::body::topology::L_UPPER_ARM;
+use sinew_physics::body::topology::L_UPPER_ARM;
 
 #[test]
 fn panels_are_evenly_spaced_and_include_both_ends() {
@@ -65,7 +65,6 @@ fn every_view_shows_all_segments_inside_the_picture() {
             let inside = v[0] > 0.0 && v[0] < drawing.width && v[1] > 0.0 && v[1] < drawing.height;
             assert!(inside, "{view:?}: {v:?}");
         }
-        #[cfg(feature = "net")]
         {
             let text = svg::write(&drawing);
             assert!(text.contains("a &lt; b &amp; c") && text.contains("0.50 s"));
@@ -99,7 +98,6 @@ fn left_arm_is_on_the_right_from_the_front_and_behind_from_the_right_side() {
     assert!(right[2] > left[2]);
 }
 
-#[cfg(feature = "net")]
 #[test]
 fn picture_file_has_the_size_of_the_drawing_and_shows_the_figure() {
     let body = Body::adult_man();

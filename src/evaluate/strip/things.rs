@@ -1,9 +1,9 @@
 //! What stands around a figure: obstacles and other figures, as meshes.
 
-use crate::evaluate::pose::{SegmentPose, segment_poses};
-use crate::sim::body::{Body, Mesh, Posture, SEGMENT_COUNT};
-use crate::sim::collide::{ObstacleSetup, Shape};
-use crate::sim::math::Vec3;
+use crate::pose::{SegmentPose, segment_poses};
+use sinew_physics::body::{Body, Mesh, Posture, SEGMENT_COUNT};
+use sinew_physics::collide::{ObstacleSetup, Shape};
+use sinew_physics::math::Vec3;
 use std::f64::consts::{PI, TAU};
 
 /// Half edge of the patch of a plane that is drawn, and its thickness, m.

@@ -238,8 +238,8 @@ fn number(x: f64) -> String {
 mod tests {
     use super::super::outcome::Copies;
     use super::*;
-    use crate::evaluate::forecast::Forecast;
-    use crate::evaluate::survey::{Kind, Lacks};
+    use crate::forecast::Forecast;
+    use crate::survey::{Kind, Lacks};
 
     fn row(change: impl Fn(&mut Measured)) -> Row {
         let mut m = Measured {

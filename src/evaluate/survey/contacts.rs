@@ -2,7 +2,7 @@
 
 use super::outcome::TouchDowns;
 use super::stats::{median, short};
-use crate::sim::plan::contact_labels::runs;
+use sinew_physics::plan::contact_labels::runs;
 
 /// A touch-down and its counterpart are at most this far apart, s: a third of a walking step.
 pub const MATCH_S: f64 = 0.3;

@@ -2,9 +2,9 @@
 
 use super::outcome::Errors;
 use super::stats::short;
-use crate::evaluate::pose::segment_poses;
-use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT};
-use crate::sim::math::Vec3;
+use crate::pose::segment_poses;
+use sinew_physics::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT};
+use sinew_physics::math::Vec3;
 
 /// A posture with the places of its segments.
 #[derive(Clone, Debug)]
@@ -103,10 +103,10 @@ pub fn jerk_ratio(samples: &[Sample]) -> Option<f64> {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::sim::motion::builtin::at_ease;
+    use sinew_physics::motion::builtin::at_ease;
 
     /// A figure that stands `off` from a recording that stands, at 60 ticks a second.
-    pub(in crate::evaluate::survey) fn apart(off: impl Fn(usize) -> Vec3, n: usize) -> Vec<Sample> {
+    pub(in crate::survey) fn apart(off: impl Fn(usize) -> Vec3, n: usize) -> Vec<Sample> {
         let body = Body::adult_man();
         let posture = at_ease(&body);
         let there = Placed::new(&body, &posture);

@@ -1,10 +1,10 @@
 //! What kind of motion a clip is, by measurement of the fitted recording; never by its name.
 
-use crate::sim::body::topology::{L_FOOT, R_FOOT};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::Vec3;
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::contact_labels::runs;
+use sinew_physics::body::topology::{L_FOOT, R_FOOT};
+use sinew_physics::body::{Body, Posture};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::leg_ik::forward;
+use sinew_physics::plan::contact_labels::runs;
 
 /// Upright part of the pelvis's vertical axis below which the body is upside down (107° from upright).
 const INVERTED: f64 = -0.3;
@@ -24,9 +24,10 @@ const WALK: (f64, usize) = (0.35, 3);
 const TURN: f64 = std::f64::consts::FRAC_PI_2;
 
 /// Kinds of motion, from the quietest on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "net", serde(rename_all = "snake_case"))]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+)]
+#[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// Both feet stay where they are.
     Stand,
@@ -173,8 +174,8 @@ fn turned(postures: &[Posture]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::math::Quat;
-    use crate::sim::motion::builtin::{at_ease, builtin};
+    use sinew_physics::math::Quat;
+    use sinew_physics::motion::builtin::{at_ease, builtin};
 
     const RATE: f64 = 60.0;
 

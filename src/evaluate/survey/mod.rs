@@ -21,11 +21,10 @@ pub use run::{Conditions, Reference, RehearsedRun, run, watched};
 
 use super::follow::Followed;
 use super::forecast::Forecast;
-use crate::sim::plan::feasibility::Consistency;
+use sinew_physics::plan::feasibility::Consistency;
 
 /// One clip of a survey.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Row {
     /// What was asked for: path below the corpus folder, or `builtin:NAME`.
     pub clip: String,
@@ -38,8 +37,7 @@ pub struct Row {
 }
 
 /// What is known of a clip that was run.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Measured {
     /// Kind of motion, by measurement of the fitted recording.
     pub kind: Kind,
@@ -63,16 +61,12 @@ pub struct Measured {
     /// Its noisy copies, if there are any.
     pub copies: Option<Copies>,
     /// How it was followed, if it was asked for more than plain tracking.
-    #[cfg_attr(
-        feature = "net",
-        serde(default, skip_serializing_if = "Option::is_none")
-    )]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub followed: Option<Followed>,
 }
 
 /// What the ground lacks for a motion on its feet (`sinew lint`), in weights and weight × m.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Lacks {
     /// Force, root mean square.
     pub force_rms: f64,

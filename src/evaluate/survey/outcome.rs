@@ -3,8 +3,7 @@
 use super::stats::{Quartiles, short, wilson};
 
 /// Mean errors against one motion that is fixed in the world.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Errors {
     /// Mean distance of the segment origins with both pelvis origins in one place, mm.
     pub mpjpe_root_mm: f64,
@@ -15,8 +14,7 @@ pub struct Errors {
 }
 
 /// Touch-downs against the labels of the recording.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TouchDowns {
     /// How many the recording has.
     pub recorded: usize,
@@ -31,8 +29,7 @@ pub struct TouchDowns {
 }
 
 /// What came of one run. Times are on the clip's clock (negative in the way into the clip).
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Outcome {
     /// The mean distance from the recording never exceeded 0.5 m (PHC's rule) to the clip's end.
     pub completed: bool,
@@ -107,8 +104,7 @@ impl Outcome {
 }
 
 /// What came of the noisy copies of a clip.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Copies {
     /// How many were run.
     pub count: usize,

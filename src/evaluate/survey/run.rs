@@ -5,17 +5,17 @@ use super::errors::{Placed, Sample, errors, jerk_ratio};
 use super::outcome::Outcome;
 use super::stats::{median, short};
 use super::verdict::{anchor_lost, phc_lost};
-use crate::evaluate::experiments::walk::Stance;
-use crate::evaluate::metrics::{Metrics, Tick};
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::body::{Body, State};
-use crate::sim::dynamics::{Kinematics, momentum};
-use crate::sim::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StrengthScale};
-use crate::sim::motion::{Clip, GRAVITY};
-use crate::sim::plan::StreamPlan;
-use crate::sim::plan::contact_labels::ContactPhase;
-use crate::sim::plan::stream::RATE;
-use crate::sim::world::{
+use crate::experiments::walk::Stance;
+use crate::metrics::{Metrics, Tick};
+use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use sinew_physics::body::{Body, State};
+use sinew_physics::dynamics::{Kinematics, momentum};
+use sinew_physics::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StrengthScale};
+use sinew_physics::motion::{Clip, GRAVITY};
+use sinew_physics::plan::StreamPlan;
+use sinew_physics::plan::contact_labels::ContactPhase;
+use sinew_physics::plan::stream::RATE;
+use sinew_physics::world::{
     ClipPlayback, Drive, Figure, FigureSetup, LivePlayback, RehearsedMotion, RehearsedPlayback,
     World, WorldError, WorldParams,
 };
@@ -27,7 +27,7 @@ const AFTER: f64 = 1.0;
 const AFTER_STREAM: f64 = 3.0;
 /// A foot is on the floor while that pushes it with more than this, N.
 const STANDS: f64 = 20.0;
-const FEET: [[crate::sim::body::SegmentId; 2]; 2] = [[L_FOOT, L_TOES], [R_FOOT, R_TOES]];
+const FEET: [[sinew_physics::body::SegmentId; 2]; 2] = [[L_FOOT, L_TOES], [R_FOOT, R_TOES]];
 
 /// What a clip is measured against.
 #[derive(Clone, Debug)]
@@ -46,7 +46,7 @@ impl Reference {
     pub fn authored(clip: Arc<Clip>) -> Self {
         let label: Vec<[bool; 2]> = (0..clip.len()).map(|i| clip.planted(i)).collect();
         Self {
-            phases: crate::sim::plan::contact_labels::phases(&label, clip.rate_hz()),
+            phases: sinew_physics::plan::contact_labels::phases(&label, clip.rate_hz()),
             recorded: Arc::clone(&clip),
             prepared: clip,
         }
@@ -222,7 +222,7 @@ fn vertical(figure: &Figure) -> (f64, f64) {
 }
 
 /// Sample `i` of the stream: the recording, then its last posture.
-fn posture(reference: &Reference, i: usize) -> crate::sim::body::Posture {
+fn posture(reference: &Reference, i: usize) -> sinew_physics::body::Posture {
     let clip = &reference.recorded;
     clip.sample((i as f64 / RATE).min(clip.duration())).posture
 }

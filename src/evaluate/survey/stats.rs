@@ -32,8 +32,7 @@ pub fn median(values: &[f64]) -> Option<f64> {
 }
 
 /// First quartile, median and third quartile.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "net", derive(serde::Serialize, serde::Deserialize))]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Quartiles {
     /// A quarter of the values is below.
     pub q1: f64,

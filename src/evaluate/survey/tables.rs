@@ -2,7 +2,7 @@
 
 use super::stats::median;
 use super::{Errors, Kind, Measured, Row};
-use crate::evaluate::forecast::Verdict;
+use crate::forecast::Verdict;
 
 /// Heads and rows.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -31,7 +31,7 @@ pub fn anchor_lost(samples: &[Sample]) -> Option<f64> {
 mod tests {
     use super::super::errors::tests::apart;
     use super::*;
-    use crate::sim::math::{Quat, Vec3};
+    use sinew_physics::math::{Quat, Vec3};
 
     #[test]
     fn one_tick_beyond_half_a_metre_is_lost() {

@@ -1,8 +1,8 @@
 //! Who asks, and what it may do.
 
 use super::roles::{Role, Roles, Rule};
-use crate::server::shares::Client;
-use crate::wire::status::Fault;
+use crate::shares::Client;
+use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 

@@ -3,10 +3,10 @@
 use super::caller::{Caller, EVERYONE, Identity};
 use super::limits::Bucket;
 use super::roles::{Role, Roles};
-use crate::server::tick::shard::bounds::Bound;
-use crate::sim::motion::GRAVITY;
-use crate::wire::status::Fault;
-use crate::wire::types::{Disturbance, FigureDisturbance};
+use crate::tick::shard::bounds::Bound;
+use sinew_physics::motion::GRAVITY;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{Disturbance, FigureDisturbance};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Mutex, PoisonError, RwLock};
 use std::time::{Instant, SystemTime};

@@ -1,7 +1,6 @@
 //! The public keys of those who issue tokens: a JWKS in a file or behind a URL, fetched again now and then.
 
-use crate::server::config::Config;
-use crate::wire::status::Fault;
+use crate::config::Config;
 use http_body_util::{BodyExt as _, Empty, Limited};
 use hyper_rustls::{HttpsConnector, HttpsConnectorBuilder};
 use hyper_util::client::legacy::Client;
@@ -13,6 +12,7 @@ use prost::bytes::Bytes;
 use rustls::RootCertStore;
 use rustls::pki_types::CertificateDer;
 use rustls::pki_types::pem::PemObject as _;
+use sinew_wire::status::Fault;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
@@ -46,7 +46,7 @@ enum From {
 }
 
 /// Where keys come from, and those that were there last.
-pub(in crate::server) struct KeySource {
+pub(crate) struct KeySource {
     from: From,
     interval: Duration,
     keys: RwLock<Vec<Key>>,
@@ -60,7 +60,7 @@ impl KeySource {
     ///
     /// # Errors
     /// The file has no keys, or the address is none.
-    pub(in crate::server) fn new(config: &Config) -> Result<Arc<Self>, String> {
+    pub(crate) fn new(config: &Config) -> Result<Arc<Self>, String> {
         let place = config.jwt_keys.as_str();
         let from = if place.contains("://") {
             let url: http::Uri = place
@@ -138,7 +138,7 @@ impl KeySource {
     ///
     /// # Errors
     /// Why they cannot.
-    pub(in crate::server) async fn try_fetch(&self) -> Result<(), String> {
+    pub(crate) async fn try_fetch(&self) -> Result<(), String> {
         self.read().await.map(|_| ())
     }
 

@@ -1,7 +1,7 @@
 //! How many calls one client may make in a second.
 
-use crate::server::shares::Client;
-use crate::wire::status::Fault;
+use crate::shares::Client;
+use sinew_wire::status::Fault;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};

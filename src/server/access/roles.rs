@@ -3,9 +3,9 @@
 //! The table role × call is not written down in the server: it is read from the option `required_role` of the protos,
 //! in the descriptor set that reflection serves. A call without the option is refused to everybody.
 
-use crate::wire::DESCRIPTOR_SET;
-use crate::wire::pb;
 use prost_reflect::{DescriptorPool, Value};
+use sinew_wire::DESCRIPTOR_SET;
+use sinew_wire::pb;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 

@@ -7,7 +7,7 @@ use super::caller::{Claims, Identity};
 use super::keys::roots;
 use super::roles::{Role, Roles};
 use super::tokens::subject;
-use crate::server::config::Config;
+use crate::config::Config;
 use rustls::crypto::CryptoProvider;
 use rustls::pki_types::pem::PemObject as _;
 use rustls::pki_types::{CertificateDer, PrivateKeyDer};

@@ -6,13 +6,13 @@
 use super::caller::{Caller, Claims, Identity};
 use super::keys::{Key, KeySource};
 use super::roles::{Role, Roles};
-use crate::server::config::Config;
-use crate::wire::status::Fault;
+use crate::config::Config;
 use jsonwebtoken::errors::ErrorKind;
 use jsonwebtoken::{
     Algorithm, DecodingKey, EncodingKey, Header, Validation, decode, decode_header,
 };
 use serde::{Deserialize, Serialize};
+use sinew_wire::status::Fault;
 use std::collections::HashMap;
 use std::fs::OpenOptions;
 use std::io::{self, Write as _};

@@ -1,12 +1,12 @@
 //! `AccessService`.
 
 use super::{Api, answer, caller};
-use crate::server::access::grants::{Grant, GrantUpdate};
-use crate::server::access::roles::Role;
-use crate::wire::convert::names::GRANT;
-use crate::wire::convert::{access, etags, new_id, page, timestamp, world_name};
-use crate::wire::pb::{self, access_service_server::AccessService};
-use crate::wire::status::Fault;
+use crate::access::grants::{Grant, GrantUpdate};
+use crate::access::roles::Role;
+use sinew_wire::convert::names::GRANT;
+use sinew_wire::convert::{access, etags, new_id, page, timestamp, world_name};
+use sinew_wire::pb::{self, access_service_server::AccessService};
+use sinew_wire::status::Fault;
 use std::time::SystemTime;
 use tonic::{Request, Response, Status};
 

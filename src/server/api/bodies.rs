@@ -1,10 +1,10 @@
 //! `BodyService`.
 
 use super::{Api, answer};
-use crate::server::engine;
-use crate::wire::convert::body::{self, TextForm};
-use crate::wire::convert::page;
-use crate::wire::pb::{self, body_service_server::BodyService};
+use crate::engine;
+use sinew_wire::convert::body::{self, TextForm};
+use sinew_wire::convert::page;
+use sinew_wire::pb::{self, body_service_server::BodyService};
 use tonic::{Request, Response, Status};
 
 #[tonic::async_trait]

@@ -1,22 +1,22 @@
 //! `CheckpointService`.
 
 use super::{Api, answer, caller, client, first_grants, origin};
-use crate::server::access::caller::Caller;
-use crate::server::access::roles::Role;
-use crate::server::checkpoints::{self, Kept};
-use crate::server::shares::Client;
-use crate::server::tick::command::Origin;
-use crate::server::tick::journal;
-use crate::server::tick::scene::Scene;
-use crate::server::tick::shard::Origin as Past;
-use crate::server::worlds::WorldHandle;
-use crate::sim::world::checkpoint::Capture;
-use crate::wire::convert::checkpoint::{CheckpointInfo, checkpoint_name, checkpoint_out};
-use crate::wire::convert::names::CHECKPOINT;
-use crate::wire::convert::{new_id, not_negative, page, world, world_name};
-use crate::wire::pb::checkpoint_service_server::CheckpointService;
-use crate::wire::pb::{self, fork_world_request, restore_world_request};
-use crate::wire::status::Fault;
+use crate::access::caller::Caller;
+use crate::access::roles::Role;
+use crate::checkpoints::{self, Kept};
+use crate::shares::Client;
+use crate::tick::command::Origin;
+use crate::tick::journal;
+use crate::tick::scene::Scene;
+use crate::tick::shard::Origin as Past;
+use crate::worlds::WorldHandle;
+use sinew_physics::world::checkpoint::Capture;
+use sinew_wire::convert::checkpoint::{CheckpointInfo, checkpoint_name, checkpoint_out};
+use sinew_wire::convert::names::CHECKPOINT;
+use sinew_wire::convert::{new_id, not_negative, page, world, world_name};
+use sinew_wire::pb::checkpoint_service_server::CheckpointService;
+use sinew_wire::pb::{self, fork_world_request, restore_world_request};
+use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::time::SystemTime;
 use tonic::{Request, Response, Status};

@@ -1,25 +1,25 @@
 //! `MotionService`: stored clips, playing them, and the unary twin of live driving. The stream itself is in `drive`.
 
 use super::{Api, answer, caller, client, drive, long, memory, origin, refusal, upload};
-use crate::server::access::caller::Caller;
-use crate::server::access::roles::{Role, Roles};
-use crate::server::edge::Upload;
-use crate::server::library::NewClip;
-use crate::server::persistence::Writing;
-use crate::server::progress::Progress;
-use crate::server::rehearsals::{self, Rehearsed};
-use crate::server::repeats::to_the_end;
-use crate::server::shares::Client;
-use crate::server::tick::command::Origin;
-use crate::server::workers::Turn;
-use crate::sim::retarget::SAMPLE_BYTES;
-use crate::wire::convert::{
+use crate::access::caller::Caller;
+use crate::access::roles::{Role, Roles};
+use crate::edge::Upload;
+use crate::library::NewClip;
+use crate::persistence::Writing;
+use crate::progress::Progress;
+use crate::rehearsals::{self, Rehearsed};
+use crate::repeats::to_the_end;
+use crate::shares::Client;
+use crate::tick::command::Origin;
+use crate::workers::Turn;
+use sinew_physics::retarget::SAMPLE_BYTES;
+use sinew_wire::convert::{
     body, clip_name, control, display_name, figure_name, motion, new_id, page,
 };
-use crate::wire::pb::create_clip_request::Source;
-use crate::wire::pb::{self, motion_service_server::MotionService};
-use crate::wire::status::Fault;
-use crate::wire::types::{ClipInfo, Follow, FollowSettings};
+use sinew_wire::pb::create_clip_request::Source;
+use sinew_wire::pb::{self, motion_service_server::MotionService};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{ClipInfo, Follow, FollowSettings};
 use std::cell::Cell;
 use std::sync::Arc;
 use std::time::Instant;

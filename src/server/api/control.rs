@@ -1,11 +1,11 @@
 //! `ControlService`.
 
 use super::{Api, answer, caller, origin};
-use crate::server::access::tokens::fill_random;
-use crate::wire::convert::{access, control};
-use crate::wire::pb::{self, control_service_server::ControlService};
-use crate::wire::status::Fault;
-use crate::wire::types::{Acquire, Transfer};
+use crate::access::tokens::fill_random;
+use sinew_wire::convert::{access, control};
+use sinew_wire::pb::{self, control_service_server::ControlService};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{Acquire, Transfer};
 use tonic::{Request, Response, Status};
 
 /// Bytes of a token: too many to guess.

@@ -2,14 +2,14 @@
 
 use super::permit::{Ending, Permit};
 use super::{Api, Place, refusal};
-use crate::server::access::caller::Caller;
-use crate::server::ingest::mailbox::{DriverId, Mailbox};
-use crate::server::tick::command::Origin;
-use crate::server::worlds::WorldHandle;
-use crate::wire::convert::motion;
-use crate::wire::pb::{self, drive_figures_request::Message};
-use crate::wire::status::Fault;
-use crate::wire::types::DriveOpen;
+use crate::access::caller::Caller;
+use crate::ingest::mailbox::{DriverId, Mailbox};
+use crate::tick::command::Origin;
+use crate::worlds::WorldHandle;
+use sinew_wire::convert::motion;
+use sinew_wire::pb::{self, drive_figures_request::Message};
+use sinew_wire::status::Fault;
+use sinew_wire::types::DriveOpen;
 use std::pin::pin;
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -1,13 +1,13 @@
 //! `FigureService`.
 
 use super::{Api, answer, caller, origin};
-use crate::server::access::roles::Role;
-use crate::server::engine;
-use crate::server::repeats::to_the_end;
-use crate::wire::convert::names::FIGURE;
-use crate::wire::convert::{control, figure, new_id, page, place};
-use crate::wire::pb::{self, figure_service_server::FigureService};
-use crate::wire::status::Fault;
+use crate::access::roles::Role;
+use crate::engine;
+use crate::repeats::to_the_end;
+use sinew_wire::convert::names::FIGURE;
+use sinew_wire::convert::{control, figure, new_id, page, place};
+use sinew_wire::pb::{self, figure_service_server::FigureService};
+use sinew_wire::status::Fault;
 use tonic::{Request, Response, Status};
 
 #[tonic::async_trait]

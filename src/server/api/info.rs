@@ -1,13 +1,13 @@
 //! `ServerService`.
 
 use super::{Api, answer, caller};
-use crate::server::access::roles::Role;
-use crate::server::engine::{BUILTIN_NAMES, CAPABILITIES};
-use crate::server::tick::scheduler::Priority;
-use crate::sim::figure::Flags;
-use crate::wire::convert::{server, timestamp};
-use crate::wire::frame::FIELD_NAMES;
-use crate::wire::pb::{self, server_service_server::ServerService};
+use crate::access::roles::Role;
+use crate::engine::{BUILTIN_NAMES, CAPABILITIES};
+use crate::tick::scheduler::Priority;
+use sinew_physics::figure::Flags;
+use sinew_wire::convert::{server, timestamp};
+use sinew_wire::frame::FIELD_NAMES;
+use sinew_wire::pb::{self, server_service_server::ServerService};
 use tonic::{Request, Response, Status};
 
 #[tonic::async_trait]

@@ -2,14 +2,14 @@
 //! and no faster than the viewer reads, until what is held as frames goes on from there.
 
 use super::App;
-use crate::server::shares::Client;
-use crate::server::tick::journal::Segment;
-use crate::server::tick::replay::{Replay, ReplayError};
-use crate::server::tick::scene::Scene;
-use crate::server::workers::Turn;
-use crate::server::worlds::WorldHandle;
-use crate::wire::status::Fault;
-use crate::wire::types::{RosterEntry, Snapshot};
+use crate::shares::Client;
+use crate::tick::journal::Segment;
+use crate::tick::replay::{Replay, ReplayError};
+use crate::tick::scene::Scene;
+use crate::workers::Turn;
+use crate::worlds::WorldHandle;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{RosterEntry, Snapshot};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 

@@ -2,11 +2,11 @@
 
 use super::permit::Permit;
 use super::{refusal, stopped};
-use crate::server::access::caller::Caller;
-use crate::server::workers::Turn;
-use crate::wire::pb;
-use crate::wire::status::Fault;
+use crate::access::caller::Caller;
+use crate::workers::Turn;
 use prost::Message as _;
+use sinew_wire::pb;
+use sinew_wire::status::Fault;
 use std::future::{Future, pending};
 use std::time::{Duration, Instant};
 use tokio::sync::mpsc::error::TrySendError;
@@ -164,7 +164,7 @@ impl<P, L> Stream<P, L> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::server::workers::Pool;
+    use crate::workers::Pool;
 
     #[tokio::test(flavor = "multi_thread")]
     async fn who_does_not_read_gives_way_to_others() {

@@ -41,12 +41,12 @@ use super::shares::{Client, Place, Places};
 use super::tick::command::Origin;
 use super::workers::Pool;
 use super::worlds::{Leaving, Registry, WorldHandle};
-use crate::sim::retarget;
-use crate::wire::convert::{client_id, world_name};
-use crate::wire::pb;
-use crate::wire::repeatable::Repeatable;
-use crate::wire::status::Fault;
 use bytes::Bytes;
+use sinew_physics::retarget;
+use sinew_wire::convert::{client_id, world_name};
+use sinew_wire::pb;
+use sinew_wire::repeatable::Repeatable;
+use sinew_wire::status::Fault;
 use std::future::Future;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -278,7 +278,7 @@ impl App {
         field: &str,
         name: &'a str,
     ) -> Result<(Arc<WorldHandle>, &'a str), Fault> {
-        let (world, figure) = crate::wire::convert::figure_name(field, name)?;
+        let (world, figure) = sinew_wire::convert::figure_name(field, name)?;
         let handle = self.enter_for(caller(request)?, world, &[figure])?;
         Ok((handle, figure))
     }
@@ -424,8 +424,8 @@ impl App {
     async fn body(
         self: &Arc<Self>,
         field: &'static str,
-        reference: &crate::wire::types::BodyRef,
-    ) -> Result<Arc<crate::sim::body::Body>, Fault> {
+        reference: &sinew_wire::types::BodyRef,
+    ) -> Result<Arc<sinew_physics::body::Body>, Fault> {
         let (app, reference) = (self.clone(), reference.clone());
         tokio::task::spawn_blocking(move || app.bodies.get(field, &reference))
             .await

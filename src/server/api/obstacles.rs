@@ -1,10 +1,10 @@
 //! `ObstacleService`.
 
 use super::{Api, answer, caller, origin};
-use crate::wire::convert::names::OBSTACLE;
-use crate::wire::convert::{new_id, obstacle, obstacle_name, page};
-use crate::wire::pb::{self, obstacle_service_server::ObstacleService};
-use crate::wire::status::Fault;
+use sinew_wire::convert::names::OBSTACLE;
+use sinew_wire::convert::{new_id, obstacle, obstacle_name, page};
+use sinew_wire::pb::{self, obstacle_service_server::ObstacleService};
+use sinew_wire::status::Fault;
 use tonic::{Request, Response, Status};
 
 #[tonic::async_trait]

@@ -1,14 +1,14 @@
 //! `OperationService`.
 
 use super::{Api, answer, caller, client, clips, encoded, refusal, simulation, stopped, upload};
-use crate::server::encoded::Encoded;
-use crate::server::operations::{Operation, State};
-use crate::wire::convert::names::OPERATION;
-use crate::wire::convert::{duration, operation_name, page, timestamp};
-use crate::wire::pb::operation::Result as Done;
-use crate::wire::pb::operation_service_server::OperationService;
-use crate::wire::pb::{self, start_operation_request::Work};
-use crate::wire::status::{Fault, rpc_status};
+use crate::encoded::Encoded;
+use crate::operations::{Operation, State};
+use sinew_wire::convert::names::OPERATION;
+use sinew_wire::convert::{duration, operation_name, page, timestamp};
+use sinew_wire::pb::operation::Result as Done;
+use sinew_wire::pb::operation_service_server::OperationService;
+use sinew_wire::pb::{self, start_operation_request::Work};
+use sinew_wire::status::{Fault, rpc_status};
 use std::time::Duration;
 use tonic::{Request, Response, Status};
 

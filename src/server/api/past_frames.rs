@@ -1,15 +1,15 @@
 //! Frames of the past of a world: it is simulated again, and shown as it goes.
 
 use super::long;
-use crate::server::progress::Progress;
-use crate::server::tick::journal::Segment;
-use crate::server::tick::replay::{Replay, ReplayError};
-use crate::server::tick::scene::Scene;
-use crate::server::workers::Turn;
-use crate::wire::frame::{roster, world_frame};
-use crate::wire::pb;
-use crate::wire::status::Fault;
-use crate::wire::types::{RosterEntry, ViewSpec};
+use crate::progress::Progress;
+use crate::tick::journal::Segment;
+use crate::tick::replay::{Replay, ReplayError};
+use crate::tick::scene::Scene;
+use crate::workers::Turn;
+use sinew_wire::frame::{roster, world_frame};
+use sinew_wire::pb;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{RosterEntry, ViewSpec};
 use std::sync::Arc;
 use std::time::Instant;
 

@@ -1,10 +1,10 @@
 //! How long a stream may go on: as long as its caller has the role that it was opened with, and its proof of identity.
 
 use super::{App, stopped};
-use crate::server::access::caller::Caller;
-use crate::server::worlds::WorldHandle;
-use crate::server::worlds::usage::InUse;
-use crate::wire::status::Fault;
+use crate::access::caller::Caller;
+use crate::worlds::WorldHandle;
+use crate::worlds::usage::InUse;
+use sinew_wire::status::Fault;
 use std::future::Future;
 use std::pin::Pin;
 use std::sync::Arc;

@@ -1,9 +1,9 @@
 //! `PerturbationService`.
 
 use super::{Api, caller, origin};
-use crate::server::access::caller::Caller;
-use crate::wire::convert::{client_id, perturbation};
-use crate::wire::pb::{self, perturbation_service_server::PerturbationService};
+use crate::access::caller::Caller;
+use sinew_wire::convert::{client_id, perturbation};
+use sinew_wire::pb::{self, perturbation_service_server::PerturbationService};
 use std::sync::Arc;
 use tonic::{Request, Response, Status};
 
@@ -71,8 +71,8 @@ impl PerturbationService for Api {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::server::access::caller::{Claims, Identity};
-    use crate::server::access::roles::Rule;
+    use crate::access::caller::{Claims, Identity};
+    use crate::access::roles::Rule;
 
     fn from(principal: &str, connection: &str) -> Caller {
         let identity = Identity {

@@ -1,21 +1,21 @@
 //! `SimulationService`.
 
 use super::{Api, caller, client, encoded, long, memory, refusal, upload};
-use crate::server::access::caller::Caller;
-use crate::server::edge::Upload;
-use crate::server::encoded::Encoded;
-use crate::server::engine::{self, Clip};
-use crate::server::library::Manner;
-use crate::server::progress::Progress;
-use crate::server::shares::Client;
-use crate::server::simulate::{self, Limits, Sink};
-use crate::server::workers::Turn;
-use crate::sim::body::Body;
-use crate::sim::plan::cycle;
-use crate::wire::convert::simulation::{self, Source};
-use crate::wire::pb::{self, simulation_service_server::SimulationService};
-use crate::wire::status::Fault;
-use crate::wire::types::{MotionSource, ReadingReport, SimulationSettings};
+use crate::access::caller::Caller;
+use crate::edge::Upload;
+use crate::encoded::Encoded;
+use crate::engine::{self, Clip};
+use crate::library::Manner;
+use crate::progress::Progress;
+use crate::shares::Client;
+use crate::simulate::{self, Limits, Sink};
+use crate::workers::Turn;
+use sinew_physics::body::Body;
+use sinew_physics::plan::cycle;
+use sinew_wire::convert::simulation::{self, Source};
+use sinew_wire::pb::{self, simulation_service_server::SimulationService};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{MotionSource, ReadingReport, SimulationSettings};
 use std::sync::Arc;
 use std::time::Instant;
 use tonic::{Request, Response, Status};

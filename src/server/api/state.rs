@@ -4,11 +4,11 @@ use super::late::Late;
 use super::permit::Permit;
 use super::watching::Before;
 use super::{Api, answer, caller, client, refusal, watching};
-use crate::wire::convert::state;
-use crate::wire::frame::{roster, world_frame};
-use crate::wire::pb::{self, state_service_server::StateService};
-use crate::wire::status::Fault;
-use crate::wire::types::{Snapshot, ViewSpec};
+use sinew_wire::convert::state;
+use sinew_wire::frame::{roster, world_frame};
+use sinew_wire::pb::{self, state_service_server::StateService};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{Snapshot, ViewSpec};
 use tonic::{Request, Response, Status};
 
 /// Checks that the figures of a view are in the world.

@@ -3,15 +3,15 @@
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
 use super::*;
-use crate::server::access::caller::Identity;
-use crate::server::checkpoints::Kept;
-use crate::server::durable::local::LocalStore;
-use crate::server::durable::store::CheckpointStore;
-use crate::server::progress::Progress;
-use crate::server::testing::{Temporary, close};
-use crate::wire::convert::world::settings;
-use crate::wire::types::WorldSettings;
+use crate::access::caller::Identity;
+use crate::checkpoints::Kept;
+use crate::durable::local::LocalStore;
+use crate::durable::store::CheckpointStore;
+use crate::progress::Progress;
+use crate::testing::{Temporary, close};
 use futures_util::FutureExt;
+use sinew_wire::convert::world::settings;
+use sinew_wire::types::WorldSettings;
 
 fn titled(title: &str) -> WorldSettings {
     let world = pb::World {

@@ -1,13 +1,13 @@
 //! `WorldService`.
 
 use super::{Api, answer, caller, client, first_grants, origin};
-use crate::server::access::roles::Role;
-use crate::server::repeats::to_the_end;
-use crate::server::tick::shard::{Shard, StepRequest};
-use crate::wire::convert::{count, new_id, page, world, world_name};
-use crate::wire::pb::{self, world_service_server::WorldService};
-use crate::wire::status::Fault;
-use crate::wire::types::{WorldInfo, WorldUpdate};
+use crate::access::roles::Role;
+use crate::repeats::to_the_end;
+use crate::tick::shard::{Shard, StepRequest};
+use sinew_wire::convert::{count, new_id, page, world, world_name};
+use sinew_wire::pb::{self, world_service_server::WorldService};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{WorldInfo, WorldUpdate};
 use std::sync::Arc;
 use tokio::sync::oneshot;
 use tonic::{Request, Response, Status};

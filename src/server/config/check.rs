@@ -1,11 +1,11 @@
 //! Whether what the settings name can be used: files, directories, addresses. Nothing is changed.
 
 use super::Config;
-use crate::server::access::keys::KeySource;
-use crate::server::access::tls::Tls;
-use crate::server::access::tokens::read_secret;
-use crate::server::durable::local::LocalStore;
-use crate::server::telemetry;
+use crate::access::keys::KeySource;
+use crate::access::tls::Tls;
+use crate::access::tokens::read_secret;
+use crate::durable::local::LocalStore;
+use crate::telemetry;
 use std::net::TcpListener;
 use std::path::Path;
 

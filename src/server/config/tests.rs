@@ -28,7 +28,7 @@ fn later_sources_win() {
 
 #[test]
 fn the_example_files_are_true() {
-    let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("deploy/config");
+    let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../deploy/config");
     let load = |name: &str| Config::load(Some(&dir.join(name)), std::iter::empty(), &[]);
     assert_eq!(load("sinew.toml").unwrap(), Config::default());
     let text = std::fs::read_to_string(dir.join("sinew.toml")).unwrap();
@@ -43,7 +43,7 @@ fn the_example_files_are_true() {
 
 #[test]
 fn the_manual_lists_every_setting_with_its_words() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/operations.md");
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/operations.md");
     let page = std::fs::read_to_string(page).unwrap();
     for (name, words, _) in Config::default().table() {
         let row = page

@@ -15,7 +15,7 @@ use super::local::LocalStore;
 use super::memory::{Disk, MemoryStore};
 use super::recovery::recover;
 use super::store::*;
-use crate::server::testing::Temporary;
+use crate::testing::Temporary;
 use bytes::Bytes;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};

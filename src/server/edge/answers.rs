@@ -4,9 +4,8 @@
 use super::Edge;
 use super::connections::Open;
 use super::replies::Whole;
-use crate::server::encoded::Encoded;
-use crate::server::telemetry::count_refusal;
-use crate::wire::DESCRIPTOR_SET;
+use crate::encoded::Encoded;
+use crate::telemetry::count_refusal;
 use axum::body::{Body, Bytes};
 use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderValue};
@@ -14,6 +13,7 @@ use axum::middleware::Next;
 use axum::response::Response;
 use http_body::{Body as HttpBody, Frame};
 use prost::Message as _;
+use sinew_wire::DESCRIPTOR_SET;
 use std::collections::{HashSet, VecDeque};
 use std::future::poll_fn;
 use std::pin::Pin;
@@ -46,7 +46,7 @@ static UNARY: LazyLock<HashSet<String>> = LazyLock::new(|| {
 pub(super) struct Counted;
 
 /// Makes answers whole, and refuses those that there is no room for.
-pub(in crate::server) async fn answers(
+pub(crate) async fn answers(
     State(edge): State<Arc<Edge>>,
     request: Request,
     next: Next,
@@ -171,8 +171,8 @@ impl HttpBody for Answer {
 mod tests {
     use super::super::connections::Peer;
     use super::*;
-    use crate::server::config::Config;
-    use crate::wire::pb;
+    use crate::config::Config;
+    use sinew_wire::pb;
 
     fn edge() -> Arc<Edge> {
         Edge::new(&Config {

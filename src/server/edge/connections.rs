@@ -35,7 +35,7 @@ const FIRST_WORD: Duration = Duration::from_millis(25);
 const LOG_EVERY: Duration = Duration::from_secs(10);
 /// Part of their greatest age by which connections are asked to close sooner or later, so that those that came
 /// together do not come again together.
-pub(in crate::server) const AGE_SPREAD: f64 = 0.1;
+pub(crate) const AGE_SPREAD: f64 = 0.1;
 /// Pause after a connection could not be accepted, for example for want of file handles.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(20);
 
@@ -72,7 +72,7 @@ impl Why {
 
 /// One connection, as the rest of the server sees it.
 #[derive(Debug)]
-pub(in crate::server) struct Peer {
+pub(crate) struct Peer {
     /// Where it comes from.
     pub address: SocketAddr,
     /// Whether it is beyond the limits.
@@ -149,7 +149,7 @@ impl Peer {
     }
 
     /// The certificate that the client has shown and that was verified.
-    pub(in crate::server) fn certificate(&self) -> Option<&CertificateDer<'static>> {
+    pub(crate) fn certificate(&self) -> Option<&CertificateDer<'static>> {
         self.certificate.get()
     }
 
@@ -194,7 +194,7 @@ impl Peer {
 
 /// The connections that are open.
 #[derive(Debug)]
-pub(in crate::server) struct Doors {
+pub(crate) struct Doors {
     most: usize,
     most_per_address: usize,
     first_request: Duration,
@@ -387,7 +387,7 @@ enum Transport {
 }
 
 /// A connection that leaves when it is dropped.
-pub(in crate::server) struct Connection {
+pub(crate) struct Connection {
     transport: Transport,
     peer: Arc<Peer>,
     number: u64,
@@ -399,7 +399,7 @@ pub(in crate::server) struct Connection {
 }
 
 /// Connections as they come.
-pub(in crate::server) fn incoming(
+pub(crate) fn incoming(
     listener: TcpListener,
     doors: Arc<Doors>,
     tls: Option<Tls>,

@@ -2,8 +2,7 @@
 //! have, and requests that take too long end as such.
 
 use super::Edge;
-use crate::server::telemetry::count_refusal;
-use crate::wire::status::{Fault, is_explained};
+use crate::telemetry::count_refusal;
 use axum::body::{Body, Bytes};
 use axum::extract::{Request, State};
 use axum::http::HeaderMap;
@@ -11,6 +10,7 @@ use axum::middleware::Next;
 use axum::response::Response;
 use http_body::Frame;
 use http_body_util::BodyExt as _;
+use sinew_wire::status::{Fault, is_explained};
 use std::sync::Arc;
 use std::time::Duration;
 use tonic::{Code, Status};
@@ -65,7 +65,7 @@ fn timeout(headers: &HeaderMap) -> Option<Duration> {
 }
 
 /// Ends requests that take too long, and sees to it that every error says why.
-pub(in crate::server) async fn reasons(
+pub(crate) async fn reasons(
     State(edge): State<Arc<Edge>>,
     request: Request,
     next: Next,

@@ -4,9 +4,9 @@
 //! it were its own. Its name is in `Host`, and in `Origin` if the page comes from elsewhere. So only names that are
 //! known are answered. An address in place of a name is always safe: it cannot be rebound.
 
-use crate::server::config::Config;
-use crate::wire::status::Fault;
+use crate::config::Config;
 use axum::http::{HeaderMap, Uri, header, uri::Authority};
+use sinew_wire::status::Fault;
 use std::net::{Ipv4Addr, Ipv6Addr};
 
 /// Names of this machine on itself.
@@ -16,7 +16,7 @@ const ECHO: usize = 80;
 
 /// The names that are known.
 #[derive(Debug)]
-pub(in crate::server) struct Hosts {
+pub(crate) struct Hosts {
     names: Vec<String>,
     origins: Vec<String>,
 }
@@ -130,7 +130,7 @@ impl Hosts {
     }
 
     /// Whether pages of this origin may call the server.
-    pub(in crate::server) fn allows(&self, origin: &str) -> bool {
+    pub(crate) fn allows(&self, origin: &str) -> bool {
         is_local_origin(origin) || self.origins.iter().any(|o| o.eq_ignore_ascii_case(origin))
     }
 }

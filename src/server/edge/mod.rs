@@ -16,7 +16,6 @@ pub(super) use requests::{Upload, sizes};
 
 use super::config::Config;
 use super::telemetry::count_refusal;
-use crate::wire::status::Fault;
 use axum::body::Body;
 use axum::extract::{Request, State};
 use axum::http::header;
@@ -26,6 +25,7 @@ use connections::{Doors, Peer};
 use hosts::Hosts;
 use replies::{Reply, Unread};
 use requests::Uploads;
+use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;

@@ -9,9 +9,9 @@
 //! that has no room is refused: it would wait in memory.
 
 use super::connections::{Open, Why};
-use crate::wire::status::Fault;
 use axum::body::{Body, Bytes};
 use http_body::{Body as HttpBody, Frame, SizeHint};
+use sinew_wire::status::Fault;
 use std::collections::BTreeMap;
 use std::pin::Pin;
 use std::sync::atomic::{AtomicU64, Ordering};

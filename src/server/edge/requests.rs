@@ -1,16 +1,16 @@
 //! Sizes of requests, checked by the five bytes in front of each message, before anything is set aside for it.
 
 use super::Edge;
-use crate::server::api;
-use crate::server::config::Config;
-use crate::server::http::unknown_method;
-use crate::server::telemetry::count_refusal;
-use crate::wire::status::Fault;
+use crate::api;
+use crate::config::Config;
+use crate::http::unknown_method;
+use crate::telemetry::count_refusal;
 use axum::body::{Body, Bytes};
 use axum::extract::{Request, State};
 use axum::middleware::Next;
 use axum::response::Response;
 use http_body::{Body as HttpBody, Frame, SizeHint};
+use sinew_wire::status::Fault;
 use std::pin::Pin;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll};
@@ -44,7 +44,7 @@ pub(super) struct Uploads {
 /// The part of `max_pending_bytes` that a request takes. Work that holds the request holds this, too: beside the call
 /// itself it may wait for its turn in an operation, or go on when its client is gone.
 #[derive(Clone, Debug, Default)]
-pub(in crate::server) struct Upload(Arc<Mutex<Option<OwnedSemaphorePermit>>>);
+pub(crate) struct Upload(Arc<Mutex<Option<OwnedSemaphorePermit>>>);
 
 impl Upload {
     fn set(&self, permit: Option<OwnedSemaphorePermit>) {
@@ -81,11 +81,7 @@ impl Uploads {
 }
 
 /// Bounds what the messages of a call may take.
-pub(in crate::server) async fn sizes(
-    State(edge): State<Arc<Edge>>,
-    request: Request,
-    next: Next,
-) -> Response {
+pub(crate) async fn sizes(State(edge): State<Arc<Edge>>, request: Request, next: Next) -> Response {
     let path = request.uri().path();
     let uploads = &edge.uploads;
     let limit = if api::UPLOADS.contains(&path) {

@@ -1,11 +1,11 @@
 //! Views of one world: for each that someone watches, a task that encodes the latest frame and hands the bytes to all
 //! its viewers.
 
-use crate::server::shares::{Client, check_part};
-use crate::wire::frame::{shared_frame, shared_roster};
-use crate::wire::status::Fault;
-use crate::wire::types::{Snapshot, ViewSpec};
+use crate::shares::{Client, check_part};
 use prost::bytes::Bytes;
+use sinew_wire::frame::{shared_frame, shared_roster};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{Snapshot, ViewSpec};
 use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -231,7 +231,7 @@ async fn encode(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wire::convert::state::view;
+    use sinew_wire::convert::state::view;
 
     fn snapshot(tick: u64) -> Arc<Snapshot> {
         Arc::new(Snapshot {

@@ -10,14 +10,14 @@
 
 pub use super::playout::Now;
 use super::playout::{Due as Pace, Playout, is_time};
-use crate::server::engine;
-use crate::sim::body::{Body, NV, Posture};
-use crate::sim::math::Quat;
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::plan::stream::is_same;
-use crate::wire::types::{Delay, DriveSettings, Supply};
+use crate::engine;
 pub use seam::Seam;
 use serde::{Deserialize, Serialize};
+use sinew_physics::body::{Body, NV, Posture};
+use sinew_physics::math::Quat;
+use sinew_physics::motion::{Target, TargetPair};
+use sinew_physics::plan::stream::is_same;
+use sinew_wire::types::{Delay, DriveSettings, Supply};
 use std::cell::Cell;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -52,7 +52,7 @@ pub struct Frame {
     /// Desired posture.
     pub posture: Posture,
     /// Desired velocity.
-    #[serde(with = "crate::server::ingest::saved::optional_array")]
+    #[serde(with = "crate::ingest::saved::optional_array")]
     pub velocity: Option<Box<[f64; NV]>>,
     /// Planted feet, if the driver named them.
     pub planted: Option<[bool; 2]>,
@@ -167,13 +167,13 @@ pub struct JitterBuffer {
     /// What was asked for at the end of the last tick.
     last: Target,
     /// Difference to a jump of the desired motion, and when it began to fade (world s).
-    #[serde(with = "crate::server::ingest::saved::timed_array")]
+    #[serde(with = "crate::ingest::saved::timed_array")]
     blend: Option<(Box<[f64; NV]>, f64)>,
     /// Time over which it fades, s.
     blend_time: f64,
     /// Quiet standing.
     stand: Posture,
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "sinew_physics::saved::definition")]
     body: Arc<Body>,
     grid: Grid,
 }
@@ -678,7 +678,7 @@ impl JitterBuffer {
 
     /// Quiet standing where the held posture has its pelvis.
     fn standing(&self, held: &Posture) -> Posture {
-        use crate::sim::math::{Quat, Vec3};
+        use sinew_physics::math::{Quat, Vec3};
         let mut p = self.stand;
         p.root_position.x = held.root_position.x;
         p.root_position.y = held.root_position.y;

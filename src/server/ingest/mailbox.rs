@@ -5,8 +5,8 @@
 //! queue, so a driver who floods his mailbox harms no one else.
 
 use super::admission::{Admission, FRAME_BURST, FRAMES_PER_SECOND};
-use crate::wire::status::Fault;
-use crate::wire::types::{Feedback, MotionSample};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{Feedback, MotionSample};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
@@ -370,9 +370,9 @@ mod tests {
     fn a_world_whose_thread_never_looks_does_not_collect_motion_without_bound() {
         let start = Instant::now();
         let m = Mailbox::new(me(), vec!["a".into()], None, start);
-        let figure = crate::wire::types::FigureSample {
+        let figure = sinew_wire::types::FigureSample {
             slot: 0,
-            posture: crate::sim::body::Posture::default(),
+            posture: sinew_physics::body::Posture::default(),
             has_root: false,
             velocity: None,
             planted: None,

@@ -4,8 +4,8 @@
 //! the driver's own clock does while the world's clock runs, and stands still with it. Motion is played in world time:
 //! in a world that leaves ticks out it falls behind and is never too fast for the body, and it catches up slowly.
 
-use crate::wire::types::{Delay, DriveSettings};
 use serde::{Deserialize, Serialize};
+use sinew_wire::types::{Delay, DriveSettings};
 use std::collections::VecDeque;
 
 /// Arrivals that the jitter is measured over.

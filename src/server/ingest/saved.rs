@@ -1,12 +1,12 @@
 //! Derives of live motion that is written into a checkpoint.
 
-/// An array that may be missing, in a box: `#[serde(with = "crate::server::ingest::saved::optional_array")]`.
+/// An array that may be missing, in a box: `#[serde(with = "crate::ingest::saved::optional_array")]`.
 pub mod optional_array {
-    use crate::sim::body::NV;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use sinew_physics::body::NV;
 
     #[derive(Serialize, Deserialize)]
-    pub(super) struct Array(#[serde(with = "crate::sim::saved::array")] pub(super) [f64; NV]);
+    pub(super) struct Array(#[serde(with = "sinew_physics::saved::array")] pub(super) [f64; NV]);
 
     /// Writes it.
     ///
@@ -33,8 +33,8 @@ pub mod optional_array {
 /// The same with a time beside it.
 pub mod timed_array {
     use super::optional_array::Array;
-    use crate::sim::body::NV;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use sinew_physics::body::NV;
 
     /// Writes it.
     ///

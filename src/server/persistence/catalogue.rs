@@ -1,7 +1,7 @@
 //! Which stored world has which name.
 
-use crate::server::durable::recovery::Recovered;
-use crate::server::durable::store::{WorldKey, WorldRecord};
+use crate::durable::recovery::Recovered;
+use crate::durable::store::{WorldKey, WorldRecord};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -101,7 +101,7 @@ impl Catalogue {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::server::durable::store::{Durability, History};
+    use crate::durable::store::{Durability, History};
 
     fn world(name: &str, key: u64) -> WorldRecord {
         WorldRecord {

@@ -2,16 +2,16 @@
 
 use super::described::DescribedClip;
 use super::{Persistence, Writing, storage};
-use crate::server::api::App;
-use crate::server::durable::store::{CheckpointStore, ClipRecord, RehearsalRecord};
-use crate::server::library::NewClip;
-use crate::server::rehearsals::Rehearsed;
-use crate::wire::convert::{body, motion};
-use crate::wire::pb;
-use crate::wire::status::Fault;
-use crate::wire::types::{ClipInfo, FollowSettings};
+use crate::api::App;
+use crate::durable::store::{CheckpointStore, ClipRecord, RehearsalRecord};
+use crate::library::NewClip;
+use crate::rehearsals::Rehearsed;
 use bytes::Bytes;
 use prost::Message;
+use sinew_wire::convert::{body, motion};
+use sinew_wire::pb;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{ClipInfo, FollowSettings};
 use std::sync::Arc;
 
 impl Persistence {

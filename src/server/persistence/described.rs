@@ -1,13 +1,13 @@
 //! How worlds and clips are described on disk: everything but the states of worlds and the content of clips.
 
-use crate::server::api::access;
-use crate::server::recordings::{Recordings, StoredRecording};
-use crate::server::shares::comes_back;
-use crate::server::worlds::WorldHandle;
-use crate::wire::convert::{figure, obstacle, world};
-use crate::wire::pb;
-use crate::wire::types::{ControlInfo, KeptLease};
+use crate::api::access;
+use crate::recordings::{Recordings, StoredRecording};
+use crate::shares::comes_back;
+use crate::worlds::WorldHandle;
 use prost::Message;
+use sinew_wire::convert::{figure, obstacle, world};
+use sinew_wire::pb;
+use sinew_wire::types::{ControlInfo, KeptLease};
 use std::time::Duration;
 
 /// What is stored of a world besides its states.

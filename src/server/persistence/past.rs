@@ -1,14 +1,14 @@
 //! The past of a world as the log has it: its last state, and the parts that recordings keep.
 
 use super::Persistence;
-use crate::server::checkpoints;
-use crate::server::durable::store::{self, History, Item, WorldKey, WorldRecord};
-use crate::server::recordings::StoredRecording;
-use crate::server::tick::journal::{self, Logged, Segment};
-use crate::server::tick::replay::{Replay, ReplayError};
-use crate::server::tick::scene::Scene;
-use crate::server::worlds::WorldHandle;
-use crate::wire::status::Fault;
+use crate::checkpoints;
+use crate::durable::store::{self, History, Item, WorldKey, WorldRecord};
+use crate::recordings::StoredRecording;
+use crate::tick::journal::{self, Logged, Segment};
+use crate::tick::replay::{Replay, ReplayError};
+use crate::tick::scene::Scene;
+use crate::worlds::WorldHandle;
+use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 

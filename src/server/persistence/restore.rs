@@ -2,13 +2,13 @@
 
 use super::described::{Described, StoredControl};
 use super::{Persistence, clips, origin, past};
-use crate::server::api::{App, access};
-use crate::server::durable::store::{History, WorldKey, WorldRecord};
-use crate::server::worlds::{Stored, WorldHandle};
-use crate::wire::convert::{figure, new_id, obstacle, world};
-use crate::wire::status::Fault;
-use crate::wire::types::WorldUpdate;
+use crate::api::{App, access};
+use crate::durable::store::{History, WorldKey, WorldRecord};
+use crate::worlds::{Stored, WorldHandle};
 use prost::Message;
+use sinew_wire::convert::{figure, new_id, obstacle, world};
+use sinew_wire::status::Fault;
+use sinew_wire::types::WorldUpdate;
 use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 

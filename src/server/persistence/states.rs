@@ -1,12 +1,12 @@
 //! The states of worlds go to the disk while they run.
 
 use super::{Persistence, origin};
-use crate::server::api::App;
-use crate::server::checkpoints;
-use crate::server::durable::store::Durability;
-use crate::server::tick::shard::Shard;
-use crate::server::worlds::{Stored, WorldHandle};
-use crate::wire::status::Fault;
+use crate::api::App;
+use crate::checkpoints;
+use crate::durable::store::Durability;
+use crate::tick::shard::Shard;
+use crate::worlds::{Stored, WorldHandle};
+use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::time::Duration;
 

@@ -3,12 +3,12 @@
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
 use super::*;
-use crate::server::api::App;
-use crate::server::durable::store::WorldKey;
-use crate::server::testing::{Temporary, close};
-use crate::server::worlds::WorldHandle;
-use crate::wire::convert::world::settings;
-use crate::wire::pb;
+use crate::api::App;
+use crate::durable::store::WorldKey;
+use crate::testing::{Temporary, close};
+use crate::worlds::WorldHandle;
+use sinew_wire::convert::world::settings;
+use sinew_wire::pb;
 
 /// A world that was created, and whether that could be written.
 async fn created(app: &App, id: Option<&str>) -> (Arc<WorldHandle>, Result<(), Fault>) {

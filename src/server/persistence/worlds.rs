@@ -2,10 +2,10 @@
 
 use super::described::Described;
 use super::{Persistence, states, storage};
-use crate::server::durable::store::{CheckpointStore, Durability, WorldKey, WorldRecord};
-use crate::server::worlds::{Stored, WorldHandle};
-use crate::wire::status::Fault;
+use crate::durable::store::{CheckpointStore, Durability, WorldKey, WorldRecord};
+use crate::worlds::{Stored, WorldHandle};
 use prost::Message;
+use sinew_wire::status::Fault;
 use std::sync::Arc;
 
 impl Persistence {

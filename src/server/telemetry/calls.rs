@@ -1,6 +1,6 @@
 //! What becomes of each call: how long it takes, how it ends, and, in a build with traces, its span.
 
-use crate::server::access::roles;
+use crate::access::roles;
 use axum::body::{Body, Bytes};
 use axum::extract::Request;
 use axum::http::HeaderMap;
@@ -66,13 +66,13 @@ fn short(path: &'static str) -> &'static str {
 
 /// What those who handle a call note about it.
 #[derive(Debug, Default)]
-pub(in crate::server) struct Note {
+pub(crate) struct Note {
     principal_kind: OnceLock<&'static str>,
 }
 
 impl Note {
     /// Notes who asks: `user`, `cert` or `anonymous`.
-    pub(in crate::server) fn principal(&self, name: &str) {
+    pub(crate) fn principal(&self, name: &str) {
         let kinds = ["user", "cert"];
         let kind = kinds.into_iter().find(|k| name.starts_with(k));
         let _ = self.principal_kind.set(kind.unwrap_or("anonymous"));
@@ -80,7 +80,7 @@ impl Note {
 }
 
 /// Sees a call from its arrival to the end of its answer.
-pub(in crate::server) async fn observe(mut request: Request, next: Next) -> Response {
+pub(crate) async fn observe(mut request: Request, next: Next) -> Response {
     let method = roles::known(request.uri().path());
     let call = Call {
         seconds: method

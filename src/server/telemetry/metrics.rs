@@ -368,7 +368,7 @@ fn begin(m: &Metric) {
 /// The text of the page; `None`: another recorder was installed by the program that embeds this one.
 ///
 /// What is not counted where it happens is looked at now: the process, and the tasks of the runtime that calls this.
-pub(in crate::server) fn render() -> Option<String> {
+pub(crate) fn render() -> Option<String> {
     let handle = metrics()?;
     metrics_process::Collector::default().collect();
     if let Ok(runtime) = tokio::runtime::Handle::try_current() {
@@ -379,7 +379,7 @@ pub(in crate::server) fn render() -> Option<String> {
 }
 
 /// Where ticks and their times are counted. A tick looks nothing up.
-pub(in crate::server) struct TickMeters {
+pub(crate) struct TickMeters {
     /// A whole tick.
     pub total: Histogram,
     /// How late it began.
@@ -399,7 +399,7 @@ pub(in crate::server) struct TickMeters {
 }
 
 /// The meters of ticks.
-pub(in crate::server) fn ticks() -> &'static TickMeters {
+pub(crate) fn ticks() -> &'static TickMeters {
     static METERS: OnceLock<TickMeters> = OnceLock::new();
     METERS.get_or_init(|| {
         metrics(); // before: handles of no recorder count nothing
@@ -419,7 +419,7 @@ pub(in crate::server) fn ticks() -> &'static TickMeters {
 }
 
 /// Where frames are counted that are sent: nothing is looked up for one.
-pub(in crate::server) fn frames_sent() -> &'static metrics::Counter {
+pub(crate) fn frames_sent() -> &'static metrics::Counter {
     static SENT: OnceLock<metrics::Counter> = OnceLock::new();
     SENT.get_or_init(|| {
         metrics(); // before: handles of no recorder count nothing
@@ -428,11 +428,11 @@ pub(in crate::server) fn frames_sent() -> &'static metrics::Counter {
 }
 
 /// Counts how long something is done with a checkpoint: until it is dropped.
-pub(in crate::server) struct CheckpointTimer(&'static str, Instant);
+pub(crate) struct CheckpointTimer(&'static str, Instant);
 
 impl CheckpointTimer {
     /// Begins one of the operations of `sinew_checkpoint_seconds`.
-    pub(in crate::server) fn new(operation: &'static str) -> Self {
+    pub(crate) fn new(operation: &'static str) -> Self {
         Self(operation, Instant::now())
     }
 }
@@ -451,7 +451,8 @@ mod tests {
     /// The rows of the manual, in this order and these words.
     #[test]
     fn the_manual_lists_every_metric_with_its_words() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/operations.md");
+        let path =
+            std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/operations.md");
         let page = std::fs::read_to_string(&path).unwrap();
         let rows: Vec<String> = METRICS
             .iter()

@@ -8,7 +8,7 @@ pub mod traces;
 pub use metrics::metrics;
 
 use super::config::Config;
-use crate::wire::status::Fault;
+use sinew_wire::status::Fault;
 use tracing_subscriber::EnvFilter;
 
 /// Counts a request that is refused, by reason, and logs it.

@@ -3,7 +3,7 @@
 //! Spans go through a bounded queue to a thread of their own, which drops what it cannot send: a collector that is slow
 //! or away holds nothing up. A client may name the trace that it is in; whether it is sampled, the settings say.
 
-use crate::server::config::Config;
+use crate::config::Config;
 use axum::http::HeaderMap;
 use opentelemetry::propagation::{Extractor, TextMapPropagator};
 use opentelemetry::trace::{
@@ -162,7 +162,7 @@ impl CallSpan {
 }
 
 /// Makes the spans of a tick that ends now, of a few: those of its stages, `names` and `times`, one after the other.
-pub(in crate::server) fn tick(names: &[&'static str], times: &[Duration]) {
+pub(crate) fn tick(names: &[&'static str], times: &[Duration]) {
     let Some(traces) = TRACES.get().filter(|t| t.ticks > 0) else {
         return;
     };

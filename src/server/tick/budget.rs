@@ -5,7 +5,7 @@
 //! crowd that touches) cannot be refused; then worlds that need more than an equal share rest between their ticks, so
 //! that all together take no more than the budget.
 
-use crate::wire::status::Fault;
+use sinew_wire::status::Fault;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Duration;

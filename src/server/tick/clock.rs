@@ -1,6 +1,6 @@
 //! When ticks are due: absolute deadlines, and what happens to those that were missed.
 
-use crate::wire::types::Overrun;
+use sinew_wire::types::Overrun;
 use std::time::{Duration, Instant};
 
 /// Deadlines of one world. Deadlines are multiples of the period from a start, so that they do not drift.

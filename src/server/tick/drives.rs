@@ -1,10 +1,10 @@
 //! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
 
 use super::scene::{PlayerKey, Scene, Window};
-use crate::server::ingest::jitter_buffer::{Counts, Frame};
-use crate::server::ingest::mailbox::{DriverId, Mailbox};
-use crate::wire::status::Fault;
-use crate::wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample};
+use crate::ingest::jitter_buffer::{Counts, Frame};
+use crate::ingest::mailbox::{DriverId, Mailbox};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample};
 use std::cell::Cell;
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -1,7 +1,7 @@
 //! Frames of the last ticks, held for late readers, and what happened that is worth a mark on a time line.
 
-use crate::wire::status::Fault;
-use crate::wire::types::{EventKind, Snapshot, WorldEvent};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{EventKind, Snapshot, WorldEvent};
 use std::collections::VecDeque;
 use std::sync::Arc;
 

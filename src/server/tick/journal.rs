@@ -6,12 +6,12 @@
 //! has a checkpoint with all that followed.
 
 use super::scene::{Record, SavedScene, Scene};
-use crate::server::durable::keeper::{Recorder, Ticket};
-use crate::server::durable::store::{Durability, StoreError};
-use crate::sim::saved::Definition;
-use crate::sim::world::checkpoint::{Capture, read_definitions, write_definitions};
-use crate::wire::status::Fault;
+use crate::durable::keeper::{Recorder, Ticket};
+use crate::durable::store::{Durability, StoreError};
 use bytes::Bytes;
+use sinew_physics::saved::Definition;
+use sinew_physics::world::checkpoint::{Capture, read_definitions, write_definitions};
+use sinew_wire::status::Fault;
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
@@ -602,7 +602,7 @@ fn hand_in(recorder: &Recorder, entry: &Logged) -> Ticket {
 }
 
 fn size_of_definition(definition: &Definition) -> usize {
-    let clip = definition.downcast_ref::<crate::server::engine::Clip>();
+    let clip = definition.downcast_ref::<crate::engine::Clip>();
     clip.map_or(0, |c| c.len() * CLIP_FRAME_BYTES)
 }
 

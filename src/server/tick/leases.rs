@@ -3,9 +3,9 @@
 //! At most one lease per figure. Its token is new whenever it goes to another holder, and the epoch counts that. Who
 //! drives a figure that has no lease has it as long as the drive lasts, by name and without a token (`drives`).
 
-use crate::wire::status::Fault;
-use crate::wire::types::{KeptLease, TokenHash};
 use sha2::{Digest, Sha256};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{KeptLease, TokenHash};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -18,13 +18,13 @@ pub mod scheduler;
 pub mod shard;
 pub mod stage_times;
 
-use crate::server::telemetry::metrics::ticks;
-use crate::wire::status::Fault;
-use crate::wire::types::{Described, EventKind, Snapshot, WorldEvent};
+use crate::telemetry::metrics::ticks;
 use budget::Meter;
 use command::{Inbox, Queue};
 use history::History;
 use shard::Shard;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{Described, EventKind, Snapshot, WorldEvent};
 use stage_times::StageTimes;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -2,7 +2,7 @@
 //!
 //! The queue is bounded. A request that finds no room stays with its figure and is offered again in the next tick.
 
-use crate::server::engine::{PlanRequest, Planning};
+use crate::engine::{PlanRequest, Planning};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;

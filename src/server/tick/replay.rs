@@ -2,8 +2,8 @@
 
 use super::journal::{Logged, Segment};
 use super::scene::{Item, Reader, Scene, Unreadable};
-use crate::server::engine::Planning;
-use crate::wire::status::Fault;
+use crate::engine::Planning;
+use sinew_wire::status::Fault;
 use std::sync::Arc;
 
 /// Why a world is not what was recorded.
@@ -182,7 +182,7 @@ impl Replay {
     fn record(
         &mut self,
         bytes: &[u8],
-        definitions: &[crate::sim::saved::Definition],
+        definitions: &[sinew_physics::saved::Definition],
     ) -> Result<(), ReplayError> {
         let Self {
             scene,

@@ -19,15 +19,15 @@ use super::journal::Journal;
 use super::leases::Leases;
 use super::planners::Planners;
 use super::scene::{Input, PlayerKey, Scene};
-use crate::server::durable::marks::Mark;
-use crate::server::engine::{self, FigureKey, Planning};
-use crate::server::ingest::mailbox::Mailboxes;
-use crate::wire::status::Fault;
-use crate::wire::types::{
+use crate::durable::marks::Mark;
+use crate::engine::{self, FigureKey, Planning};
+use crate::ingest::mailbox::Mailboxes;
+use bounds::Shares;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{
     Described, EventKind, RosterEntry, Snapshot, WorldCondition, WorldEvent, WorldInfo,
     WorldSettings, WorldUpdate,
 };
-use bounds::Shares;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};

@@ -1,6 +1,6 @@
 //! How long the stages of recent ticks took.
 
-use crate::server::telemetry::metrics::ticks;
+use crate::telemetry::metrics::ticks;
 use std::time::Duration;
 
 /// Stages of a tick, in order.
@@ -48,7 +48,7 @@ pub fn count(stages: &[Duration; STAGES.len()], clocked: bool) {
         }
     }
     #[cfg(feature = "otlp")]
-    crate::server::telemetry::traces::tick(&STAGES[1..STAGES.len() - 1], parts);
+    crate::telemetry::traces::tick(&STAGES[1..STAGES.len() - 1], parts);
 }
 
 /// Percentiles of some numbers; all zero for none.

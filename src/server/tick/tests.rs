@@ -5,8 +5,8 @@ use super::planners::Planners;
 use super::scheduler::{Added, Plan, Priority, Scheduler};
 use super::shard::{Limits, Shard};
 use super::*;
-use crate::wire::convert;
-use crate::wire::types::{Overrun, WorldCondition, WorldUpdate};
+use sinew_wire::convert;
+use sinew_wire::types::{Overrun, WorldCondition, WorldUpdate};
 use std::sync::mpsc::sync_channel;
 
 /// Workers of a test: plain threads, so that tests beside it are not kept waiting.
@@ -28,7 +28,7 @@ pub(super) struct Running {
 
 impl Running {
     pub(super) fn start(scheduler: &Scheduler, rate_hz: f64) -> Self {
-        let settings = convert::world::settings(Some(crate::wire::pb::World {
+        let settings = convert::world::settings(Some(sinew_wire::pb::World {
             rate_hz,
             ..Default::default()
         }))
@@ -123,7 +123,7 @@ fn a_frame_that_cannot_be_made_fails_the_world_and_not_its_thread() {
     let scheduler = Scheduler::start(workers(1)).unwrap();
     let world = Running::start(&scheduler, 100.0);
     world.ask(|s| s.pause().unwrap()); // so that no tick comes before the frame
-    let body = Arc::new(crate::sim::body::Body::adult_man());
+    let body = Arc::new(sinew_physics::body::Body::adult_man());
     let settings = convert::figure::settings("figure", None).unwrap();
     world.ask(move |s| {
         s.create_figure(Some("a".into()), settings, body).unwrap();

@@ -1,7 +1,7 @@
 //! Commands that wait for a world, by client: one client fills no more than its share of a queue.
 
-use crate::server::shares::part;
-use crate::wire::status::Fault;
+use crate::shares::part;
+use sinew_wire::status::Fault;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;

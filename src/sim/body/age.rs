@@ -4,7 +4,7 @@
 //! jumps at a birthday. From 20 to 44 years all of them are those of the adult tables, to the last bit.
 
 use super::model::{Profile, Sex};
-use crate::sim::math::curve::rise;
+use crate::math::curve::rise;
 
 /// Where a number comes from and how far to trust it.
 #[derive(Clone, Copy, Debug, PartialEq)]

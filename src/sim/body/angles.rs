@@ -11,7 +11,7 @@ use super::state::{Posture, ball_rate_vector};
 use super::topology::{
     BALL_COUNT, DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_START, JOINT, Joint, SEGMENT_COUNT,
 };
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::math::{Quat, Vec3, trig};
 
 /// Largest angle between a segment's long axis and its zero-pose direction, rad (172°): keeps a raised arm off the
 /// antipode.

@@ -13,7 +13,7 @@ use super::topology::{
     DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_NAMES, DOF_START, JOINT, JOINT_NAMES, Joint, PARENT,
     SEGMENT_COUNT, SEGMENT_NAMES,
 };
-use crate::sim::math::{Sym3, Vec3};
+use crate::math::{Sym3, Vec3};
 use std::fmt::Write;
 
 mod solids;
@@ -381,8 +381,8 @@ fn urdf_visuals(o: &mut String, body: &Body, i: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::{Profile, Segment, SegmentId, Sex};
-    use crate::sim::math::vec3::vec3;
+    use crate::body::{Profile, Segment, SegmentId, Sex};
+    use crate::math::vec3::vec3;
 
     fn body() -> Body {
         let segment = |i: usize| Segment {

@@ -5,8 +5,8 @@
 //! triangles (divergence theorem). Offline code: it runs when a body is built, never within a tick.
 
 use super::model::Mesh;
-use crate::sim::math::vec3::vec3;
-use crate::sim::math::{Sym3, Vec3, trig};
+use crate::math::vec3::vec3;
+use crate::math::{Sym3, Vec3, trig};
 
 /// Volume and mass properties of a solid of uniform density.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -373,7 +373,7 @@ pub fn cuboid(low: Vec3, high: Vec3) -> Mesh {
 mod tests {
     //! Goal: the volume integrals against closed forms and against their own transformation rules.
     use super::*;
-    use crate::sim::math::Quat;
+    use crate::math::Quat;
 
     fn sphere(radius: f64, rings: usize, sides: usize) -> Mesh {
         let sections: Vec<Section> = (1..rings)

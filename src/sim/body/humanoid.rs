@@ -11,8 +11,8 @@ mod tables;
 use super::age::{MassFractions, height_range, male_share, mass_range, mix};
 use super::model::{Body, BodyError, Profile, Segment, Sex};
 use super::topology::{self as t, DOF_COUNT, SEGMENT_COUNT};
-use crate::sim::math::Vec3;
-use crate::sim::math::curve::rise;
+use crate::math::Vec3;
+use crate::math::curve::rise;
 use parts::{Dimensions, mirror, mirror_point};
 use tables::{Table, joint_limits};
 

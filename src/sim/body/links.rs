@@ -2,7 +2,7 @@
 
 use super::model::Body;
 use super::topology::{DOF_COUNT, SEGMENT_COUNT, SegmentId};
-use crate::sim::math::{Lane, Sym3, Vec3};
+use crate::math::{Lane, Sym3, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Joint offsets and mass properties of every segment, loads included.
@@ -19,7 +19,7 @@ pub struct Links<L = f64> {
     /// Inertia about the segment origin, segment axes, kg·m².
     pub inertia: [Sym3<L>; SEGMENT_COUNT],
     /// Reflected inertia per joint DOF, kg·m².
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub armature: [L; DOF_COUNT],
 }
 

@@ -1,7 +1,7 @@
 //! The immutable description of one body: person, segments, joint offsets and limits. Validated on construction.
 
 use super::topology::{DOF_COUNT, DOF_NAMES, JOINT_NAMES, SEGMENT_COUNT, SEGMENT_NAMES, SegmentId};
-use crate::sim::math::{Sym3, Vec3};
+use crate::math::{Sym3, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Biological sex, as the body and strength tables are split.
@@ -61,13 +61,13 @@ pub struct Body {
     /// Joint position in the parent's frame, m; entry 0 unused.
     pub joint_offset: [Vec3; SEGMENT_COUNT],
     /// Least anatomical angle of each DOF, rad.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub lower: [f64; DOF_COUNT],
     /// Largest anatomical angle of each DOF, rad.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub upper: [f64; DOF_COUNT],
     /// Reflected inertia added to the diagonal of the inertia matrix, kg·m² (safeguard, `docs/model.md`; 0 = paper).
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub armature: [f64; DOF_COUNT],
 }
 

@@ -2,7 +2,7 @@
 
 use super::model::{Body, Mesh};
 use super::topology::{L_HAND, R_HAND, SegmentId};
-use crate::sim::math::Vec3;
+use crate::math::Vec3;
 
 /// Point (segment frame, m) at which a segment carries a load that names no point of its own.
 ///
@@ -40,8 +40,8 @@ fn outermost(mesh: &Mesh, at: Vec3, side: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::{CHEST, L_FOOT};
-    use crate::sim::body::{Profile, Sex};
+    use crate::body::topology::{CHEST, L_FOOT};
+    use crate::body::{Profile, Sex};
 
     /// From the wrist to the knuckle of the middle finger over wrist to finger tip: 86.2 / 187.9 mm (de Leva 1996,
     /// men).

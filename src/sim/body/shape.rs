@@ -8,8 +8,8 @@
 
 use super::geometry::{Section, append, extreme, loft, volume};
 use super::model::Mesh;
-use crate::sim::math::Vec3;
-use crate::sim::math::vec3::vec3;
+use crate::math::Vec3;
+use crate::math::vec3::vec3;
 
 /// A horizontal cross-section of a segment that runs along z.
 ///

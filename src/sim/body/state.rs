@@ -4,7 +4,7 @@ use super::topology::{
     BALL_COUNT, DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_START, HINGE_COUNT, JOINT, Joint, NV,
     SEGMENT_COUNT,
 };
-use crate::sim::math::{Lane, Quat, Vec3};
+use crate::math::{Lane, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Where every segment is: pelvis pose and joint positions.
@@ -41,7 +41,7 @@ pub struct State<L = f64> {
     /// Positions.
     pub posture: Posture<L>,
     /// Velocities, 45 components.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub velocity: [L; NV],
 }
 

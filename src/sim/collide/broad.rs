@@ -1,6 +1,6 @@
 //! Which bodies may meet: sweep and prune along x, in a fixed order.
 
-use crate::sim::math::Vec3;
+use crate::math::Vec3;
 
 /// A box along the world's axes that holds a body for a whole tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub fn pairs(boxes: &mut [Bounds], pairs: &mut Vec<(usize, usize)>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::math::vec3::vec3;
+    use crate::math::vec3::vec3;
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64Mcg;
 

@@ -8,10 +8,10 @@
 //! The correction of angles is the same system with `v = 0` and w = the overlap: inverse kinematics of least change,
 //! weighted by inertia.
 
-use crate::sim::body::topology::NV;
-use crate::sim::dynamics::MassMatrix;
-use crate::sim::dynamics::factor::{factor, solve};
-use crate::sim::math::dense::{factor_rows, solve_rows};
+use crate::body::topology::NV;
+use crate::dynamics::MassMatrix;
+use crate::dynamics::factor::{factor, solve};
+use crate::math::dense::{factor_rows, solve_rows};
 
 /// Most rows of one system.
 pub const MOST_ROWS: usize = 64;
@@ -268,12 +268,12 @@ fn dot(a: &[f64; NV], b: &[f64; NV]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::{CHEST, L_FOOT, R_FOOT, R_HAND};
-    use crate::sim::body::{Links, State};
-    use crate::sim::dynamics::jacobian::for_each_column;
-    use crate::sim::dynamics::{Kinematics, Terms, kinetic_energy, momentum};
-    use crate::sim::math::Vec3;
-    use crate::sim::support::testing::{GRAVITY, Rng, mannequin, random_stance, terms};
+    use crate::body::topology::{CHEST, L_FOOT, R_FOOT, R_HAND};
+    use crate::body::{Links, State};
+    use crate::dynamics::jacobian::for_each_column;
+    use crate::dynamics::{Kinematics, Terms, kinetic_energy, momentum};
+    use crate::math::Vec3;
+    use crate::support::testing::{GRAVITY, Rng, mannequin, random_stance, terms};
 
     fn row_of(t: &Terms, s: usize, at: Vec3, n: Vec3, row: &mut [f64; NV]) {
         let r = at - t.state.posture.root_position;
@@ -301,7 +301,7 @@ mod tests {
     fn what_one_figure_gets_the_other_loses_and_the_floor_takes_the_rest() {
         let body = {
             let mut b = mannequin();
-            b.armature = [0.0; crate::sim::body::DOF_COUNT];
+            b.armature = [0.0; crate::body::DOF_COUNT];
             b
         };
         let links = Links::new(&body);
@@ -319,7 +319,7 @@ mod tests {
             let mut held = Vec::new();
             for (b, t) in t.iter().enumerate().filter(|_| round % 2 == 0) {
                 for (g, foot) in [L_FOOT, R_FOOT].into_iter().enumerate() {
-                    let mut jacobian = [[0.0; crate::sim::dynamics::terms::WIDTH]; 6];
+                    let mut jacobian = [[0.0; crate::dynamics::terms::WIDTH]; 6];
                     t.segment_jacobian(foot.index(), &mut jacobian);
                     for (k, j) in jacobian.iter().enumerate() {
                         let mut row = Row::new([Some(b), None], 2 * b + g);

@@ -14,5 +14,5 @@ pub mod narrow;
 pub mod obstacle;
 pub mod shape;
 
-pub use crate::sim::touch::{MAX_TOUCHES, ObstacleKey, Other, Touch};
+pub use crate::touch::{MAX_TOUCHES, ObstacleKey, Other, Touch};
 pub use obstacle::{MAX_OBSTACLES, Mobility, OBSTACLE_FRICTION, Obstacle, ObstacleSetup, Shape};

@@ -1,8 +1,8 @@
 //! Where two shapes are nearest: points with a normal and a gap.
 
 use super::shape::Capsule;
-use crate::sim::math::vec3::vec3;
-use crate::sim::math::{Mat3, Vec3};
+use crate::math::vec3::vec3;
+use crate::math::{Mat3, Vec3};
 
 /// Nearest points of two shapes A and B.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,7 +189,7 @@ pub fn corners(b: &PosedBox) -> [Vec3; 8] {
 mod tests {
     //! Goal: nearest points against sampling.
     use super::*;
-    use crate::sim::math::Quat;
+    use crate::math::Quat;
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64Mcg;
 

@@ -1,9 +1,9 @@
 //! Bodies of a world that are no figures.
 
 use super::shape::Capsule;
-use crate::sim::math::hash::Fnv;
-use crate::sim::math::vec3::vec3;
-use crate::sim::math::{Mat3, Quat, Vec3};
+use crate::math::hash::Fnv;
+use crate::math::vec3::vec3;
+use crate::math::{Mat3, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Most obstacles of one world.

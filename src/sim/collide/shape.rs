@@ -1,11 +1,11 @@
 //! Capsules fitted to the segments of a body.
 
-use crate::sim::body::topology::{
+use crate::body::topology::{
     ABDOMEN, CHEST, L_FOOT, L_TOES, PELVIS, R_FOOT, R_TOES, SEGMENT_COUNT,
 };
-use crate::sim::body::{Body, model::Mesh};
-use crate::sim::math::vec3::vec3;
-use crate::sim::math::{Mat3, Vec3};
+use crate::body::{Body, model::Mesh};
+use crate::math::vec3::vec3;
+use crate::math::{Mat3, Vec3};
 
 /// All points within `ra…rb` of a line from `a` to `b`; the radius changes linearly.
 #[derive(Clone, Copy, Debug, PartialEq)]

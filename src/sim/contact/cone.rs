@@ -8,7 +8,7 @@
 //! small eigenvalue, then its sign, and the next force lies outside. So the way to the surface is a number of its own,
 //! and everything is put together along the directions in which W is diagonal, from numbers of one sign.
 
-use crate::sim::math::Vec3;
+use crate::math::Vec3;
 
 const HALF_ROOT: f64 = std::f64::consts::FRAC_1_SQRT_2;
 

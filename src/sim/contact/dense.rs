@@ -2,9 +2,9 @@
 
 use super::newton::System;
 use super::rows::{CHAIN_WIDTH, SegmentRows};
-use crate::sim::body::topology::NV;
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::math::dense::{factor_body_columns, solve_lower, solve_upper};
+use crate::body::topology::NV;
+use crate::dynamics::terms::WIDTH;
+use crate::math::dense::{factor_body_columns, solve_lower, solve_upper};
 
 /// A square matrix with rows padded to vector width.
 pub type Dense = [[f64; WIDTH]; NV];

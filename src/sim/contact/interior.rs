@@ -14,15 +14,15 @@
 //! Eliminating them leaves Newton's matrix with other slopes: `1/(1/g + z₁/(t − lower) + z₂/(upper − t))` for a motor
 //! and `(R + W⁻²)⁻¹` for a contact ([`super::cone`]), with the scaling W of Nesterov and Todd for second-order cones
 //! (Andersen, Dahl & Vandenberghe 2003). Newton's method finishes from the prices that come out. The controller's
-//! problem has no joint limits; islands of bodies ([`crate::sim::collide::island`]) have them, as [`Wall`]s.
+//! problem has no joint limits; islands of bodies ([`crate::collide::island`]) have them, as [`Wall`]s.
 
 use super::cone::{Cone, squared};
 use super::limits::MAX_LIMITS;
 use super::newton::{Motors, NewtonWorkspace, Problem, System};
 use super::rows::{CHAIN_WIDTH, add_point_stiffness};
-use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
-use crate::sim::math::{Mat3, Vec3};
-use crate::sim::report::MAX_CONTACTS;
+use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
+use crate::math::{Mat3, Vec3};
+use crate::report::MAX_CONTACTS;
 
 /// Share of the way to the boundary that a step takes at most.
 pub(crate) const TO_BOUNDARY: f64 = 0.97;

@@ -1,14 +1,14 @@
 //! Joint limits as unilateral rows: anatomical angles stay in their range, a raised arm stays off the antipode. And the
 //! tissue that is stretched before they are met.
 
-use crate::sim::body::angles::{SWING_MAX, Swings};
-use crate::sim::body::topology::{
+use crate::body::angles::{SWING_MAX, Swings};
+use crate::body::topology::{
     DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_SEGMENT, DOF_START, JOINT, Joint, NV, SEGMENT_COUNT,
 };
-use crate::sim::body::{Body, Posture, State};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::Vec3;
-use crate::sim::strength::Strength;
+use crate::body::{Body, Posture, State};
+use crate::dynamics::Terms;
+use crate::math::Vec3;
+use crate::strength::Strength;
 
 /// Stiffness of a limit row, kg·m²: an impulse per rad/s that is still missing (`docs/equations.md`, 14.3).
 pub const LIMIT_STIFFNESS: f64 = 1e3;
@@ -156,7 +156,7 @@ fn each_angle(posture: &Posture, swings: &Swings, mut visit: impl FnMut(AngleRow
     }
 }
 
-/// Fills the rows for a substep of `h` seconds from a state and the [`swings`](crate::sim::body::angles::swings) of its
+/// Fills the rows for a substep of `h` seconds from a state and the [`swings`](crate::body::angles::swings) of its
 /// posture.
 ///
 /// Stretched tissue gives `τ + K h ω` at the end of the substep, ω the speed into it: `K` is its mean stiffness on the
@@ -204,7 +204,7 @@ pub type Blocks = [[[f64; 3]; 3]; SEGMENT_COUNT];
 
 impl Tissue {
     /// Of the state at the start of a tick of `substeps` substeps of `h` seconds, and the
-    /// [`swings`](crate::sim::body::angles::swings) of its posture. No allocation.
+    /// [`swings`](crate::body::angles::swings) of its posture. No allocation.
     ///
     /// The substeps are implicit: the i-th finds the tissue stretched by `i h ω + ½ i (i + 1) h² ω̇` more.
     pub fn new(

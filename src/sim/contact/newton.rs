@@ -4,9 +4,9 @@ use super::interior::Interior;
 use super::limits::{LimitRows, MAX_LIMITS};
 use super::projection::Region;
 use super::rows::{CHAIN_WIDTH, ContactRows, SegmentRows, add_point_stiffness};
-use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
-use crate::sim::math::Vec3;
-use crate::sim::report::MAX_CONTACTS;
+use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
+use crate::math::Vec3;
+use crate::report::MAX_CONTACTS;
 
 /// The quadratic part of the problem and the matrix Newton steps are solved with.
 pub trait System {

@@ -1,6 +1,6 @@
 //! Projection onto the friction cone `|f_t| ≤ μ f_n` (normal = z) and its derivative.
 
-use crate::sim::math::Vec3;
+use crate::math::Vec3;
 
 /// Where the projected point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

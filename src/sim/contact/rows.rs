@@ -1,12 +1,12 @@
 //! Contact points as rows on the velocity, grouped by the segment they lie on.
 
 use super::projection::{Region, derivative, project};
-use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, SEGMENT_COUNT};
-use crate::sim::dynamics::Kinematics;
-use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::dynamics::mass_matrix::{CHAIN, DEPTH, ROW};
-use crate::sim::math::{Mat3, Vec3};
-use crate::sim::report::MAX_CONTACTS;
+use crate::body::topology::{DOF_LEN, DOF_START, NV, SEGMENT_COUNT};
+use crate::dynamics::Kinematics;
+use crate::dynamics::jacobian::for_each_column;
+use crate::dynamics::mass_matrix::{CHAIN, DEPTH, ROW};
+use crate::math::{Mat3, Vec3};
+use crate::report::MAX_CONTACTS;
 
 /// Padded length of a chain of velocity components.
 pub const CHAIN_WIDTH: usize = ROW;

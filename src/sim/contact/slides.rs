@@ -8,9 +8,9 @@
 
 use super::newton::NewtonWorkspace;
 use super::rows::ContactRows;
-use crate::sim::body::topology::NV;
-use crate::sim::math::Vec3;
-use crate::sim::report::MAX_CONTACTS;
+use crate::body::topology::NV;
+use crate::math::Vec3;
+use crate::report::MAX_CONTACTS;
 
 /// Most solves of one substep after its first. Nearly all need one, by which a foot that lands has stopped; what goes
 /// on sliding halves its error each time.

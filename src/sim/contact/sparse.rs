@@ -2,9 +2,9 @@
 
 use super::newton::System;
 use super::rows::{CHAIN_WIDTH, SegmentRows};
-use crate::sim::body::topology::NV;
-use crate::sim::dynamics::factor::{factor, solve};
-use crate::sim::dynamics::mass_matrix::{BLOCK, DEPTH, MassMatrix};
+use crate::body::topology::NV;
+use crate::dynamics::factor::{factor, solve};
+use crate::dynamics::mass_matrix::{BLOCK, DEPTH, MassMatrix};
 
 /// A borrowed inertia matrix.
 ///

@@ -1,15 +1,15 @@
 //! The kernel against its optimality conditions and against each other storage.
 
 use super::*;
-use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::contact::cone::{Cone, squared};
-use crate::sim::contact::interior::{Inner, TO_BOUNDARY, aim, to_cone, to_world};
-use crate::sim::contact::newton::{LineSearch, NewtonWorkspace};
-use crate::sim::contact::projection::{derivative, project};
-use crate::sim::contact::rows::PointRow;
-use crate::sim::dynamics::Terms;
-use crate::sim::dynamics::tests::{random_links, random_state};
-use crate::sim::math::Vec3;
+use crate::body::topology::{DOF_COUNT, NV};
+use crate::contact::cone::{Cone, squared};
+use crate::contact::interior::{Inner, TO_BOUNDARY, aim, to_cone, to_world};
+use crate::contact::newton::{LineSearch, NewtonWorkspace};
+use crate::contact::projection::{derivative, project};
+use crate::contact::rows::PointRow;
+use crate::dynamics::Terms;
+use crate::dynamics::tests::{random_links, random_state};
+use crate::math::Vec3;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 

@@ -1,8 +1,8 @@
 //! Keeps the demanded acceleration of the centre of mass within what the support polygon can give
 //! (`docs/equations.md#repairs`, safeguard).
 
-use crate::sim::math::Vec3;
-use crate::sim::support::Polygon;
+use crate::math::Vec3;
+use crate::support::Polygon;
 
 /// How far inside the polygon the demanded zero-moment point is kept, m.
 pub const INSET: f64 = 0.02;
@@ -31,7 +31,7 @@ pub fn feasible(com: Vec3, demand: [f64; 2], inset: &Polygon, gravity: f64) -> [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::math::vec3::vec3;
+    use crate::math::vec3::vec3;
 
     #[test]
     fn demand_is_kept_inside_and_cut_at_the_inset_edge() {

@@ -5,10 +5,10 @@
 //! upper bound, and its acceleration is bounded: a goal that cannot be reached pulls with a bounded acceleration,
 //! however far away it is. Where the place itself moves, all this is relative to it.
 
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::{HEAD, L_UPPER_ARM, PARENT, R_HAND};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::{Quat, Vec3};
+use crate::body::SegmentId;
+use crate::body::topology::{HEAD, L_UPPER_ARM, PARENT, R_HAND};
+use crate::dynamics::Terms;
+use crate::math::{Quat, Vec3};
 
 /// Most goals of one figure at once: as many as can be set, and as many that fade out.
 pub const MAX_GOALS: usize = 16;
@@ -143,7 +143,7 @@ fn demand(error: Vec3, rate: Vec3, t: f64, most: f64) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::math::vec3::vec3;
+    use crate::math::vec3::vec3;
 
     #[test]
     fn a_point_comes_to_rest_at_its_goal_without_overshoot_and_within_bounds() {

@@ -19,15 +19,15 @@ pub use modern::{Modern, ModernMemory};
 pub use paper::{Paper, PaperMemory};
 pub use tracking::Law;
 
-use crate::sim::body::topology::{L_HAND, R_HAND, SEGMENT_COUNT};
-use crate::sim::body::{Body, DOF_COUNT, NV, SegmentId};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::TargetPair;
-use crate::sim::report::Flags;
-use crate::sim::report::MAX_CONTACTS;
-use crate::sim::setup::ControlParams;
-use crate::sim::support::Support;
+use crate::body::topology::{L_HAND, R_HAND, SEGMENT_COUNT};
+use crate::body::{Body, DOF_COUNT, NV, SegmentId};
+use crate::dynamics::Terms;
+use crate::math::{Quat, Vec3};
+use crate::motion::TargetPair;
+use crate::report::Flags;
+use crate::report::MAX_CONTACTS;
+use crate::setup::ControlParams;
+use crate::support::Support;
 use serde::{Deserialize, Serialize};
 
 /// Where a point should be and how it should move, world axes, at the start and at the end of the tick.
@@ -243,7 +243,7 @@ pub struct Command {
     /// Its signed distance inside the support polygon, m.
     pub margin: Option<f64>,
     /// What the support tips about, if it does.
-    pub pivot: Option<crate::sim::support::Pivot>,
+    pub pivot: Option<crate::support::Pivot>,
 }
 
 impl Default for Command {

@@ -7,26 +7,26 @@
 use super::goals::MAX_GOALS;
 use super::tracking::{Law, initial_acceleration};
 use super::{Command, ControlInput, Controller};
-use crate::sim::body::topology::{
+use crate::body::topology::{
     DOF_COUNT, DOF_LEN, DOF_START, L_HAND, L_UPPER_ARM, NV, R_HAND, R_UPPER_ARM, SEGMENT_COUNT,
 };
-use crate::sim::contact::dense::Dense;
-use crate::sim::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
-use crate::sim::contact::{
+use crate::contact::dense::Dense;
+use crate::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
+use crate::contact::{
     ContactRows, DenseSystem, LimitRows, Motors, NewtonWorkspace, Outcome, Problem, StopRule,
     interior, minimise,
 };
-use crate::sim::dynamics::Terms;
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::math::curve::fall;
-use crate::sim::math::dense::{
+use crate::dynamics::Terms;
+use crate::dynamics::terms::WIDTH;
+use crate::math::curve::fall;
+use crate::math::dense::{
     factor_body_columns, gram_of_columns, solve_lower, solve_lower_rows, solve_upper, weighted_gram,
 };
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::TargetPair;
-use crate::sim::report::Flags;
-use crate::sim::report::MAX_CONTACTS;
-use crate::sim::support::{Polygon, zmp_above};
+use crate::math::{Quat, Vec3};
+use crate::motion::TargetPair;
+use crate::report::Flags;
+use crate::report::MAX_CONTACTS;
+use crate::support::{Polygon, zmp_above};
 use multiversion::multiversion;
 use tasks::pendulum_time;
 

@@ -17,16 +17,16 @@ use super::spatial_targets::{SpatialLimits, Task, wish};
 use super::torque_limits::{JointTorques, Outcome, TOLERANCE, TorqueLimits, violates};
 use super::tracking::{Law, initial_acceleration};
 use super::{Command, ControlInput, Controller};
-use crate::sim::body::{DOF_COUNT, SegmentId};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::report::Flags;
-use crate::sim::report::MAX_CONTACTS;
-use crate::sim::setup::Metric;
-use crate::sim::support::zmp::LEAST_NORMAL_FORCE;
-use crate::sim::support::{
+use crate::body::{DOF_COUNT, SegmentId};
+use crate::math::{Quat, Vec3};
+use crate::report::Flags;
+use crate::report::MAX_CONTACTS;
+use crate::setup::Metric;
+use crate::support::zmp::LEAST_NORMAL_FORCE;
+use crate::support::{
     Pivot, Polygon, Sharing, is_stopped, pivot, tipping_acceleration, unblocked_pivot, zmp,
 };
-use crate::sim::touch::MAX_TOUCHES;
+use crate::touch::MAX_TOUCHES;
 use serde::{Deserialize, Serialize};
 use supports::Planned;
 
@@ -119,7 +119,7 @@ pub struct PaperMemory {
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
-struct Previous(#[serde(with = "crate::sim::saved::array")] Row);
+struct Previous(#[serde(with = "crate::saved::array")] Row);
 
 impl PaperMemory {
     /// Forgets the last tick.

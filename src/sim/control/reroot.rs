@@ -7,13 +7,13 @@
 //! differ.
 
 use super::rows::{ROW, Row, Square, dot};
-use crate::sim::body::{DOF_COUNT, NV, SegmentId};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::dense::solve_up_to_2;
-use crate::sim::math::{Vec3, vec3::vec3};
-use crate::sim::support::sharing::Sharing;
-use crate::sim::support::tipping::{base_directions, base_product};
-use crate::sim::support::{Pivot, SupportPoint};
+use crate::body::{DOF_COUNT, NV, SegmentId};
+use crate::dynamics::Terms;
+use crate::math::dense::solve_up_to_2;
+use crate::math::{Vec3, vec3::vec3};
+use crate::support::sharing::Sharing;
+use crate::support::tipping::{base_directions, base_product};
+use crate::support::{Pivot, SupportPoint};
 
 /// The maps of one tick: `v̇ = N θ̈ + b`, `τ = H θ̈ + c₀`, ground wrench `W = W_θ θ̈ + W₀`.
 ///
@@ -57,7 +57,7 @@ impl SupportMap {
     /// Section 3.1 of the paper.
     #[inline(always)]
     pub fn set_support(&mut self, terms: &Terms, s: SegmentId, acceleration: (Vec3, Vec3)) {
-        use crate::sim::body::topology::{DOF_LEN, DOF_START, PARENT};
+        use crate::body::topology::{DOF_LEN, DOF_START, PARENT};
         let s = s.index();
         // J_S = [J_Sb J_Sj] with J_Sb = [1 0; −[r]× 1], so −J_Sb⁻¹ J_Sj is minus the joint's velocity field at the
         // pelvis origin.
@@ -228,7 +228,7 @@ impl SupportMap {
     /// nothing; it carries the rest.
     #[inline(always)]
     pub fn add_sharing(&mut self, terms: &Terms, sharing: &Sharing, main: SegmentId) {
-        use crate::sim::body::topology::SEGMENT_COUNT;
+        use crate::body::topology::SEGMENT_COUNT;
         // u_j = Σ_s G_s (velocity field of segment s about the reference, per joint acceleration), so that the torque
         // is u_jᵀ G⁺ W.
         let mut u = [[0.0; ROW]; 6];
@@ -289,7 +289,7 @@ impl SupportMap {
     /// `J_s N` with the support at rest, for the point of segment `s` at `r` (world axes, from the pelvis origin).
     #[inline(always)]
     fn relative_twist(&self, terms: &Terms, s: usize, r: Vec3) -> [Row; 6] {
-        use crate::sim::body::topology::{DOF_LEN, DOF_START, PARENT};
+        use crate::body::topology::{DOF_LEN, DOF_START, PARENT};
         let mut t = self.rest;
         for d in 0..ROW {
             // velocity at r of a pelvis twist: v + ω × r
@@ -399,13 +399,13 @@ pub(crate) fn only_main(points: &[SupportPoint], main: SegmentId) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::{L_FOOT, NV, PELVIS, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
-    use crate::sim::body::{Links, State};
-    use crate::sim::dynamics::{External, ExternalForces, RneaWorkspace, rnea};
-    use crate::sim::support::testing::{
+    use crate::body::topology::{L_FOOT, NV, PELVIS, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
+    use crate::body::{Links, State};
+    use crate::dynamics::{External, ExternalForces, RneaWorkspace, rnea};
+    use crate::support::testing::{
         GRAVITY, Rng, mannequin, random_stance, random_state, standing, terms,
     };
-    use crate::sim::support::{Support, tipping_acceleration};
+    use crate::support::{Support, tipping_acceleration};
 
     fn random_row(rng: &mut Rng, scale: f64) -> Row {
         let mut r = [0.0; ROW];

@@ -1,8 +1,8 @@
 //! Rows of 39 joint components and their orthogonal factor: what the two active sets need, without allocation and in
 //! a fixed order of sums.
 
-use crate::sim::body::DOF_COUNT;
-use crate::sim::math::dense::cholesky_solve;
+use crate::body::DOF_COUNT;
+use crate::math::dense::cholesky_solve;
 
 /// Joint components padded to a multiple of 8 (with zeros).
 pub const ROW: usize = 40;
@@ -211,7 +211,7 @@ impl RowQr {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::support::testing::Rng;
+    use crate::support::testing::Rng;
     use nalgebra::{DMatrix, DVector};
 
     fn random_row(rng: &mut Rng) -> Row {

@@ -2,9 +2,9 @@
 
 use super::rows::{ROW, Row, RowQr, add_scaled, dot};
 use super::torque_limits::{JointTorques, Outcome, TOLERANCE};
-use crate::sim::body::DOF_COUNT;
-use crate::sim::math::dense::cholesky_solve;
-use crate::sim::setup::Priority;
+use crate::body::DOF_COUNT;
+use crate::math::dense::cholesky_solve;
+use crate::setup::Priority;
 
 /// Most rows of one task: positions of both hands, and eight constraints from outside with position and rotation.
 pub const MAX_ROWS: usize = 54;
@@ -293,7 +293,7 @@ impl SpatialLimits {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::support::testing::Rng;
+    use crate::support::testing::Rng;
 
     fn random_task(rng: &mut Rng, rows: usize) -> Task {
         let mut t = Task::default();

@@ -4,15 +4,15 @@ use super::{
     CentroidalTarget, ContactPhase, ContactTargets, ControlInput, Effector, FootTarget, Goal,
     PointTarget, RotationTarget,
 };
-use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_HAND, R_FOOT, R_HAND};
-use crate::sim::body::{Body, State};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::vec3::vec3;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::setup::ControlParams;
-use crate::sim::support::Support;
-use crate::sim::support::testing::{GRAVITY, mannequin, strength, terms};
+use crate::body::topology::{DOF_COUNT, L_FOOT, L_HAND, R_FOOT, R_HAND};
+use crate::body::{Body, State};
+use crate::dynamics::Terms;
+use crate::math::vec3::vec3;
+use crate::math::{Quat, Vec3};
+use crate::motion::{Target, TargetPair};
+use crate::setup::ControlParams;
+use crate::support::Support;
+use crate::support::testing::{GRAVITY, mannequin, strength, terms};
 
 /// Length of a tick, s.
 pub(crate) const DT: f64 = 1.0 / 60.0;

@@ -2,9 +2,9 @@
 //! (`docs/equations.md#the-paper`).
 
 use super::rows::{ROW, Row, RowQr, Square, dot};
-use crate::sim::body::DOF_COUNT;
-use crate::sim::math::dense::eliminate;
-use crate::sim::setup::Metric;
+use crate::body::DOF_COUNT;
+use crate::math::dense::eliminate;
+use crate::setup::Metric;
 
 /// A torque may exceed its limit by this part of it (or of 1 N·m) before it counts as a violation.
 pub const TOLERANCE: f64 = 1e-9;

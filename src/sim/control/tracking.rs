@@ -1,14 +1,14 @@
 //! Initial accelerations from the desired motion, Eq. (4), and the same law for points (`docs/equations.md#repairs`).
 
 use super::rows::{ROW, Row};
-use crate::sim::body::angles::swing_twist;
-use crate::sim::body::state::{ball_rate_vector, ball_rates};
-use crate::sim::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint};
-use crate::sim::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, State};
-use crate::sim::math::dense::solve_3;
-use crate::sim::math::{Vec3, vec3::vec3};
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::setup::ControlParams;
+use crate::body::angles::swing_twist;
+use crate::body::state::{ball_rate_vector, ball_rates};
+use crate::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint};
+use crate::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, State};
+use crate::math::dense::solve_3;
+use crate::math::{Vec3, vec3::vec3};
+use crate::motion::{Target, TargetPair};
+use crate::setup::ControlParams;
 
 /// Position gain of the law with a horizon, times T²: critical damping.
 const CRITICAL: f64 = 0.25;
@@ -219,9 +219,9 @@ fn clamp_to_limits(body: &Body, state: &State, dt: f64, qdd: &mut Row) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::angles::anatomical_angles;
-    use crate::sim::math::Quat;
-    use crate::sim::support::testing::{Rng, mannequin, random_state, standing};
+    use crate::body::angles::anatomical_angles;
+    use crate::math::Quat;
+    use crate::support::testing::{Rng, mannequin, random_state, standing};
 
     fn paper() -> ControlParams {
         ControlParams {
@@ -349,7 +349,7 @@ mod tests {
                 state.posture.integrate(&v, dt);
                 let a = anatomical_angles(&state.posture);
                 for d in 0..DOF_COUNT {
-                    let ball = DOF_LEN[crate::sim::body::topology::DOF_SEGMENT[d]] == 3;
+                    let ball = DOF_LEN[crate::body::topology::DOF_SEGMENT[d]] == 3;
                     // First order in the step for ball joints, exact for hinges.
                     let slack = if ball {
                         0.5 * (a[d] - before[d]).abs() + 0.02

@@ -2,11 +2,11 @@
 
 use super::kinematics::Kinematics;
 use super::rnea::{External, ExternalForces};
-use crate::sim::body::Links;
-use crate::sim::body::topology::{
+use crate::body::Links;
+use crate::body::topology::{
     DOF_COUNT, DOF_LEN, DOF_START, JOINT, Joint, NV, PARENT, SEGMENT_COUNT,
 };
-use crate::sim::math::{Lane, Vec3};
+use crate::math::{Lane, Vec3};
 
 /// A 6-vector, angular part first; motion or force.
 #[derive(Clone, Copy, Debug)]

@@ -2,9 +2,9 @@
 
 use super::kinematics::Kinematics;
 use super::mass_matrix::{DEPTH, MassMatrix};
-use crate::sim::body::Links;
-use crate::sim::body::topology::{DOF_LEN, DOF_START, PARENT, SEGMENT_COUNT};
-use crate::sim::math::{Lane, Sym3, Vec3};
+use crate::body::Links;
+use crate::body::topology::{DOF_LEN, DOF_START, PARENT, SEGMENT_COUNT};
+use crate::math::{Lane, Sym3, Vec3};
 
 /// Mass, first moment and inertia of each subtree about the pelvis origin, world axes.
 #[derive(Clone, Debug)]

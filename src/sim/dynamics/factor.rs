@@ -1,8 +1,8 @@
 //! Tree-sparse Cholesky factor of the inertia matrix: M = LᵀL, leaves first, no fill-in (Featherstone 2008, §6.5).
 
 use super::mass_matrix::{BLOCK, CHAIN, DEPTH, MassMatrix, ROW};
-use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, SEGMENT_COUNT};
-use crate::sim::math::Lane;
+use crate::body::topology::{DOF_LEN, DOF_START, NV, SEGMENT_COUNT};
+use crate::math::Lane;
 
 /// Replaces M by its factor L in place. M must be positive definite, as every validated body's is.
 ///

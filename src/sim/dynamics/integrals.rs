@@ -1,9 +1,9 @@
 //! Whole-body integrals: centre of mass, momentum, energy.
 
 use super::kinematics::Kinematics;
-use crate::sim::body::Links;
-use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
-use crate::sim::math::{Lane, Vec3};
+use crate::body::Links;
+use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
+use crate::math::{Lane, Vec3};
 
 /// Centre of mass minus pelvis origin (m, world axes) and total mass (kg). Needs [`Kinematics::set_posture`].
 #[inline(always)]

@@ -2,8 +2,8 @@
 
 use super::kinematics::Kinematics;
 use super::rnea::RneaWorkspace;
-use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, PARENT, SEGMENT_COUNT};
-use crate::sim::math::{Lane, Vec3};
+use crate::body::topology::{DOF_LEN, DOF_START, NV, PARENT, SEGMENT_COUNT};
+use crate::math::{Lane, Vec3};
 
 /// Visits the velocity components that move segment `s`, with the angular and the linear velocity that a unit of each
 /// gives to the point at `r` (world axes, relative to the pelvis origin).

@@ -1,10 +1,8 @@
 //! Positions, velocities and inertias of all segments in world axes.
 
-use crate::sim::body::topology::{
-    DOF_AXIS, DOF_COUNT, DOF_START, JOINT, Joint, PARENT, SEGMENT_COUNT,
-};
-use crate::sim::body::{Links, Posture, State};
-use crate::sim::math::{Lane, Mat3, Sym3, Vec3, trig};
+use crate::body::topology::{DOF_AXIS, DOF_COUNT, DOF_START, JOINT, Joint, PARENT, SEGMENT_COUNT};
+use crate::body::{Links, Posture, State};
+use crate::math::{Lane, Mat3, Sym3, Vec3, trig};
 
 /// Where every segment is and how it moves; world axes, positions relative to the pelvis origin.
 #[derive(Clone, Debug)]

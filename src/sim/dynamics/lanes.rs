@@ -9,9 +9,9 @@ use super::factor::{factor, solve};
 use super::kinematics::Kinematics;
 use super::mass_matrix::MassMatrix;
 use super::rnea::{ExternalForces, RneaWorkspace, rnea};
-use crate::sim::body::topology::NV;
-use crate::sim::body::{Links, State};
-use crate::sim::math::F64x8;
+use crate::body::topology::NV;
+use crate::body::{Links, State};
+use crate::math::F64x8;
 use multiversion::multiversion;
 
 /// [`Kinematics::set_state`] and [`rnea`] for eight figures.

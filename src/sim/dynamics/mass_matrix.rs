@@ -1,7 +1,7 @@
 //! The inertia matrix with the sparsity of the tree.
 
-use crate::sim::body::topology::{NV, VELOCITY_PARENT};
-use crate::sim::math::Lane;
+use crate::body::topology::{NV, VELOCITY_PARENT};
+use crate::math::Lane;
 
 /// Longest chain of velocity components from the pelvis to a hand.
 pub const MAX_DEPTH: usize = 19;

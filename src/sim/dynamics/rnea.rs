@@ -1,9 +1,9 @@
 //! Inverse dynamics: joint torques from accelerations (recursive Newton–Euler).
 
 use super::kinematics::Kinematics;
-use crate::sim::body::Links;
-use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, PARENT, SEGMENT_COUNT};
-use crate::sim::math::{Lane, Vec3};
+use crate::body::Links;
+use crate::body::topology::{DOF_LEN, DOF_START, NV, PARENT, SEGMENT_COUNT};
+use crate::math::{Lane, Vec3};
 
 /// A force and moment on a segment, world axes, moment about the segment origin (N·m, N).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

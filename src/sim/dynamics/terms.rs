@@ -6,12 +6,12 @@ use super::jacobian::{bias_accelerations, for_each_column};
 use super::kinematics::Kinematics;
 use super::mass_matrix::MassMatrix;
 use super::rnea::{External, ExternalForces, RneaWorkspace, rnea};
-use crate::sim::body::topology::{NV, SEGMENT_COUNT, SegmentId};
-use crate::sim::body::{Links, State};
-use crate::sim::math::{Mat3, Vec3};
+use crate::body::topology::{NV, SEGMENT_COUNT, SegmentId};
+use crate::body::{Links, State};
+use crate::math::{Mat3, Vec3};
 use std::ops::{Deref, DerefMut};
 
-pub use crate::sim::math::dense::WIDTH;
+pub use crate::math::dense::WIDTH;
 
 /// A force on a point of a segment: segment, point (segment frame, m), force (world axes, N).
 pub type AppliedForce = (SegmentId, Vec3, Vec3);

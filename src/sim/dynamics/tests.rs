@@ -1,9 +1,9 @@
 //! Independent algorithms agree: RNEA against CRBA, ABA and the factor against both, bias against finite differences.
 
 use super::*;
-use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
-use crate::sim::body::{Links, State};
-use crate::sim::math::{F64x8, Sym3, Vec3};
+use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
+use crate::body::{Links, State};
+use crate::math::{F64x8, Sym3, Vec3};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 

@@ -16,7 +16,7 @@ use super::drive::{Drive, QueuedClip};
 use super::following::{FollowMode, Following};
 use super::rehearsed::RehearsedPlayback;
 use super::tick::{ExitPlan, StreamEntryPlan};
-use crate::sim::body::Posture;
+use crate::body::Posture;
 use serde::{Deserialize, Serialize};
 
 /// What a figure does.

@@ -10,13 +10,13 @@
 //! rehearsal found, if it found any, and by a weak spring towards the path that the pelvis took there.
 
 use super::rehearsed::{Hold, RootPath};
-use crate::sim::body::{Body, State};
-use crate::sim::figure::params::assist::{
+use crate::body::{Body, State};
+use crate::figure::params::assist::{
     INERTIA, LARGEST_FORCE, LARGEST_MOMENT, PLANNED_COST, RETURN, RETURN_RATE, RETURN_SPEED,
     STIFFNESS,
 };
-use crate::sim::math::Vec3;
-use crate::sim::motion::{GRAVITY, TargetPair};
+use crate::math::Vec3;
+use crate::motion::{GRAVITY, TargetPair};
 
 /// What an assisted figure is given in one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -122,7 +122,7 @@ impl Missing {
         let path = to.root_position - from.root_position;
         let turn = (to.root_rotation * from.root_rotation.conjugate()).log();
         let wanted = from.root_position + path * s;
-        let wanted_rotation = crate::sim::math::Quat::exp(turn * s) * from.root_rotation;
+        let wanted_rotation = crate::math::Quat::exp(turn * s) * from.root_rotation;
         Self {
             off: [
                 (wanted_rotation * state.posture.root_rotation.conjugate()).log(),

@@ -1,14 +1,14 @@
 //! Is balance lost for good? Then the controller, which would bend ankles and knees to keep soles flat that cannot stay
 //! flat, hands over to motors alone: the figure falls as the body it is.
 
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::body::{Body, SegmentId};
-use crate::sim::dynamics::Terms;
-use crate::sim::figure::params::balance::{
+use crate::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::body::{Body, SegmentId};
+use crate::dynamics::Terms;
+use crate::figure::params::balance::{
     BODY_REACH, LEAST_HEIGHT, LOWEST_STEP, PAPER_REACH, RECOVERY_TIME, STEP_REACH,
 };
-use crate::sim::report::MAX_CONTACTS;
-use crate::sim::support::{Polygon, Support};
+use crate::report::MAX_CONTACTS;
+use crate::support::{Polygon, Support};
 use serde::{Deserialize, Serialize};
 
 /// What brings the capture point back from where, m.
@@ -144,9 +144,9 @@ impl BalanceWatch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::SEGMENT_COUNT;
-    use crate::sim::math::Vec3;
-    use crate::sim::support::testing::{GRAVITY, mannequin, standing, terms};
+    use crate::body::topology::SEGMENT_COUNT;
+    use crate::math::Vec3;
+    use crate::support::testing::{GRAVITY, mannequin, standing, terms};
 
     const DT: f64 = 1.0 / 60.0;
 

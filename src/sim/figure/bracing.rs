@@ -8,15 +8,15 @@
 
 use super::params::bracing::BEND;
 use super::params::second_hand::STRETCH;
-use crate::sim::body::angles::{anatomical_angles, clamp_to_limits, set_anatomical_angles};
-use crate::sim::body::palm::load_point;
-use crate::sim::body::topology::{
+use crate::body::angles::{anatomical_angles, clamp_to_limits, set_anatomical_angles};
+use crate::body::palm::load_point;
+use crate::body::topology::{
     CHEST, DOF_START, HEAD, JOINT, Joint, L_SHANK, L_THIGH, R_SHANK, R_THIGH,
 };
-use crate::sim::body::{Body, Posture};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::motion::arm_ik::{ARMS, reach};
+use crate::body::{Body, Posture};
+use crate::dynamics::Terms;
+use crate::math::{Quat, Vec3, trig};
+use crate::motion::arm_ik::{ARMS, reach};
 
 /// The joints of `desired` as a figure in the state of `terms` holds them while it falls; `gravity` in m/s². The pelvis
 /// stays as it is. O(1), no allocation.
@@ -103,9 +103,9 @@ fn shortest_turn(from: Vec3, to: Vec3) -> Quat {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::{DOF_COUNT, L_HAND, R_HAND};
-    use crate::sim::motion::leg_ik::forward;
-    use crate::sim::support::testing::{GRAVITY, mannequin, standing, terms};
+    use crate::body::topology::{DOF_COUNT, L_HAND, R_HAND};
+    use crate::motion::leg_ik::forward;
+    use crate::support::testing::{GRAVITY, mannequin, standing, terms};
 
     /// Standing, turned by `pitch` (rad, forward) and moving with `velocity`, m/s.
     fn falling(pitch: f64, velocity: [f64; 3], gravity: f64) -> (Body, Posture) {

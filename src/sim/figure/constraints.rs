@@ -1,19 +1,19 @@
 //! Constraints that a client gives: a point of a segment or the centre of mass at a place, a segment turned a certain
 //! way, while the rest of the body follows its motion as well as it can.
 
-use crate::sim::body::topology::{
+use crate::body::topology::{
     L_FOOT, L_FOREARM, L_HAND, L_TOES, L_UPPER_ARM, R_FOOT, R_FOREARM, R_HAND, R_TOES, R_UPPER_ARM,
 };
-use crate::sim::body::{Body, SegmentId};
-use crate::sim::control::goals::MAX_GOALS;
-use crate::sim::control::{Effector, Goal, PointTarget};
-use crate::sim::dynamics::Terms;
-use crate::sim::figure::params::constraints::{
+use crate::body::{Body, SegmentId};
+use crate::control::goals::MAX_GOALS;
+use crate::control::{Effector, Goal, PointTarget};
+use crate::dynamics::Terms;
+use crate::figure::params::constraints::{
     COM_INSET, COM_LEASH, STREAM_INTERVAL, STREAM_SMOOTHING, STREAM_SPEED, TRUNK_REACH,
 };
-use crate::sim::math::curve::smoothstep;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::support::{Polygon, Support};
+use crate::math::curve::smoothstep;
+use crate::math::{Quat, Vec3};
+use crate::support::{Polygon, Support};
 use serde::{Deserialize, Serialize};
 
 /// Most constraints on one figure.
@@ -400,7 +400,7 @@ impl Constraints {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::math::vec3::vec3;
+    use crate::math::vec3::vec3;
 
     fn hand(x: f64, from: f64) -> Constraint {
         Constraint {

@@ -2,14 +2,14 @@
 
 use super::plan_task::{PlanRequest, PlanTask};
 use super::rehearsed::{RehearsedMotion, RehearsedPlayback};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::Vec3;
-use crate::sim::motion::clip::{Clip, PlanarTransform};
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::plan::StreamPlan;
-use crate::sim::plan::motion_transition::{NextClip, TransitionClip};
-use crate::sim::track::StepPlan;
-use crate::sim::track::planned_to_world::Anchor;
+use crate::body::{Body, Posture};
+use crate::math::Vec3;
+use crate::motion::clip::{Clip, PlanarTransform};
+use crate::motion::{Target, TargetPair};
+use crate::plan::StreamPlan;
+use crate::plan::motion_transition::{NextClip, TransitionClip};
+use crate::track::StepPlan;
+use crate::track::planned_to_world::Anchor;
 use serde::{Deserialize, Serialize, Serializer};
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use std::sync::Arc;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ClipPlayback {
     /// The motion.
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "crate::saved::definition")]
     pub clip: Arc<Clip>,
     /// World time at which the clip's time 0 plays, s.
     pub start: f64,
@@ -29,10 +29,10 @@ pub struct ClipPlayback {
     pub origin: PlanarTransform,
     /// How the figure came into it, if that was out of another motion without standing in between, or from a stand that
     /// is not like its beginning.
-    #[serde(with = "crate::sim::saved::definition::option")]
+    #[serde(with = "crate::saved::definition::option")]
     pub way_in: Option<Arc<TransitionClip>>,
     /// What a figure that stands where the clip begins does instead: a rehearsal of it, in the same coordinates.
-    #[serde(with = "crate::sim::saved::definition::option")]
+    #[serde(with = "crate::saved::definition::option")]
     pub rehearsed: Option<Arc<RehearsedMotion>>,
     /// Most help while it is being lost, if the figure's own is less: force over the weight, 0…2.
     pub max_help: f64,
@@ -161,7 +161,7 @@ pub(super) struct Entry {
 /// What [`Entry`] is planned from.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct EntryProblem {
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "crate::saved::definition")]
     pub body: Arc<Body>,
     /// The clip, entered at clip time `first`, s.
     pub next: NextClip,

@@ -1,10 +1,10 @@
 //! What happened to a figure in a tick, in words.
 
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::{DOF_COUNT, SEGMENT_COUNT};
-use crate::sim::collide::Other;
-use crate::sim::report::{Flags, TickReport};
-use crate::sim::support::Support;
+use crate::body::SegmentId;
+use crate::body::topology::{DOF_COUNT, SEGMENT_COUNT};
+use crate::collide::Other;
+use crate::report::{Flags, TickReport};
+use crate::support::Support;
 use serde::{Deserialize, Serialize};
 
 /// Something worth telling.
@@ -112,9 +112,9 @@ const MAX_EVENTS: usize = 128;
 pub struct Watcher {
     events: Vec<FigureEvent>,
     supports: [bool; SEGMENT_COUNT],
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     saturated: [bool; DOF_COUNT],
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     streak: [u16; DOF_COUNT],
     balanced: bool,
     fallen: bool,

@@ -2,23 +2,23 @@
 //!
 //! A recorded way of getting up cannot be repeated as it is. It was made by another body, it leans on hands whose skin
 //! was not recorded, and often it leaps. So the motion decides *when*. *How* is planned for the figure
-//! ([`crate::sim::get_up`]), at the pace at which it can follow.
+//! ([`crate::get_up`]), at the pace at which it can follow.
 
 use super::tasks::TaskWorkspace;
-use crate::sim::body::topology::SegmentId;
-use crate::sim::body::{Body, Posture};
-use crate::sim::control::OnFloor;
-use crate::sim::dynamics::Terms;
-use crate::sim::figure::params::fall::FALLEN_HEIGHT;
-use crate::sim::figure::params::get_up::{
+use crate::body::topology::SegmentId;
+use crate::body::{Body, Posture};
+use crate::control::OnFloor;
+use crate::dynamics::Terms;
+use crate::figure::params::fall::FALLEN_HEIGHT;
+use crate::figure::params::get_up::{
     ATTEMPTS, FULL_PACE_COM, FULL_PACE_JOINTS, FULL_PACE_LYING_TURN, FULL_PACE_TURN, LEAST_PACE,
     LEVEL, NO_PACE_COM, NO_PACE_JOINTS, NO_PACE_LYING_TURN, NO_PACE_TURN, STALLED_PACE,
     STALLED_TIME, STILL_SPEED,
 };
-use crate::sim::get_up::{GetUpMotion, GetUpSolver};
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::motion::TargetPair;
-use crate::sim::report::{MAX_CONTACTS, POINTS_PER_SEGMENT};
+use crate::get_up::{GetUpMotion, GetUpSolver};
+use crate::math::{Quat, Vec3, trig};
+use crate::motion::TargetPair;
+use crate::report::{MAX_CONTACTS, POINTS_PER_SEGMENT};
 use serde::{Deserialize, Serialize};
 
 /// How a fallen figure gets up, and when.

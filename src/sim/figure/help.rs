@@ -15,9 +15,9 @@ use super::params::help::{
     GROWTH_TIME, LEVER, OUT_OF_REACH, OUT_OF_REACH_AFTER,
 };
 use super::rehearsed::Hold;
-use crate::sim::body::{Body, State};
-use crate::sim::math::Vec3;
-use crate::sim::motion::{GRAVITY, TargetPair};
+use crate::body::{Body, State};
+use crate::math::Vec3;
+use crate::motion::{GRAVITY, TargetPair};
 use serde::{Deserialize, Serialize};
 
 /// A pull on the pelvis of `body` towards a desired pose: a critically damped spring, with so much force over the
@@ -228,8 +228,8 @@ mod tests {
 
     #[test]
     fn the_forecast_is_the_distance_after_a_while() {
-        use crate::sim::motion::Target;
-        use crate::sim::support::testing::{mannequin, standing};
+        use crate::motion::Target;
+        use crate::support::testing::{mannequin, standing};
         let body = mannequin();
         let mut state = standing(&body);
         let still = Target::still(state.posture);

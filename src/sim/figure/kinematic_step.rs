@@ -5,26 +5,26 @@
 //! touching points. What they cannot give shows as a residual of the audit; it is not hidden.
 
 use super::torque_step::{StepInput, TickForces};
-use crate::sim::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
-use crate::sim::body::{Body, Posture, SegmentId, State};
-use crate::sim::contact::limits::LimitRows;
-use crate::sim::contact::newton::{Motors, NewtonWorkspace, Problem, StopRule, minimise};
-use crate::sim::contact::rows::{ContactRows, PointRow};
-use crate::sim::contact::sparse::SparseSystem;
-use crate::sim::control::Command;
-use crate::sim::control::reroot::shift;
-use crate::sim::dynamics::factor::{factor, solve};
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::dynamics::{Kinematics, MassMatrix, Terms};
-use crate::sim::figure::params::contact::{ITERATIONS, LARGEST_SPEED};
-use crate::sim::figure::params::kinematic::{
+use crate::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
+use crate::body::{Body, Posture, SegmentId, State};
+use crate::contact::limits::LimitRows;
+use crate::contact::newton::{Motors, NewtonWorkspace, Problem, StopRule, minimise};
+use crate::contact::rows::{ContactRows, PointRow};
+use crate::contact::sparse::SparseSystem;
+use crate::control::Command;
+use crate::control::reroot::shift;
+use crate::dynamics::factor::{factor, solve};
+use crate::dynamics::terms::WIDTH;
+use crate::dynamics::{Kinematics, MassMatrix, Terms};
+use crate::figure::params::contact::{ITERATIONS, LARGEST_SPEED};
+use crate::figure::params::kinematic::{
     ARRIVAL_TICKS, COMPLIANCE, IMPACT_HEIGHT, IMPACT_SPEED, LIMIT_TOLERANCE, NEARLY_FLAT,
     PIVOT_REACH, SETTLE, TOLERANCE,
 };
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::report::{ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
-use crate::sim::support::{NO_VERTEX, Pivot, Sharing, Support, SupportPoint, tipping_acceleration};
-use crate::sim::touch::MAX_TOUCHES;
+use crate::math::{Quat, Vec3};
+use crate::report::{ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
+use crate::support::{NO_VERTEX, Pivot, Sharing, Support, SupportPoint, tipping_acceleration};
+use crate::touch::MAX_TOUCHES;
 
 /// What this stepper reads beside the common input.
 #[derive(Clone, Copy, Debug)]

@@ -9,20 +9,20 @@
 
 mod arm;
 
-use crate::sim::body::topology::{
+use crate::body::topology::{
     ABDOMEN, CHEST, HEAD, JOINT, Joint, L_FOOT, L_TOES, L_UPPER_ARM, PARENT, R_FOOT, R_TOES,
     R_UPPER_ARM, SEGMENT_COUNT,
 };
-use crate::sim::body::{Body, Links, NV, Posture, SegmentId};
-use crate::sim::figure::params::load::{
+use crate::body::{Body, Links, NV, Posture, SegmentId};
+use crate::figure::params::load::{
     LARGEST_LEAN, LARGEST_SHIFT, LEAN, ONSET_TIME, RATE_SPAN, SAME_LOAD, SHIFT_ROUNDS,
 };
-use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::arm_ik::{ARMS, Arm};
-use crate::sim::motion::leg_ik::{forward, solve_leg};
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::plan::params::balance::PELVIS_LEAD;
+use crate::math::exp::exp;
+use crate::math::{Quat, Vec3};
+use crate::motion::arm_ik::{ARMS, Arm};
+use crate::motion::leg_ik::{forward, solve_leg};
+use crate::motion::{Target, TargetPair};
+use crate::plan::params::balance::PELVIS_LEAD;
 use arm::{Habit, Poses};
 use serde::{Deserialize, Serialize};
 
@@ -256,9 +256,9 @@ fn tilt(posture: &mut Posture, poses: &Poses, by: Vec3) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::{L_HAND, R_FOREARM, R_HAND};
-    use crate::sim::motion::Clip;
-    use crate::sim::motion::builtin::builtin;
+    use crate::body::topology::{L_HAND, R_FOREARM, R_HAND};
+    use crate::motion::Clip;
+    use crate::motion::builtin::builtin;
 
     const DT: f64 = 1.0 / 60.0;
 

@@ -1,23 +1,23 @@
 //! Loads and pushes of one figure: which act in a tick, and what taking up a load does to the body.
 
 use super::events::{FigureEvent, Watcher};
-use crate::sim::body::topology::{NV, SegmentId};
-use crate::sim::body::{Body, Links, State};
-use crate::sim::dynamics::crba::CompositeInertia;
-use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::dynamics::terms::AppliedForce;
-use crate::sim::dynamics::{Kinematics, MassMatrix, Terms, crba, factor, solve};
-use crate::sim::figure::params::second_hand::AHEAD;
-use crate::sim::figure::second_hand::Help;
-use crate::sim::figure::self_contact::MAX_PAIRS;
-use crate::sim::math::Vec3;
-use crate::sim::setup::{HeldLoad, Perturbation, SecondHand};
+use crate::body::topology::{NV, SegmentId};
+use crate::body::{Body, Links, State};
+use crate::dynamics::crba::CompositeInertia;
+use crate::dynamics::jacobian::for_each_column;
+use crate::dynamics::terms::AppliedForce;
+use crate::dynamics::{Kinematics, MassMatrix, Terms, crba, factor, solve};
+use crate::figure::params::second_hand::AHEAD;
+use crate::figure::second_hand::Help;
+use crate::figure::self_contact::MAX_PAIRS;
+use crate::math::Vec3;
+use crate::setup::{HeldLoad, Perturbation, SecondHand};
 use serde::{Deserialize, Serialize};
 
 /// Most perturbations a figure can have scheduled at once.
 pub const MAX_PERTURBATIONS: usize = 64;
 /// Most forces of other bodies in the audit of one figure.
-pub const MAX_EXTERNAL: usize = crate::sim::touch::MAX_ISLAND_CONTACTS;
+pub const MAX_EXTERNAL: usize = crate::touch::MAX_ISLAND_CONTACTS;
 /// Most applied forces in an audit: perturbations, a bar, other bodies, the body itself.
 pub const MAX_APPLIED: usize = MAX_PERTURBATIONS + 2 + MAX_EXTERNAL + 2 * MAX_PAIRS;
 

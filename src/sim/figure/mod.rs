@@ -25,8 +25,8 @@ pub mod tick;
 pub mod torque_step;
 pub mod touches;
 
-pub use crate::sim::report::{Audit, ContactPoint, Flags, TickReport};
-pub use crate::sim::setup::{
+pub use crate::report::{Audit, ContactPoint, Flags, TickReport};
+pub use crate::setup::{
     ControlParams, ControllerKind, FigureOptions, FigureSetup, HeldLoad, Metric, Perturbation,
     Priority, SecondHand, Share, StepperKind, StrengthScale,
 };

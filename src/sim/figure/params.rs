@@ -1,10 +1,10 @@
 //! Every tunable number of a figure and its steppers.
 
-use crate::sim::params::Param;
+use crate::params::Param;
 
 /// Supports, reactions, and other bodies.
 pub mod support {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A part rests on something that carries this share of the weight.
         REST_SHARE: f64 = 0.02, "1", 0.005..=0.1, "docs/tick.md";
         /// Part of a reaction that a controller takes in per tick: a blow is over before it is known, a seat is
@@ -21,7 +21,7 @@ pub mod support {
 
 /// Collisions in stages, as in §3 of the paper.
 pub mod staged {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Overlap that is left: parts that touch go on touching.
         OVERLAP: f64 = 1e-3, "m", 1e-4..=5e-3, "docs/equations.md";
         /// Largest correction of one overlap in a round.
@@ -33,7 +33,7 @@ pub mod staged {
 
 /// Whether balance is lost for good.
 pub mod balance {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Arms and trunk bring the capture point back from so far outside the support.
         BODY_REACH: f64 = 0.04, "m", 0..=0.1, "docs/locomotion.md#recovery";
         /// What does not step keeps trying up to here: on an edge of the feet. A centre of mass farther than this
@@ -52,7 +52,7 @@ pub mod balance {
 
 /// Falling, lying, and standing again.
 pub mod fall {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A figure has fallen, and a motion lies, when the centre of mass is below this share of its standing
         /// height.
         FALLEN_HEIGHT: f64 = 0.45, "1", 0.3..=0.6, "docs/tick.md";
@@ -70,7 +70,7 @@ pub mod fall {
 
 /// How a figure braces itself while it falls.
 pub mod bracing {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Share of their flexion by which knees bend, and hips in a fall backward.
         BEND: f64 = 0.5, "1", 0..=1.0, "docs/tick.md#falling";
         /// Time constant of what it demands of its joints: about as fast as muscles can.
@@ -80,7 +80,7 @@ pub mod bracing {
 
 /// When a fallen figure gets up, and how fast.
 pub mod get_up {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// The figure has got up once its centre of mass is above this share of its standing height.
         UP_HEIGHT: f64 = 0.75, "1", 0.6..=0.95, "docs/locomotion.md#getting-up";
         /// A trunk lies whose axis rises by less than this, as a sine.
@@ -116,7 +116,7 @@ pub mod get_up {
 
 /// From one motion to another.
 pub mod switch {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Samples of 1/60 s that still play before a motion is left: the time that there is to plan how.
         LEAD: usize = 4, "samples", 2..=12, "docs/locomotion.md#stops";
         /// The same after plans that came late: twice as many each time, up to this.
@@ -144,7 +144,7 @@ pub mod switch {
 
 /// What a load changes in a motion that steps.
 pub mod load {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Lean of the trunk per shift of the centre of mass: it does about half, and the pelvis the rest.
         LEAN: f64 = 1.8, "rad/m", 0..=3, "docs/locomotion.md#loads";
         /// Largest lean of the trunk.
@@ -183,7 +183,7 @@ pub mod load {
 
 /// When the other hand helps with a load, and how.
 pub mod second_hand {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// An arm is too weak that needs more than this share of its strength to hold its load still.
         WEAK: f64 = 1.0, "1", 0.7..=1.5, "docs/tick.md#the-second-hand";
         /// One arm is enough again below this share.
@@ -225,7 +225,7 @@ pub mod second_hand {
 
 /// Constraints that clients give.
 pub mod constraints {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// How far inside of what carries it the wanted centre of mass is kept. Feet count from the heel to the
         /// ball: toes cannot carry a body for long.
         COM_INSET: f64 = 0.03, "m", 0..=0.1, "docs/tick.md";
@@ -246,7 +246,7 @@ pub mod constraints {
 
 /// Help on the pelvis that physics does not give.
 pub mod assist {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// κ of the force over the body mass at assist 1.
         STIFFNESS: f64 = 50.0, "1", 10..=200, "docs/tick.md";
         /// Part of a pose error that is taken back per substep.
@@ -268,7 +268,7 @@ pub mod assist {
 
 /// Help while a motion is being lost.
 pub mod help {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// How far the forecast looks ahead: by what a fall that begins needs to become one (1/ω of a standing body).
         FORECAST_TIME: f64 = 0.3, "s", 0.1..=0.6, "docs/rehearsal.md#live-help";
         /// Turns of the pelvis count as the way of a part of the body so far from it.
@@ -300,7 +300,7 @@ pub mod help {
 
 /// How stiff motors are: the rate error at which a motor gives all it has.
 pub mod motors {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Motors alone.
         ALONE_SPEED: f64 = 0.005, "rad/s", 0.001..=0.1, "numerical";
         /// With the torque of the paper's controller as feed-forward.
@@ -314,7 +314,7 @@ pub mod motors {
 
 /// Contact with the ground in a substep.
 pub mod contact {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Compliance R of a contact.
         COMPLIANCE: f64 = 1e-4, "1/kg", 1e-6..=1e-2, "docs/equations.md";
         /// Contact points lower than this take part in the solve even if they move away.
@@ -338,7 +338,7 @@ pub mod contact {
 
 /// A body that meets itself.
 pub mod self_contact {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Most solves of one substep after its first, each with corrected impulses.
         ROUNDS: u32 = 3, "rounds", 1..=10, "docs/tick.md#self-contact";
         /// How much deeper than in the motion a pair may be without a force: capsules are off from the surface by as
@@ -355,7 +355,7 @@ pub mod self_contact {
 
 /// A load in two hands: a bar of fixed length between them.
 pub mod bar {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Share of an error of the bar's length that is taken back per substep.
         RETURN: f64 = 0.3, "1", 0.05..=1, "numerical";
         /// Fastest way back to its length.
@@ -369,7 +369,7 @@ pub mod bar {
 
 /// The kinematic stepper: prescribed accelerations and inelastic impacts.
 pub mod kinematic {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A point that arrives faster than this strikes the ground; a slower one settles.
         IMPACT_SPEED: f64 = 0.05, "m/s", 0.01..=0.2, "docs/adr/0012-kinematic-stepper.md";
         /// Points below this height take part in an impact.

@@ -2,7 +2,7 @@
 //! is fixed beforehand.
 //!
 //! Nothing here runs on its own. The caller that steps the world may solve the problems meanwhile, on threads of its
-//! own ([`World::plan_requests`](crate::sim::world::World::plan_requests)). A problem that is not solved by then is
+//! own ([`World::plan_requests`](crate::world::World::plan_requests)). A problem that is not solved by then is
 //! solved by the tick that takes it ([`Planning::InTick`]), or planned anew for a later tick ([`Planning::Aside`]).
 
 use serde::{Deserialize, Serialize};

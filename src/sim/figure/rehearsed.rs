@@ -13,13 +13,13 @@
 use super::assist::{Missing, PelvisHelp, Spring};
 use super::tick::TickContext;
 use super::torque_step::MotorCommand;
-use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::body::{Body, NV, State};
-use crate::sim::control::{Law, tracking};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::clip::PlanarTransform;
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::setup::ControlParams;
+use crate::body::topology::DOF_COUNT;
+use crate::body::{Body, NV, State};
+use crate::control::{Law, tracking};
+use crate::math::{Quat, Vec3};
+use crate::motion::clip::PlanarTransform;
+use crate::motion::{Target, TargetPair};
+use crate::setup::ControlParams;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -256,7 +256,7 @@ pub struct RehearsedMotion {
 
 /// Angles that are added to the joints along their axes, rad.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct JointOffset(#[serde(with = "crate::sim::saved::array")] pub [f64; DOF_COUNT]);
+pub struct JointOffset(#[serde(with = "crate::saved::array")] pub [f64; DOF_COUNT]);
 
 impl Default for JointOffset {
     fn default() -> Self {
@@ -340,7 +340,7 @@ impl RehearsedMotion {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct RehearsedPlayback {
     /// The motion.
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "crate::saved::definition")]
     pub motion: Arc<RehearsedMotion>,
     /// World time at which its first tick begins, s.
     pub start: f64,

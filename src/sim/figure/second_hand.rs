@@ -10,27 +10,27 @@
 mod effort;
 
 use super::loads::{Disturbances, Helpable};
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::palm::load_point;
-use crate::sim::body::topology::{
+use crate::body::angles::anatomical_angles;
+use crate::body::palm::load_point;
+use crate::body::topology::{
     ABDOMEN, CHEST, DOF_LEN, DOF_START, HEAD, L_HAND, L_THIGH, PELVIS, R_HAND, R_THIGH,
 };
-use crate::sim::body::{Body, Links, Posture, SegmentId, State};
-use crate::sim::collide::narrow::capsules;
-use crate::sim::collide::shape::{BodyShape, Capsule};
-use crate::sim::figure::params::load::RATE_SPAN;
-use crate::sim::figure::params::second_hand::{
+use crate::body::{Body, Links, Posture, SegmentId, State};
+use crate::collide::narrow::capsules;
+use crate::collide::shape::{BodyShape, Capsule};
+use crate::figure::params::load::RATE_SPAN;
+use crate::figure::params::second_hand::{
     AHEAD, APART, CALM, ENOUGH, FOLLOW_TIME, LARGEST_SHARE, LIMIT_SLACK, LOOK_AGAIN, NEAR,
     PATIENCE, PAUSE, REACH_TIME, SAME_SHARE, SHARE_TIME, STRETCH, TOUCH_SLACK, WEAK, WORTH,
 };
-use crate::sim::math::curve::smootherstep;
-use crate::sim::math::vec3::vec3;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::arm_ik::{ARMS, Arm, reach};
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::setup::SecondHand as When;
-use crate::sim::strength::{MuscleScale, Strength};
+use crate::math::curve::smootherstep;
+use crate::math::vec3::vec3;
+use crate::math::{Quat, Vec3};
+use crate::motion::arm_ik::{ARMS, Arm, reach};
+use crate::motion::leg_ik::forward;
+use crate::motion::{Target, TargetPair};
+use crate::setup::SecondHand as When;
+use crate::strength::{MuscleScale, Strength};
 use effort::Efforts;
 use serde::{Deserialize, Serialize};
 
@@ -303,7 +303,7 @@ impl SecondHand {
     /// Where the elbow points, chest frame.
     fn pole(&self) -> Vec3 {
         let side = if self.right { -1.0 } else { 1.0 };
-        let (sine, cosine) = crate::sim::math::trig::sin_cos(self.spread);
+        let (sine, cosine) = crate::math::trig::sin_cos(self.spread);
         vec3(-0.3, side * sine, -cosine)
     }
 

@@ -19,19 +19,19 @@
 
 use super::params::contact::SPECULATIVE_HEIGHT;
 use super::params::self_contact::{RELAXATION, SLACK, STIFFNESS, TOLERANCE};
-use crate::sim::body::topology::{
+use crate::body::topology::{
     ABDOMEN, CHEST, HEAD, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_THIGH, L_TOES, L_UPPER_ARM, NV,
     PELVIS, R_FOOT, R_FOREARM, R_HAND, R_SHANK, R_THIGH, R_TOES, R_UPPER_ARM, SEGMENT_COUNT,
     SegmentId,
 };
-use crate::sim::body::{Body, Posture};
-use crate::sim::collide::narrow::{Near, capsules};
-use crate::sim::collide::shape::{BodyShape, Capsule};
-use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::dynamics::{Dynamics, MassMatrix, factor, solve};
-use crate::sim::math::{Mat3, Quat, Vec3};
-use crate::sim::motion::TargetPair;
-use crate::sim::motion::leg_ik::forward;
+use crate::body::{Body, Posture};
+use crate::collide::narrow::{Near, capsules};
+use crate::collide::shape::{BodyShape, Capsule};
+use crate::dynamics::jacobian::for_each_column;
+use crate::dynamics::{Dynamics, MassMatrix, factor, solve};
+use crate::math::{Mat3, Quat, Vec3};
+use crate::motion::TargetPair;
+use crate::motion::leg_ik::forward;
 
 /// Most pairs that are near each other in one substep; more do not meet.
 pub const MAX_PAIRS: usize = 32;

@@ -1,11 +1,11 @@
 //! Where the desired motion puts the centre of mass, the hands and the feet, with the present loads.
 
-use crate::sim::body::topology::{L_FOOT, L_HAND, R_FOOT, R_HAND};
-use crate::sim::body::{Body, Links, NV, SegmentId, State};
-use crate::sim::control::{Effector, FootTarget, PointTarget, RotationTarget};
-use crate::sim::dynamics::{Kinematics, center_of_mass, momentum};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::{Target, TargetPair};
+use crate::body::topology::{L_FOOT, L_HAND, R_FOOT, R_HAND};
+use crate::body::{Body, Links, NV, SegmentId, State};
+use crate::control::{Effector, FootTarget, PointTarget, RotationTarget};
+use crate::dynamics::{Kinematics, center_of_mass, momentum};
+use crate::math::{Quat, Vec3};
+use crate::motion::{Target, TargetPair};
 
 /// Spatial targets derived from the desired joint trajectories.
 #[derive(Clone, Copy, Debug, PartialEq)]

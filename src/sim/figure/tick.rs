@@ -31,7 +31,7 @@ pub(crate) use saved::SavedFigure;
 pub(super) use stream_entry::StreamEntryPlan;
 pub(crate) use workspace::Slot;
 
-use crate::sim::figure::params::support::REST_SHARE;
+use crate::figure::params::support::REST_SHARE;
 use state::{
     BodyConstants, DesiredMotion, Neighbours, Outcome, PhysicalState, Scratch, StepperChoice,
     Surroundings,
@@ -50,16 +50,16 @@ use super::self_contact::OwnBody;
 use super::tasks::TaskPoints;
 use super::torque_step::{Accuracy, ExternalForces, StepInput, Stepper, TickStart, TorqueStepper};
 use super::touches::Chosen;
-use crate::sim::body::State;
-use crate::sim::body::angles::{angles_of, swings};
-use crate::sim::contact::Tissue;
-use crate::sim::control::{Modern, MomentumTarget, Paper};
-use crate::sim::math::Vec3;
-use crate::sim::motion::arm_ik::ARMS;
-use crate::sim::report::{Flags, TickReport};
-use crate::sim::setup::{ControllerKind, FigureSetup, Share};
-use crate::sim::support::Support;
-use crate::sim::track::TaskTargets;
+use crate::body::State;
+use crate::body::angles::{angles_of, swings};
+use crate::contact::Tissue;
+use crate::control::{Modern, MomentumTarget, Paper};
+use crate::math::Vec3;
+use crate::motion::arm_ik::ARMS;
+use crate::report::{Flags, TickReport};
+use crate::setup::{ControllerKind, FigureSetup, Share};
+use crate::support::Support;
+use crate::track::TaskTargets;
 
 /// What a tick needs to know about the world.
 #[derive(Clone, Copy, Debug)]

@@ -14,20 +14,20 @@ use super::loads::{Bar, MAX_EXTERNAL};
 use super::params::contact;
 use super::self_contact::{OwnBody, SelfContact};
 use super::tick::TickContext;
-use crate::sim::body::angles::{Swings, angles_of, swings};
-use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
-use crate::sim::body::{Body, Links, State};
-use crate::sim::collide::island::{Articulated, Parts};
-use crate::sim::contact::rows::PointRow;
-use crate::sim::contact::{
+use crate::body::angles::{Swings, angles_of, swings};
+use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId};
+use crate::body::{Body, Links, State};
+use crate::collide::island::{Articulated, Parts};
+use crate::contact::rows::PointRow;
+use crate::contact::{
     ContactRows, LimitRows, Motors, NewtonWorkspace, Outcome, Slides, Tissue, collect_limits,
     slides,
 };
-use crate::sim::dynamics::terms::AppliedForce;
-use crate::sim::dynamics::{Dynamics, MassMatrix, Terms, factor, solve};
-use crate::sim::math::Vec3;
-use crate::sim::report::{Audit, ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
-use crate::sim::strength::{MuscleScale, Strength};
+use crate::dynamics::terms::AppliedForce;
+use crate::dynamics::{Dynamics, MassMatrix, Terms, factor, solve};
+use crate::math::Vec3;
+use crate::report::{Audit, ContactPoint, Flags, MAX_CONTACTS, POINTS_PER_SEGMENT};
+use crate::strength::{MuscleScale, Strength};
 use bar::BarRow;
 use multiversion::multiversion;
 

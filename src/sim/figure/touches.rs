@@ -1,14 +1,12 @@
 //! What a figure touches besides the ground: sums over a tick, and what it knows of them in the next.
 
 use super::events::{FigureEvent, Watcher};
-use crate::sim::body::SegmentId;
-use crate::sim::collide::{MAX_TOUCHES, Other, Touch};
-use crate::sim::dynamics::{Dynamics, Terms};
-use crate::sim::figure::params::support::{
-    LARGEST_REACTION, REACTION_GAIN, SPOT_FORGOTTEN, SPOT_SIZE,
-};
-use crate::sim::math::Vec3;
-use crate::sim::support::Rest;
+use crate::body::SegmentId;
+use crate::collide::{MAX_TOUCHES, Other, Touch};
+use crate::dynamics::{Dynamics, Terms};
+use crate::figure::params::support::{LARGEST_REACTION, REACTION_GAIN, SPOT_FORGOTTEN, SPOT_SIZE};
+use crate::math::Vec3;
+use crate::support::Rest;
 use serde::{Deserialize, Serialize};
 
 /// Places by which one part rests on one thing: buttocks and thighs do not turn on a stool as on a point.

@@ -1,8 +1,6 @@
 //! What a posture on the way up should be like: numbers with weights, that pass into one another.
 
-use crate::sim::body::topology::{
-    DOF_COUNT, DOF_START, L_THIGH, L_UPPER_ARM, R_THIGH, R_UPPER_ARM,
-};
+use crate::body::topology::{DOF_COUNT, DOF_START, L_THIGH, L_UPPER_ARM, R_THIGH, R_UPPER_ARM};
 use serde::{Deserialize, Serialize};
 
 /// A number that should be `at`, if it has weight.
@@ -58,7 +56,7 @@ pub struct Goals {
     /// Height of the front of the chest.
     pub chest: Aim,
     /// Anatomical angles.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub pose: [Aim; DOF_COUNT],
 }
 

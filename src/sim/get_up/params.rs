@@ -1,10 +1,10 @@
 //! Every tunable number of getting up. Reference poses and goals of the stages are tables of their own.
 
-use crate::sim::params::Param;
+use crate::params::Param;
 
 /// Where things are on the floor. Lengths are those of the reference body of the built-in motions.
 pub mod layout {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Time constant with which what is on the floor counts as where it really is.
         UPDATE_TIME: f64 = 0.1, "s", 0.05..=1, "docs/locomotion.md#getting-up";
         /// A part lower than this is on the floor.
@@ -31,7 +31,7 @@ pub mod layout {
 
 /// Weights of the goals, squared errors in m, rad and their rates.
 pub mod weights {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// What carries.
         FIRM: f64 = 10.0, "1", 1..=100, "docs/locomotion.md#getting-up";
         /// Hands that lie flat.
@@ -55,7 +55,7 @@ pub mod weights {
 
 /// Inverse kinematics.
 pub mod solver {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Time constant with which goals and joint limits are approached.
         APPROACH: f64 = 0.05, "s", 0.03..=0.3, "docs/locomotion.md#getting-up";
         /// Fastest joint.

@@ -1,6 +1,6 @@
 //! Joint angles of the stages' reference poses.
 
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
+use crate::body::topology::{DOF_COUNT, DOF_NAMES};
 
 /// Joint angles of the stages.
 #[derive(Clone, Debug)]

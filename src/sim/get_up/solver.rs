@@ -1,20 +1,20 @@
 //! Joint rates that lead a posture towards goals: damped least squares with limits, one solution per tick.
 
 use super::goals::{Aim, Goals};
-use crate::sim::body::angles::{anatomical_angles, clamp_to_limits, set_anatomical_angles};
-use crate::sim::body::topology::{
+use crate::body::angles::{anatomical_angles, clamp_to_limits, set_anatomical_angles};
+use crate::body::topology::{
     CHEST, DOF_COUNT, FEET, HANDS, NV, PELVIS, SEGMENT_COUNT, SHANKS, SegmentId, TOES,
 };
-use crate::sim::body::{Body, Links, Posture, State};
-use crate::sim::dynamics::Terms;
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::get_up::params::layout::NEAR_HEIGHT;
-use crate::sim::get_up::params::solver::{
+use crate::body::{Body, Links, Posture, State};
+use crate::dynamics::Terms;
+use crate::dynamics::terms::WIDTH;
+use crate::get_up::params::layout::NEAR_HEIGHT;
+use crate::get_up::params::solver::{
     APPROACH, FASTEST, LIMIT_MARGIN, LIMIT_ROUNDS, RATE_TOLERANCE,
 };
-use crate::sim::get_up::params::weights::{DAMPING, FINGERS, FLOOR, JOINT_LIMIT, STEADY};
-use crate::sim::math::dense::cholesky_solve_summed;
-use crate::sim::math::{Quat, Vec3};
+use crate::get_up::params::weights::{DAMPING, FINGERS, FLOOR, JOINT_LIMIT, STEADY};
+use crate::math::dense::cholesky_solve_summed;
+use crate::math::{Quat, Vec3};
 
 /// Point of the shank on which a body kneels, and points of the toes under the ball of the foot.
 pub const KNEE: usize = 0;

@@ -7,10 +7,10 @@
 
 use super::goals::{Aim, Goals, swapped};
 use super::reference_pose::ReferencePoses;
-use crate::sim::body::topology::{DOF_COUNT, outward};
-use crate::sim::get_up::params::layout::{ARMS_APART, HAND_STEP_HEIGHT, SHANK, WRIST_HEIGHT};
-use crate::sim::get_up::params::weights::{COM, FIRM, HAND, POSE};
-use crate::sim::math::Vec3;
+use crate::body::topology::{DOF_COUNT, outward};
+use crate::get_up::params::layout::{ARMS_APART, HAND_STEP_HEIGHT, SHANK, WRIST_HEIGHT};
+use crate::get_up::params::weights::{COM, FIRM, HAND, POSE};
+use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 

@@ -3,9 +3,9 @@
 
 use super::params::solver::FASTEST;
 use super::*;
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use crate::sim::body::{Links, Profile, Sex, State};
-use crate::sim::motion::builtin::at_ease;
+use crate::body::topology::{DOF_COUNT, DOF_NAMES};
+use crate::body::{Links, Profile, Sex, State};
+use crate::motion::builtin::at_ease;
 
 const DT: f64 = 1.0 / 60.0;
 

@@ -3,7 +3,7 @@
 //! [`min_jerk`], [`fade`] and [`quintic`] are the same polynomial with different boundary conditions. Each keeps its
 //! own order of operations, so that recorded motions keep their bits.
 
-use crate::sim::math::Vec3;
+use crate::math::Vec3;
 
 /// 0 until u = 0, 1 from u = 1 on, C¹ between: 3u² − 2u³.
 #[inline]

@@ -4,7 +4,7 @@
 //! columns for vector units. The tree-sparse factorisation of the inertia matrix is `dynamics::factor`, that of a
 //! body's root over lanes is in `dynamics::aba`, and equations along a trajectory are [`super::banded`].
 
-use crate::sim::math::{Mat3, Vec3, vec3::vec3};
+use crate::math::{Mat3, Vec3, vec3::vec3};
 
 /// `s − Σ aᵢ bᵢ`, product by product.
 #[inline(always)]

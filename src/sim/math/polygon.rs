@@ -574,7 +574,7 @@ impl Polygon {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::support::testing::Rng;
+    use crate::support::testing::Rng;
     use rand::{Rng as _, SeedableRng};
     use rand_pcg::Pcg64;
 

@@ -4,7 +4,7 @@
 //! and its derivative `α = Jr φ̈ + J̇r φ̇`; see for example Chirikjian, *Stochastic Models, Information Theory, and Lie
 //! Groups*, vol. 2.
 
-use crate::sim::math::{Vec3, trig};
+use crate::math::{Vec3, trig};
 
 /// Below this squared angle the coefficients come from their series, which then are exact to rounding.
 const SERIES: f64 = 0.25;
@@ -113,7 +113,7 @@ pub fn vector_rates(phi: Vec3, omega: Vec3, alpha: Vec3) -> (Vec3, Vec3) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::math::Quat;
+    use crate::math::Quat;
     use rand::{Rng, SeedableRng};
 
     #[test]

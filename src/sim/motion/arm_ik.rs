@@ -5,12 +5,12 @@
 //! within the tick.
 
 use super::leg_ik::{hinge_for_distance, point_and_roll};
-use crate::sim::body::topology::{
+use crate::body::topology::{
     DOF_AXIS, DOF_START, JOINT, Joint, L_FOREARM, L_HAND, L_UPPER_ARM, R_FOREARM, R_HAND,
     R_UPPER_ARM,
 };
-use crate::sim::body::{Body, Posture, SegmentId};
-use crate::sim::math::{Quat, Vec3};
+use crate::body::{Body, Posture, SegmentId};
+use crate::math::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Upper arm, forearm and hand, left and right.
@@ -111,10 +111,10 @@ pub fn reach(body: &Body, arm: [SegmentId; 3], point: Vec3, place: Vec3, pole: V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::palm::load_point;
-    use crate::sim::body::topology::CHEST;
-    use crate::sim::math::vec3::vec3;
-    use crate::sim::motion::leg_ik::forward;
+    use crate::body::palm::load_point;
+    use crate::body::topology::CHEST;
+    use crate::math::vec3::vec3;
+    use crate::motion::leg_ik::forward;
 
     #[test]
     fn the_palm_comes_to_the_place_and_the_elbow_points_along_the_pole() {

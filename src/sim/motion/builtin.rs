@@ -10,7 +10,7 @@ mod shape;
 mod standing;
 
 use super::clip::Clip;
-use crate::sim::body::{Body, Posture};
+use crate::body::{Body, Posture};
 
 /// Names that [`builtin`] knows.
 pub const BUILTIN_NAMES: [&str; 7] = ["idle", "lift", "crate", "squat", "wave", "step", "walk"];

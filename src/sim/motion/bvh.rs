@@ -10,7 +10,7 @@
 
 mod parse;
 
-use crate::sim::math::{Quat, Vec3, vec3::vec3};
+use crate::math::{Quat, Vec3, vec3::vec3};
 use parse::{Reader, Warnings, parse_frames, parse_hierarchy, parse_motion_head};
 
 /// Most joints of a skeleton that is read; rigs with full faces have about 300. Bounds the quadratic searches of the

@@ -3,9 +3,9 @@
 //! y up, z forward, x left; centimetres and degrees; joints named like VRM bones. The root has position and rotation
 //! channels, every other joint three rotations, in the order Z, X, Y.
 
-use crate::sim::body::topology::{BONE_NAMES, PARENT, SEGMENT_COUNT};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Quat, Vec3};
+use crate::body::topology::{BONE_NAMES, PARENT, SEGMENT_COUNT};
+use crate::body::{Body, Posture};
+use crate::math::{Quat, Vec3};
 use std::fmt::Write;
 
 use super::leg_ik::forward;
@@ -142,8 +142,8 @@ fn close(out: &mut String, body: &Body, open: &mut Vec<usize>, next: usize) -> s
 mod tests {
     use super::super::bvh::Bvh;
     use super::*;
-    use crate::sim::body::angles::set_anatomical_angles;
-    use crate::sim::body::topology::DOF_COUNT;
+    use crate::body::angles::set_anatomical_angles;
+    use crate::body::topology::DOF_COUNT;
     use rand::{Rng, SeedableRng};
 
     #[test]

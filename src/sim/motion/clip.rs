@@ -11,14 +11,14 @@ mod seam;
 pub use planar::PlanarTransform;
 
 use super::target::Target;
-use crate::sim::body::state::{ball_rate_vector, ball_rates};
-use crate::sim::body::topology::{
+use crate::body::state::{ball_rate_vector, ball_rates};
+use crate::body::topology::{
     BALL_COUNT, DOF_LEN, DOF_START, JOINT, JOINT_NAMES, Joint, SEGMENT_COUNT,
 };
-use crate::sim::body::{NV, Posture};
-use crate::sim::math::curve;
-use crate::sim::math::rotation_vector;
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::body::{NV, Posture};
+use crate::math::curve;
+use crate::math::rotation_vector;
+use crate::math::{Quat, Vec3, trig};
 use seam::Seam;
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -61,10 +61,10 @@ pub(crate) struct Knot {
     /// Posture.
     pub posture: Posture,
     /// First derivative.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub first: [f64; NV],
     /// Second derivative.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub second: [f64; NV],
     /// Feet that the motion keeps on the floor.
     pub planted: [bool; 2],
@@ -198,7 +198,7 @@ impl Clip {
     }
 
     /// Declares the first `lead_in` and the last `lead_out` samples to be the way into the motion and out of it
-    /// ([`crate::sim::plan::stop`]): times count from the first sample between them, and repetition leaves them out. At
+    /// ([`crate::plan::stop`]): times count from the first sample between them, and repetition leaves them out. At
     /// least one sample stays between.
     pub fn with_ends(mut self, lead_in: usize, lead_out: usize) -> Self {
         let most = self.knots.len() - 1;

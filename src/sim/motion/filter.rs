@@ -4,8 +4,8 @@
 //! at both ends by its point reflection, and each pass starts in the steady state of its first sample. Amplitude at the
 //! cut-off is 1/2 (twice −3 dB). Rotations are filtered as sign-aligned quaternions and normalised again.
 
-use crate::sim::math::banded::Pentadiagonal;
-use crate::sim::math::{Quat, Vec3};
+use crate::math::banded::Pentadiagonal;
+use crate::math::{Quat, Vec3};
 
 /// Cut-offs above this fraction of the sample rate leave the signal alone: nothing is left to remove.
 const TOP_FRACTION: f64 = 0.45;

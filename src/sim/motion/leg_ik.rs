@@ -5,12 +5,12 @@
 //! axis as near as it can to a given direction, the ankle does the rest. Every step is closed form, so the foot pose is
 //! met to rounding. Rounds alike everywhere: live streams are prepared within the tick.
 
-use crate::sim::body::topology::{
+use crate::body::topology::{
     DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, PARENT, R_FOOT,
     R_SHANK, R_THIGH, R_TOES, SEGMENT_COUNT,
 };
-use crate::sim::body::{Body, Posture, SegmentId};
-use crate::sim::math::{Mat3, Quat, Vec3, trig};
+use crate::body::{Body, Posture, SegmentId};
+use crate::math::{Mat3, Quat, Vec3, trig};
 
 /// Thigh, shank, foot and toes of one side.
 pub fn leg_segments(left: bool) -> [SegmentId; 4] {
@@ -192,9 +192,9 @@ fn frame(first: Vec3, second: Vec3, spare: Vec3) -> Mat3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::DOF_COUNT;
-    use crate::sim::body::{Links, angles};
-    use crate::sim::dynamics::Kinematics;
+    use crate::body::topology::DOF_COUNT;
+    use crate::body::{Links, angles};
+    use crate::dynamics::Kinematics;
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64;
 
@@ -407,7 +407,7 @@ mod tests {
             assert!(
                 found[d] > body.lower[d] - 1e-9 && found[d] < body.upper[d],
                 "{}",
-                crate::sim::body::topology::DOF_NAMES[d]
+                crate::body::topology::DOF_NAMES[d]
             );
         }
     }

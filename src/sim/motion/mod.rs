@@ -16,4 +16,4 @@ pub use clip::{Clip, ClipError, PlanarTransform};
 pub use target::{Target, TargetPair};
 
 /// Gravity that motions are made and planned for, and that a share of the weight refers to, m/s².
-pub(crate) const GRAVITY: f64 = 9.81;
+pub const GRAVITY: f64 = 9.81;

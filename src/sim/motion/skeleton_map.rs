@@ -7,7 +7,7 @@
 //! that splits into two arms and a head.
 
 use super::bvh::{BvhJoint, MAX_JOINTS};
-use crate::sim::math::Vec3;
+use crate::math::Vec3;
 
 /// The bones of one arm and one leg; indices into the file's joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

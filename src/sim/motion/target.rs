@@ -1,21 +1,21 @@
 //! What a figure is asked to do at one instant.
 
-use crate::sim::body::{NV, Posture, State};
+use crate::body::{NV, Posture, State};
 use serde::{Deserialize, Serialize};
 
 /// Desired positions, velocities and accelerations at one instant.
 ///
-/// Velocities and accelerations have the layout and axes of [`State::velocity`](crate::sim::body::State::velocity):
+/// Velocities and accelerations have the layout and axes of [`State::velocity`](crate::body::State::velocity):
 /// pelvis angular and linear part in world axes, then joint rates along the signed child axes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Target {
     /// Desired posture.
     pub posture: Posture,
     /// Desired velocity.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub velocity: [f64; NV],
     /// Desired acceleration.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub acceleration: [f64; NV],
     /// Which feet the motion keeps on the floor: left, right.
     pub planted: [bool; 2],

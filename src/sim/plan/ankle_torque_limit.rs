@@ -5,12 +5,12 @@
 //! the body to correct anything with.
 
 use super::foot_lock::{FootPlacement, Sole};
-use crate::sim::body::Body;
-use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_FOOT};
-use crate::sim::math::Vec3;
-use crate::sim::motion::GRAVITY;
-use crate::sim::plan::params::ankle;
-use crate::sim::strength::{MuscleScale, Strength};
+use crate::body::Body;
+use crate::body::topology::{DOF_COUNT, DOF_START, L_FOOT};
+use crate::math::Vec3;
+use crate::motion::GRAVITY;
+use crate::plan::params::ankle;
+use crate::strength::{MuscleScale, Strength};
 
 /// Where a body is over its foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,8 +105,8 @@ impl AnkleTorqueLimit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::{Profile, Sex};
-    use crate::sim::math::polygon::{hull, margin};
+    use crate::body::{Profile, Sex};
+    use crate::math::polygon::{hull, margin};
 
     const AT: FootPlacement = FootPlacement {
         place: Vec3 {

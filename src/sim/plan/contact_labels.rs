@@ -4,9 +4,9 @@
 //! one of its points moves slowly near its *own* lowest level; hysteresis, short gaps and short touches are cleaned up
 //! afterwards.
 
-use crate::sim::math::Vec3;
-use crate::sim::motion::filter::{low_pass_points, percentile, speeds};
-use crate::sim::plan::params::contact;
+use crate::math::Vec3;
+use crate::motion::filter::{low_pass_points, percentile, speeds};
+use crate::plan::params::contact;
 
 /// A stretch of the clip with the same feet on the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,12 +4,12 @@
 use super::foot_lock::Sole;
 use super::likeness::pelvis_unlike;
 use super::prepare::{Draft, PrepareOptions, prepare};
-use crate::sim::body::topology::{DOF_COUNT, FEET};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::Vec3;
-use crate::sim::motion::clip::Clip;
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::params::{contact, likeness};
+use crate::body::topology::{DOF_COUNT, FEET};
+use crate::body::{Body, Posture};
+use crate::math::Vec3;
+use crate::motion::clip::Clip;
+use crate::motion::leg_ik::forward;
+use crate::plan::params::{contact, likeness};
 
 /// What two samples are compared by.
 struct Key {

@@ -4,8 +4,8 @@
 //! cm in a tenth of a second takes the whole weight off the floor and then doubles it. So the dip is the one that costs
 //! the least acceleration.
 
-use crate::sim::math::banded::Pentadiagonal;
-use crate::sim::plan::params::leg;
+use crate::math::banded::Pentadiagonal;
+use crate::plan::params::leg;
 
 /// The curve `d ≤ ceiling` that minimises `Σ d² + τ⁴ d̈²`: it leaves 0 as little, and bends as little, as the ceiling
 /// allows.
@@ -89,7 +89,7 @@ mod tests {
         };
         assert!(d.iter().zip(&ceiling).all(|(d, c)| *d < c + 5e-4));
         assert!(d[0].abs() < 4e-3 && d[239].abs() < 4e-3, "it comes back");
-        let windows = crate::sim::motion::filter::smooth_minimum(
+        let windows = crate::motion::filter::smooth_minimum(
             &ceiling.iter().map(|c| c.min(0.0)).collect::<Vec<_>>(),
             12,
         );

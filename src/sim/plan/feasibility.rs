@@ -8,14 +8,14 @@
 use super::contact_labels::stretches;
 use super::foot_lock::{FootPlacement, Sole};
 use super::pelvis_shift::mass_track;
-use crate::sim::body::topology::FEET;
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::nnls::nnls;
-use crate::sim::math::polygon::{hull, margin};
-use crate::sim::math::{Vec3, trig};
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::params::{balance, feasibility, pelvis, stop};
+use crate::body::topology::FEET;
+use crate::body::{Body, Posture};
+use crate::math::nnls::nnls;
+use crate::math::polygon::{hull, margin};
+use crate::math::{Vec3, trig};
+use crate::motion::GRAVITY;
+use crate::motion::leg_ik::forward;
+use crate::plan::params::{balance, feasibility, pelvis, stop};
 
 /// Root mean square and largest value of something over a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -179,8 +179,8 @@ fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::motion::builtin::at_ease;
-    use crate::sim::motion::leg_ik::center_of_mass;
+    use crate::motion::builtin::at_ease;
+    use crate::motion::leg_ik::center_of_mass;
 
     #[test]
     fn standing_still_lacks_nothing() {
@@ -222,13 +222,7 @@ mod tests {
                 let com = center_of_mass(&body, &forward(&body, &posture)).x;
                 posture.root_position.x += front + lean - com;
                 for (side, pose) in feet.iter().enumerate() {
-                    crate::sim::motion::leg_ik::solve_leg(
-                        &body,
-                        &mut posture,
-                        side == 0,
-                        *pose,
-                        0.0,
-                    );
+                    crate::motion::leg_ik::solve_leg(&body, &mut posture, side == 0, *pose, 0.0);
                 }
             }
             let c = consistency(&body, &[posture; 30], &[[true; 2]; 30], 60.0);

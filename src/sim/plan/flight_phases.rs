@@ -8,12 +8,12 @@ use super::contact_labels::{remove_short, runs, stretches};
 use super::envelope::bent_below;
 use super::foot_lock::{FootPlacement, LockedFoot, Sole, Stance, StanceTurns};
 use super::pelvis_shift::{MassTrack, mass_track};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::Vec3;
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::filter::low_pass;
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::params::{balance, contact, leg, run};
+use crate::body::{Body, Posture};
+use crate::math::Vec3;
+use crate::motion::GRAVITY;
+use crate::motion::filter::low_pass;
+use crate::motion::leg_ik::forward;
+use crate::plan::params::{balance, contact, leg, run};
 
 /// Speed over the floor between so many samples before `from` and after `to`, m/s.
 fn pace(at: impl Fn(usize) -> Vec3, (from, to): (usize, usize), n: usize, rate_hz: f64) -> f64 {

@@ -8,16 +8,16 @@
 mod sole;
 mod stances;
 
-pub(in crate::sim::plan) use sole::FootOffset;
+pub(in crate::plan) use sole::FootOffset;
 pub use sole::{FootPlacement, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
 use super::contact_labels::runs;
-use crate::sim::body::topology::outward;
-use crate::sim::math::curve::{fade, smoothstep_to};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::filter::low_pass;
-use crate::sim::plan::params::{contact, pitch, swing};
+use crate::body::topology::outward;
+use crate::math::curve::{fade, smoothstep_to};
+use crate::math::{Quat, Vec3};
+use crate::motion::filter::low_pass;
+use crate::plan::params::{contact, pitch, swing};
 use stances::Track;
 use std::ops::Range;
 
@@ -85,7 +85,7 @@ impl StanceTurns {
 }
 
 /// Extension of the toes of a foot that swings with this pitch, rad.
-pub(in crate::sim::plan) fn swing_toe(pitch: f64) -> f64 {
+pub(in crate::plan) fn swing_toe(pitch: f64) -> f64 {
     (-pitch).clamp(0.0, swing::MOST_TOE)
 }
 

@@ -1,9 +1,9 @@
 //! How high a pelvis may be for its legs to reach their ankles.
 
-use crate::sim::body::Body;
-use crate::sim::body::topology::THIGHS;
-use crate::sim::math::Vec3;
-use crate::sim::plan::params::leg;
+use crate::body::Body;
+use crate::body::topology::THIGHS;
+use crate::math::Vec3;
+use crate::plan::params::leg;
 
 /// Hip joint of a side in the pelvis frame, m, and length of the leg from hip to ankle, m.
 pub(super) fn leg_geometry(body: &Body, side: usize) -> (Vec3, f64) {

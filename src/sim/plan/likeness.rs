@@ -1,10 +1,10 @@
 //! How like two motions are at a moment of each, whatever their place and heading.
 
-use crate::sim::body::Posture;
-use crate::sim::body::topology::{DOF_COUNT, DOF_START, L_THIGH, L_UPPER_ARM};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::GRAVITY;
-use crate::sim::plan::params::{likeness, stop, stream, transition};
+use crate::body::Posture;
+use crate::body::topology::{DOF_COUNT, DOF_START, L_THIGH, L_UPPER_ARM};
+use crate::math::{Quat, Vec3};
+use crate::motion::GRAVITY;
+use crate::plan::params::{likeness, stop, stream, transition};
 
 /// Unlikeness of the postures and their rates, rad rms over trunk and legs. Of each motion three samples, 1/60 s apart;
 /// the middle ones are compared.

@@ -20,9 +20,9 @@ pub mod stream;
 pub use cycle::cycle;
 pub use stream::StreamPlan;
 
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::{JOINT, Joint, TOES};
-use crate::sim::math::trig;
+use crate::body::SegmentId;
+use crate::body::topology::{JOINT, Joint, TOES};
+use crate::math::trig;
 
 /// Index of the ball joint of a segment in a posture.
 fn ball_joint(segment: SegmentId) -> usize {

@@ -20,10 +20,10 @@ pub(crate) use super::params::stop::RATE;
 pub(crate) use super::params::transition::{AHEAD, BEYOND, RUN_UP};
 
 use super::splice::{Sample, none_yet};
-use crate::sim::body::Body;
-use crate::sim::motion::clip::{Clip, PlanarTransform};
-use crate::sim::motion::target::Target;
-use crate::sim::plan::params::{stop, transition};
+use crate::body::Body;
+use crate::motion::clip::{Clip, PlanarTransform};
+use crate::motion::target::Target;
+use crate::plan::params::{stop, transition};
 use candidates::{Features, moments};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -33,7 +33,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct NextClip {
     /// The clip.
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "crate::saved::definition")]
     pub clip: Arc<Clip>,
     /// Clip seconds per second.
     pub speed: f64,
@@ -116,7 +116,7 @@ impl TransitionClip {
 /// one that a body can go is taken.
 #[derive(Serialize, Deserialize)]
 pub struct TransitionCandidates {
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "crate::saved::definition")]
     body: Arc<Body>,
     known: Vec<Sample>,
     now: usize,

@@ -2,11 +2,11 @@
 //!
 //! Names that begin with `STREAM_` belong to the preparation of streams where it differs from that of clips.
 
-use crate::sim::params::Param;
+use crate::params::Param;
 
 /// Which foot touches the floor, and whether a body stands on its feet at all.
 pub mod contact {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A point of a foot comes to the floor below this speed.
         SPEED_ON: f64 = 0.45, "m/s", 0.1..=1.0, "docs/locomotion.md#contact";
         /// A point that is on the floor leaves it above this speed.
@@ -53,7 +53,7 @@ pub mod contact {
 
 /// What the height of the pelvis says, in shares of that of a stand.
 pub mod pelvis {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Below it a body sits or lies on the floor: no foot is locked.
         LYING: f64 = 0.22, "1", 0.1..=0.4, "docs/locomotion.md#contact";
         /// Below it a body is not carried by its feet.
@@ -69,7 +69,7 @@ pub mod pelvis {
 
 /// What plans and tracking share.
 pub mod common {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A body that is slower over the floor is at rest.
         REST_SPEED: f64 = 0.1, "m/s", 0.02..=0.3, "docs/locomotion.md#stops";
         /// A foot farther than this from where it belongs is misplaced.
@@ -85,7 +85,7 @@ pub mod common {
 
 /// Where and how long a foot stands.
 pub mod stance {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A recorded foot that strays further from its place has stepped.
         STRAY_DISTANCE: f64 = 0.06, "m", 0.02..=0.15, "docs/locomotion.md#foot-lock";
         /// A recorded foot that turns further from its heading has pivoted.
@@ -133,7 +133,7 @@ pub mod stance {
 
 /// How a foot that stands is pitched.
 pub mod pitch {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A foot that is pitched by less, and toes that are turned up by less, lie flat.
         FLAT: f64 = 0.02, "rad", 0.005..=0.05, "numerical";
         /// Length of the tip of the toes, which carries when they are turned up.
@@ -161,7 +161,7 @@ pub mod pitch {
 
 /// How a foot gets from one place to the next.
 pub mod swing {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A swinging sole passes at least this high.
         CLEARANCE: f64 = 0.045, "m", 0.01..=0.1, "docs/locomotion.md#foot-lock";
         /// The same as a share of the step: a shuffle of centimetres need not rise like a stride.
@@ -197,7 +197,7 @@ pub mod swing {
 
 /// What one foot can hold alone: the zero-moment points that its ankle is strong enough for.
 pub mod ankle {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Share of its strength that an ankle gives at the edge of the support.
         STRENGTH_SHARE: f64 = 0.87, "1", 0.5..=1.0, "docs/locomotion.md#one-foot";
         /// Below this speed a body stays over the foot until an error has grown.
@@ -223,7 +223,7 @@ pub mod ankle {
 
 /// Where the zero-moment point is kept, and what the pelvis does for it.
 pub mod balance {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Ground force over weight below which the zero-moment point says nothing.
         LEAST_LOAD: f64 = 0.25, "1", 0.05..=0.5, "docs/locomotion.md#balance";
         /// Least height of the centre of mass that a pendulum is formed with.
@@ -291,7 +291,7 @@ pub mod balance {
 
 /// Legs that reach their feet within the limits of their joints, and what the pelvis does for them.
 pub mod leg {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A planted leg reaches at most this share of its length: a straight knee makes inverse kinematics jump.
         REACH: f64 = 0.98, "1", 0.9..=0.999, "docs/locomotion.md#foot-lock";
         /// The same where two motions are joined, of which each is within `REACH`.
@@ -369,7 +369,7 @@ pub mod leg {
 
 /// Runs as they were recorded: flights, pushes and feet that roll off.
 pub mod run {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Least cut-off of a run: its steps come three to five times a second.
         CUTOFF: f64 = 10.0, "Hz", 6.0..=20.0, "docs/locomotion.md#runs";
         /// What flies and is faster than this runs.
@@ -415,7 +415,7 @@ pub mod run {
 
 /// Whether the ground can give what a motion asks for.
 pub mod feasibility {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Friction that the ground is believed to have.
         FRICTION: f64 = 0.8, "1", 0.3..=1.2, "docs/locomotion.md#balance";
         /// Edges of the pyramid that stands for a friction cone.
@@ -427,7 +427,7 @@ pub mod feasibility {
 
 /// When two moments of motions are alike: cycles, steps that break off, transitions.
 pub mod likeness {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Rates count this much against angles.
         RATE_SHARE: f64 = 0.05, "s", 0.01..=0.2, "docs/locomotion.md#transitions";
         /// Weight of the tilt of the pelvis against a joint.
@@ -459,7 +459,7 @@ pub mod likeness {
 
 /// Steps out of a motion to a stand, and into one.
 pub mod stop {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Slower than this, with the capture point inside the soles, it stands.
         STANDING_SPEED: f64 = 0.35, "m/s", 0.1..=0.8, "docs/locomotion.md#stops";
         /// Distance inside the soles of the capture point of a body that stands.
@@ -593,7 +593,7 @@ pub mod stop {
 
 /// From a motion, or a stand, into a clip.
 pub mod transition {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Time of the motion so far that is taken along: what is prepared with the seam, and some more. The pelvis may
         /// be shifted for what comes for as long before it.
         RUN_UP: f64 = 0.5, "s", 0.2..=2.0, "docs/locomotion.md#transitions";
@@ -658,7 +658,7 @@ pub mod transition {
 
 /// The window of a stream, and streams that jump or break off.
 pub mod stream {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Samples per second of the grid that a stream is prepared on, and that a motion is handed over with.
         RATE: f64 = 60.0, "Hz", 30..=120, "docs/locomotion.md#streams";
         /// Shortest window.

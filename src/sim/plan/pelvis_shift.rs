@@ -6,16 +6,16 @@
 //! Kajita et al. 2003).
 
 use super::flight_phases::in_free_fall;
-use crate::sim::body::topology::SEGMENT_COUNT;
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::Vec3;
-use crate::sim::math::banded::Pentadiagonal;
-use crate::sim::math::curve::smoothstep_to;
-use crate::sim::math::polygon::{Region, margin};
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::filter::low_pass;
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::params::balance;
+use crate::body::topology::SEGMENT_COUNT;
+use crate::body::{Body, Posture};
+use crate::math::Vec3;
+use crate::math::banded::Pentadiagonal;
+use crate::math::curve::smoothstep_to;
+use crate::math::polygon::{Region, margin};
+use crate::motion::GRAVITY;
+use crate::motion::filter::low_pass;
+use crate::motion::leg_ik::forward;
+use crate::plan::params::balance;
 
 /// Centre of mass and zero-moment point of every sample of a motion.
 #[derive(Clone, Debug)]
@@ -357,7 +357,7 @@ fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::motion::builtin::builtin;
+    use crate::motion::builtin::builtin;
 
     #[test]
     fn the_answer_to_a_shift_is_that_of_the_pendulum() {

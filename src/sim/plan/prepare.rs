@@ -15,11 +15,11 @@ use super::pelvis_shift::{
     MassTrack, OtherSupport, ShiftProblem, SupportPhase, mass_track, pelvis_shift,
     pelvis_shift_in_run,
 };
-use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::polygon::margin;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::plan::params::{balance, leg, pelvis};
+use crate::body::topology::DOF_COUNT;
+use crate::body::{Body, Posture};
+use crate::math::polygon::margin;
+use crate::math::{Quat, Vec3};
+use crate::plan::params::{balance, leg, pelvis};
 use ankle_unloading::AnkleUnloading;
 use deep_flexion::{DeepFlexion, unfold};
 use joint_limits::{clamp_upper, into_limits};

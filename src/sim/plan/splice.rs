@@ -9,10 +9,10 @@ use super::cycle::relabel_prepared;
 use super::feasibility::infeasibility;
 use super::foot_lock::{turn, yaw_pitch};
 use super::prepare::{Draft, PrepareOptions, prepare_in};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::curve::{fade, smootherstep};
-use crate::sim::motion::clip::{Clip, PlanarTransform};
-use crate::sim::plan::params::{balance, leg, likeness, stop, stream};
+use crate::body::{Body, Posture};
+use crate::math::curve::{fade, smootherstep};
+use crate::motion::clip::{Clip, PlanarTransform};
+use crate::plan::params::{balance, leg, likeness, stop, stream};
 use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -35,7 +35,7 @@ pub type Sample = (Posture, [bool; 2]);
 /// be worked out on its own.
 #[derive(Serialize, Deserialize)]
 pub struct StopCandidates {
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "crate::saved::definition")]
     body: Arc<Body>,
     known: Vec<Sample>,
     now: usize,

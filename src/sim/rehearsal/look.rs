@@ -1,12 +1,12 @@
 //! What a state is judged by: how far it is from the recording in what decides whether it can go on.
 
 use super::settings::Sizes;
-use crate::sim::body::topology::{
+use crate::body::topology::{
     DOF_COUNT, L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT, SegmentId,
 };
-use crate::sim::body::{Body, Links, Posture, State};
-use crate::sim::dynamics::{Kinematics, center_of_mass, momentum};
-use crate::sim::math::Vec3;
+use crate::body::{Body, Links, Posture, State};
+use crate::dynamics::{Kinematics, center_of_mass, momentum};
+use crate::math::Vec3;
 
 /// Where a body is as a whole.
 #[derive(Clone, Debug)]

@@ -2,12 +2,12 @@
 
 use super::look::{Look, Looker, Off};
 use super::settings::{Rest, Settings};
-use crate::sim::body::{Body, Links, Posture, State};
-use crate::sim::figure::rehearsed::{MAX_TICKS, Stage};
-use crate::sim::math::curve::smootherstep;
-use crate::sim::motion::{Clip, Target, TargetPair};
-use crate::sim::setup::StrengthScale;
-use crate::sim::strength::{MuscleScale, Strength};
+use crate::body::{Body, Links, Posture, State};
+use crate::figure::rehearsed::{MAX_TICKS, Stage};
+use crate::math::curve::smootherstep;
+use crate::motion::{Clip, Target, TargetPair};
+use crate::setup::StrengthScale;
+use crate::strength::{MuscleScale, Strength};
 use std::sync::Arc;
 
 /// A motion to be rehearsed.

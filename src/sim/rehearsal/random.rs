@@ -1,7 +1,7 @@
 //! Random numbers that depend on what they are for, not on what was drawn before: any thread may draw them.
 
-use crate::sim::math::exp::ln;
-use crate::sim::math::trig::sin_cos;
+use crate::math::exp::ln;
+use crate::math::trig::sin_cos;
 
 /// The numbers of one sample.
 #[derive(Clone, Debug)]

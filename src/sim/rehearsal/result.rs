@@ -4,10 +4,10 @@ use super::problem::{Problem, ProblemError, Reference};
 use super::search::{Path, Progress, Search, window_ticks};
 use super::settings::Settings;
 use super::simulator::{Action, Simulator};
-use crate::sim::body::State;
-use crate::sim::body::topology::{DOF_COUNT, SEGMENT_COUNT};
-use crate::sim::figure::rehearsed::{Hold, RehearsedMotion, RootStep};
-use crate::sim::motion::{Clip, GRAVITY};
+use crate::body::State;
+use crate::body::topology::{DOF_COUNT, SEGMENT_COUNT};
+use crate::figure::rehearsed::{Hold, RehearsedMotion, RootStep};
+use crate::motion::{Clip, GRAVITY};
 
 /// Mean distance from the recording beyond which a motion is lost, m (Luo et al. 2023, *PHC*).
 pub const LOST: f64 = 0.5;

@@ -5,8 +5,8 @@ use super::problem::Reference;
 use super::random::Random;
 use super::settings::{SAMPLED, Settings};
 use super::simulator::{Action, Simulator};
-use crate::sim::body::State;
-use crate::sim::figure::rehearsed::JointOffset;
+use crate::body::State;
+use crate::figure::rehearsed::JointOffset;
 
 /// Sampled joints, and the help.
 pub(super) const D: usize = SAMPLED.len() + 1;
@@ -32,7 +32,7 @@ pub(super) struct Node {
 }
 
 pub(super) fn action(v: &Vector) -> Action {
-    let mut offset = [0.0; crate::sim::body::DOF_COUNT];
+    let mut offset = [0.0; crate::body::DOF_COUNT];
     for (d, x) in SAMPLED.into_iter().zip(v) {
         offset[d] = *x;
     }

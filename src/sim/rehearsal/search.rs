@@ -413,11 +413,11 @@ pub(super) fn window_ticks(problem: &Problem, settings: &Settings) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::Body;
-    use crate::sim::figure::rehearsed::Stage as World;
-    use crate::sim::motion::Clip;
-    use crate::sim::motion::builtin::builtin;
-    use crate::sim::setup::StrengthScale;
+    use crate::body::Body;
+    use crate::figure::rehearsed::Stage as World;
+    use crate::motion::Clip;
+    use crate::motion::builtin::builtin;
+    use crate::setup::StrengthScale;
     use std::sync::Arc;
 
     /// A round that was lost at once leaves the states at its start only, while the best path goes on.

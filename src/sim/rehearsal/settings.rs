@@ -1,7 +1,7 @@
 //! All numbers of a rehearsal, with units and why. One set for all clips.
 
-use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_COUNT, DOF_SEGMENT, HEAD, L_THIGH};
-use crate::sim::figure::rehearsed::MotorLaw;
+use crate::body::topology::{ABDOMEN, CHEST, DOF_COUNT, DOF_SEGMENT, HEAD, L_THIGH};
+use crate::figure::rehearsed::MotorLaw;
 
 /// Joint DOFs that a sample offsets: waist, thorax, shoulders without rotation, hips, knees, ankles without rotation.
 /// What the others do is too light, or too far out, to change how the body moves.
@@ -317,7 +317,7 @@ impl Default for Settings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::DOF_NAMES;
+    use crate::body::topology::DOF_NAMES;
 
     #[test]
     fn samples_offset_the_joints_that_are_named() {

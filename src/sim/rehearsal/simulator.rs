@@ -4,23 +4,23 @@
 use super::look::{Cost, Look, Looker, Off};
 use super::problem::{Problem, Reference};
 use super::settings::Settings;
-use crate::sim::body::angles::{angles_of, swings};
-use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::body::{Body, Links, State};
-use crate::sim::contact::Tissue;
-use crate::sim::control::Law;
-use crate::sim::dynamics::Terms;
-use crate::sim::figure::assist::PelvisHelp;
-use crate::sim::figure::help;
-use crate::sim::figure::plan_task::Planning;
-use crate::sim::figure::rehearsed::{JointOffset, MotorLaw, RootStep};
-use crate::sim::figure::tick::TickContext;
-use crate::sim::figure::torque_step::{
+use crate::body::angles::{angles_of, swings};
+use crate::body::topology::{DOF_COUNT, NV};
+use crate::body::{Body, Links, State};
+use crate::contact::Tissue;
+use crate::control::Law;
+use crate::dynamics::Terms;
+use crate::figure::assist::PelvisHelp;
+use crate::figure::help;
+use crate::figure::plan_task::Planning;
+use crate::figure::rehearsed::{JointOffset, MotorLaw, RootStep};
+use crate::figure::tick::TickContext;
+use crate::figure::torque_step::{
     Accuracy, ExternalForces, StepInput, TickStart, TorqueRange, TorqueStepper,
 };
-use crate::sim::math::Vec3;
-use crate::sim::motion::TargetPair;
-use crate::sim::strength::{MuscleScale, Strength};
+use crate::math::Vec3;
+use crate::motion::TargetPair;
+use crate::strength::{MuscleScale, Strength};
 use std::sync::Arc;
 
 /// What a sample adds to the desired motion in a window.

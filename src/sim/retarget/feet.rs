@@ -3,9 +3,9 @@
 use super::params::floor;
 use super::scene::Scene;
 use super::segments::{Calibration, shortest};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::filter::{percentile, renormalised, speeds};
-use crate::sim::motion::skeleton_map::SkeletonMap;
+use crate::math::{Quat, Vec3};
+use crate::motion::filter::{percentile, renormalised, speeds};
+use crate::motion::skeleton_map::SkeletonMap;
 
 /// Where the recorded floor is: rotation that levels it, ankle height over it for each foot (after levelling), slope.
 pub(super) struct Ground {

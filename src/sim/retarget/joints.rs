@@ -1,14 +1,14 @@
 //! World frames of trunk, head and arms split into the joints' own degrees of freedom.
 
-use crate::sim::body::Posture;
-use crate::sim::body::topology::{
+use crate::body::Posture;
+use crate::body::topology::{
     JOINT, Joint, L_FOREARM, L_HAND, L_UPPER_ARM, R_FOREARM, R_HAND, R_UPPER_ARM, SEGMENT_NAMES,
     SegmentId,
 };
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::filter::percentile;
-use crate::sim::plan::foot_lock::turn;
-use crate::sim::retarget::params::segments;
+use crate::math::{Quat, Vec3};
+use crate::motion::filter::percentile;
+use crate::plan::foot_lock::turn;
+use crate::retarget::params::segments;
 
 /// How the arms of a recording fit, left and right, rad.
 pub(super) struct ArmFit {
@@ -103,7 +103,7 @@ fn hinge(s: SegmentId) -> usize {
 impl Joints {
     /// Joint positions; legs are left at zero.
     pub(super) fn postures(&self, pelvis_path: &[Vec3]) -> (Vec<Posture>, ArmFit) {
-        use crate::sim::body::topology::{ABDOMEN, CHEST, HEAD};
+        use crate::body::topology::{ABDOMEN, CHEST, HEAD};
         let n = pelvis_path.len();
         let mut out = vec![Posture::default(); n];
         let mut fit = ArmFit {

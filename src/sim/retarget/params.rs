@@ -1,10 +1,10 @@
 //! Every tunable number of retargeting, in groups per subject.
 
-use crate::sim::params::Param;
+use crate::params::Param;
 
 /// Which stretches of a recording are runs.
 pub mod run_detection {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// People run above this speed: half of that at which a leg of 0.9 m would leave the floor, squared.
         RUN_SPEED: f64 = 2.2, "m/s", 1.8..=3.0, "docs/locomotion.md#runs";
         /// What is faster than this before or after a run belongs to it; a run that is walked goes at this speed.
@@ -40,7 +40,7 @@ pub mod run_detection {
 
 /// How runs are walked.
 pub mod run_to_walk {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Duration of a walked step.
         WALKED_STEP: f64 = 0.5, "s", 0.35..=0.8, "docs/locomotion.md#runs";
         /// Duration of the slowest step that is slowed down.
@@ -72,7 +72,7 @@ pub mod run_to_walk {
 
 /// Frames that are no motion, and glitches.
 pub mod recording {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Longest pose at the start that is no part of the motion.
         LONGEST_POSE: f64 = 30.0, "s", 1.0..=120, "cargo test --test corpus";
         /// Most such poses.
@@ -114,7 +114,7 @@ pub mod recording {
 
 /// How large the recorded person is.
 pub mod size {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Least stature that a unit leads to when it is guessed.
         LEAST_LIKELY_STATURE: f64 = 1.3, "m", 1.0..=1.6, "cargo test --test corpus";
         /// Largest stature that a unit leads to when it is guessed.
@@ -136,7 +136,7 @@ pub mod size {
 
 /// Where the root is whose file does not say so; heights over the floor are in lengths of the leg.
 pub mod root {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Height of the ankle on a flat foot.
         ANKLE_HEIGHT: f64 = 0.095, "1", 0.05..=0.15, "cargo test --test corpus";
         /// Height of the toe joint on a flat foot.
@@ -172,7 +172,7 @@ pub mod root {
 
 /// When a foot stands flat, and where the floor is.
 pub mod floor {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A slower ankle may stand.
         SLOW: f64 = 0.25, "m/s", 0.05..=0.5, "cargo test --test corpus";
         /// Least height of the hip over it, in lengths of the leg: feet of a lying person are slow and not flat.
@@ -200,7 +200,7 @@ pub mod floor {
 
 /// Frames of segments and the calibration pose.
 pub mod segments {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Bend below which the plane of a limb is noise.
         PLANE_NOISE: f64 = 0.26, "rad", 0.1..=0.5, "cargo test --test corpus";
         /// Bend from which the plane of a limb is trusted.
@@ -232,7 +232,7 @@ pub mod segments {
 
 /// What is worth a warning.
 pub mod warning {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A clamp that is larger is worth a warning if it lasts.
         CLAMP: f64 = 0.0873, "rad", 0.02..=0.3, "5°";
         /// It lasts for more than this share of the clip.

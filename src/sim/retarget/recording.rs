@@ -1,12 +1,12 @@
 //! What of a file moves: the bones that matter as local motions, without held poses and glitches.
 
 use super::report::{Bridged, RetargetError};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::bvh::{Bvh, BvhJoint};
-use crate::sim::motion::filter::{align_signs, percentile, renormalised};
-use crate::sim::motion::skeleton_map::{SideMap, SkeletonMap};
-use crate::sim::retarget::MAX_POINTS;
-use crate::sim::retarget::params::recording;
+use crate::math::{Quat, Vec3};
+use crate::motion::bvh::{Bvh, BvhJoint};
+use crate::motion::filter::{align_signs, percentile, renormalised};
+use crate::motion::skeleton_map::{SideMap, SkeletonMap};
+use crate::retarget::MAX_POINTS;
+use crate::retarget::params::recording;
 
 fn angle_of(q: Quat) -> f64 {
     q.log().norm()

@@ -1,13 +1,13 @@
 //! What retargeting found, guessed and changed, and why it could not.
 
 use super::{MAX_FRAMES, MAX_POINTS, UpAxis};
-use crate::sim::body::topology::{SEGMENT_COUNT, SEGMENT_NAMES};
-use crate::sim::motion::bvh::Bvh;
-use crate::sim::motion::clip::{Clip, ClipError};
-use crate::sim::motion::skeleton_map::{MapError, SkeletonMap};
-use crate::sim::plan::contact_labels::ContactPhase;
-use crate::sim::plan::prepare::ZmpOutside;
-use crate::sim::retarget::params::warning;
+use crate::body::topology::{SEGMENT_COUNT, SEGMENT_NAMES};
+use crate::motion::bvh::Bvh;
+use crate::motion::clip::{Clip, ClipError};
+use crate::motion::skeleton_map::{MapError, SkeletonMap};
+use crate::plan::contact_labels::ContactPhase;
+use crate::plan::prepare::ZmpOutside;
+use crate::retarget::params::warning;
 
 /// A retargeted clip with its report.
 #[derive(Clone, Debug)]

@@ -5,10 +5,10 @@
 
 use super::UpAxis;
 use super::recording::Recording;
-use crate::sim::math::Vec3;
-use crate::sim::motion::filter::{low_pass, percentile};
-use crate::sim::motion::skeleton_map::SkeletonMap;
-use crate::sim::retarget::params::root;
+use crate::math::Vec3;
+use crate::motion::filter::{low_pass, percentile};
+use crate::motion::skeleton_map::SkeletonMap;
+use crate::retarget::params::root;
 
 /// Heights of joints over the floor they rest on, in lengths of the leg: ankle, toe joint, tip of the toes, knee, hip,
 /// wrist or elbow, shoulder or head.

@@ -5,11 +5,11 @@
 //! the feet changes a runner falls freely, and a walker is lifted by both legs.
 
 use super::run_to_walk::{leads, paces, turning_points};
-use crate::sim::math::Vec3;
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::filter::{low_pass, low_pass_points};
-use crate::sim::plan::contact_labels::runs;
-use crate::sim::retarget::params::run_detection;
+use crate::math::Vec3;
+use crate::motion::GRAVITY;
+use crate::motion::filter::{low_pass, low_pass_points};
+use crate::plan::contact_labels::runs;
+use crate::retarget::params::run_detection;
 
 /// Points of a recorded figure, per sample, m, z up.
 pub(crate) struct RecordedPoints<'a> {

@@ -7,13 +7,13 @@
 //! speed (and until the body leans no more than it can brake from such a speed), every foot stays down until the other
 //! one has landed, and between its places it swings as a walking foot does.
 
-use crate::sim::math::curve::{arc, smootherstep};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::filter::{low_pass, low_pass_points, speeds};
-use crate::sim::plan::contact_labels::{runs, stretches};
-use crate::sim::plan::params::run;
-use crate::sim::retarget::params::{run_detection, run_to_walk};
+use crate::math::curve::{arc, smootherstep};
+use crate::math::{Quat, Vec3};
+use crate::motion::GRAVITY;
+use crate::motion::filter::{low_pass, low_pass_points, speeds};
+use crate::plan::contact_labels::{runs, stretches};
+use crate::plan::params::run;
+use crate::retarget::params::{run_detection, run_to_walk};
 
 /// Speed over the floor of the slow part of a way, the highest around each sample, m/s.
 pub(crate) fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
@@ -405,7 +405,7 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::math::vec3::vec3;
+    use crate::math::vec3::vec3;
 
     const RATE: f64 = 120.0;
 

@@ -4,12 +4,12 @@ use super::recording::Recording;
 use super::run_detection::{FastStretch, Gait, RecordedPoints, fast_stretches};
 use super::run_to_walk::RunToWalk;
 use super::{RetargetError, RetargetOptions, UpAxis, check_samples, output_rate, sample_count};
-use crate::sim::math::{Mat3, Quat, Vec3};
-use crate::sim::motion::filter::{
+use crate::math::{Mat3, Quat, Vec3};
+use crate::motion::filter::{
     low_pass_points, low_pass_rotations, resample_points, resample_rotations,
 };
-use crate::sim::motion::skeleton_map::SkeletonMap;
-use crate::sim::plan::params::run;
+use crate::motion::skeleton_map::SkeletonMap;
+use crate::plan::params::run;
 
 /// Per sample: smoothed world positions and rotations, metres, z up.
 pub(super) struct Scene<'a> {

@@ -1,11 +1,11 @@
 //! Where the segments point: their frames from end points, hinge planes, and bones relative to a calibration pose.
 
 use super::scene::Scene;
-use crate::sim::math::curve::rise;
-use crate::sim::math::{Mat3, Quat, Vec3};
-use crate::sim::motion::filter::percentile;
-use crate::sim::motion::skeleton_map::SkeletonMap;
-use crate::sim::retarget::params::{root, segments};
+use crate::math::curve::rise;
+use crate::math::{Mat3, Quat, Vec3};
+use crate::motion::filter::percentile;
+use crate::motion::skeleton_map::SkeletonMap;
+use crate::retarget::params::{root, segments};
 
 /// How bones carry segments.
 pub(super) struct Calibration {

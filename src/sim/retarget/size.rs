@@ -3,11 +3,11 @@
 use super::UpAxis;
 use super::recording::Recording;
 use super::report::RetargetError;
-use crate::sim::math::Vec3;
-use crate::sim::motion::bvh::Bvh;
-use crate::sim::motion::filter::percentile;
-use crate::sim::motion::skeleton_map::SkeletonMap;
-use crate::sim::retarget::params::size;
+use crate::math::Vec3;
+use crate::motion::bvh::Bvh;
+use crate::motion::filter::percentile;
+use crate::motion::skeleton_map::SkeletonMap;
+use crate::retarget::params::size;
 
 /// Units that files use, m: metre, decimetre, centimetre, millimetre, inch, CMU (inch / 0.45), foot.
 const UNITS: [f64; 7] = [1.0, 0.1, 0.01, 0.001, 0.0254, 0.0254 / 0.45, 0.3048];

@@ -10,12 +10,12 @@ use super::scene::{RecordedPaths, Scene};
 use super::segments::Calibration;
 use super::size::{guess_up, measure, unit};
 use super::{RetargetOptions, UpAxis};
-use crate::sim::body::Body;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::bvh::Bvh;
-use crate::sim::motion::skeleton_map::{SkeletonMap, map_skeleton};
-use crate::sim::plan::contact_labels::label_feet;
-use crate::sim::plan::foot_lock::Sole;
+use crate::body::Body;
+use crate::math::{Quat, Vec3};
+use crate::motion::bvh::Bvh;
+use crate::motion::skeleton_map::{SkeletonMap, map_skeleton};
+use crate::plan::contact_labels::label_feet;
+use crate::plan::foot_lock::Sole;
 
 /// A file without the frames that are no motion, and without glitches.
 pub(super) struct Footage {

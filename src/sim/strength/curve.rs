@@ -5,7 +5,7 @@
 //! (`docs/model.md#strength`). Published fits that break this are repaired here (Anderson 2007: eccentric branch,
 //! plantarflexion, cosine beyond its half wave). Evaluated within the tick: no allocation and no platform libm.
 
-use crate::sim::math::trig;
+use crate::math::trig;
 
 /// Least angle factor: the groups reach farther than the postures they were measured in, and none goes dead at the end
 /// of its range.

@@ -10,9 +10,9 @@
 //! strength is 1 − MF. A load TL held from rest fails after −ln(1 − R(1 − TL)/(F·TL))/R.
 
 use super::tables::Origin;
-use crate::sim::body::DOF_COUNT;
-use crate::sim::math::exp::exp;
-use crate::sim::math::hash::Fnv;
+use crate::body::DOF_COUNT;
+use crate::math::exp::exp;
+use crate::math::hash::Fnv;
 use serde::{Deserialize, Serialize};
 
 /// Fastest time scale: seconds of fatigue per simulated second.
@@ -143,7 +143,7 @@ pub struct Fatigue {
     /// Seconds of fatigue per simulated second.
     pub time_scale: f64,
     /// Positive and negative direction of each DOF.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub fibres: [[Compartments; 2]; DOF_COUNT],
 }
 

@@ -10,11 +10,11 @@ pub mod tables;
 #[cfg(test)]
 mod tests;
 
-use crate::sim::body::age::{male_share, mix};
-use crate::sim::body::export::Actuation;
-use crate::sim::body::{Body, DOF_COUNT, Sex};
-use crate::sim::math::curve::rise;
-use crate::sim::math::exp::{exp, ln};
+use crate::body::age::{male_share, mix};
+use crate::body::export::Actuation;
+use crate::body::{Body, DOF_COUNT, Sex};
+use crate::math::curve::rise;
+use crate::math::exp::{exp, ln};
 use curve::{AngleFactor, Muscle, VelocityFactor};
 use serde::{Deserialize, Serialize};
 use tables::{Action, AndersonRow, Group, Leg, Origin, Tissue};
@@ -44,7 +44,7 @@ pub struct StrengthScale {
     /// Factor on every DOF, 0.01…100.
     pub all: f64,
     /// Factor per DOF, 0.01…100.
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub dof: [f64; DOF_COUNT],
     /// Which person of that sex, age and size: percentile of strength, 5…95; 50 is the average.
     pub percentile: f64,
@@ -77,7 +77,7 @@ impl StrengthScale {
 
 /// Factors on the muscles of each DOF for its positive and its negative direction, > 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct MuscleScale(#[serde(with = "crate::sim::saved::array")] pub [[f64; 2]; DOF_COUNT]);
+pub struct MuscleScale(#[serde(with = "crate::saved::array")] pub [[f64; 2]; DOF_COUNT]);
 
 impl Default for MuscleScale {
     fn default() -> Self {
@@ -85,7 +85,7 @@ impl Default for MuscleScale {
     }
 }
 
-pub use crate::sim::body::provenance::Provenance;
+pub use crate::body::provenance::Provenance;
 
 /// One side of a DOF's passive tissue: `amplitude · exp(steepness · x)`, x the angle beyond `onset`, up to `cap`, then
 /// linear to twice that.

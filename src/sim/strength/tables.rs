@@ -6,8 +6,8 @@
 //! m, 75 kg) and woman (1.63 m, 62 kg) and scale with mass · g · height. Population averages for animation and
 //! planning, not for clinical or ergonomic decisions.
 
-use crate::sim::body::Sex;
-use crate::sim::body::age::polyline;
+use crate::body::Sex;
+use crate::body::age::polyline;
 
 /// Gravity of the normalisation mass · g · height, m/s²; that of the people who were measured, whatever the world's is.
 pub const NORMALISING_GRAVITY: f64 = 9.81;
@@ -19,7 +19,7 @@ pub const fn reference_body(sex: Sex) -> (f64, f64) {
     }
 }
 
-pub use crate::sim::body::age::Origin;
+pub use crate::body::age::Origin;
 
 /// Coefficients of Anderson 2007: level over m·g·h, angle (1/rad, rad), velocity (rad/s), eccentric (s/rad).
 #[derive(Clone, Copy, Debug, PartialEq)]

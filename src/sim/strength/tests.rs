@@ -4,8 +4,8 @@
 
 use super::curve::{ECCENTRIC_MOST, VELOCITY_FLOOR};
 use super::*;
-use crate::sim::body::topology as t;
-use crate::sim::body::{Profile, SegmentId};
+use crate::body::topology as t;
+use crate::body::{Profile, SegmentId};
 
 const G: f64 = 9.81;
 const SHOULDER: usize = 9;

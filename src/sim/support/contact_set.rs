@@ -1,10 +1,10 @@
 //! Which contact points of which segments touch the floor, with hysteresis (`docs/tick.md`, stage 3).
 
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::Vec3;
-use crate::sim::report::MAX_CONTACTS;
+use crate::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::body::{Body, SEGMENT_COUNT, SegmentId};
+use crate::dynamics::Terms;
+use crate::math::Vec3;
+use crate::report::MAX_CONTACTS;
 use serde::{Deserialize, Serialize};
 
 /// A point that comes below this height touches, m.
@@ -19,7 +19,7 @@ const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
 pub struct SupportPoint {
     /// Segment it belongs to.
     pub segment: SegmentId,
-    /// Index in [`Segment::contact_points`](crate::sim::body::Segment::contact_points).
+    /// Index in [`Segment::contact_points`](crate::body::Segment::contact_points).
     pub vertex: usize,
     /// The support it counts for: the foot for toes that touch together with their foot, else the segment itself.
     pub support: SegmentId,

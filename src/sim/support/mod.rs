@@ -13,19 +13,19 @@ pub(crate) mod testing;
 #[cfg(test)]
 mod tests;
 
-pub use crate::sim::math::polygon::{Closest, Feature, Polygon};
+pub use crate::math::polygon::{Closest, Feature, Polygon};
 pub use contact_set::{ContactSet, SupportPoint};
 pub use rest::{NO_VERTEX, Rest};
 pub use sharing::Sharing;
 pub use tipping::{Pivot, is_stopped, pivot, tipping_acceleration, unblocked_pivot};
 pub use zmp::{zmp, zmp_above};
 
-use crate::sim::body::topology::PELVIS;
-use crate::sim::body::{Body, SEGMENT_COUNT, SegmentId};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::Vec3;
-use crate::sim::report::MAX_CONTACTS;
-use crate::sim::touch::MAX_TOUCHES;
+use crate::body::topology::PELVIS;
+use crate::body::{Body, SEGMENT_COUNT, SegmentId};
+use crate::dynamics::Terms;
+use crate::math::Vec3;
+use crate::report::MAX_CONTACTS;
+use crate::touch::MAX_TOUCHES;
 use serde::{Deserialize, Serialize};
 
 /// Supports of one figure, computed once per tick and shared by controllers and steppers. Remembers what hysteresis

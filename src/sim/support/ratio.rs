@@ -1,8 +1,8 @@
 //! Support ratios, Eq. (2): which support carries most, and which one is taken as the root.
 
 use super::contact_set::SupportPoint;
-use crate::sim::body::{SEGMENT_COUNT, SegmentId};
-use crate::sim::math::Vec3;
+use crate::body::{SEGMENT_COUNT, SegmentId};
+use crate::math::Vec3;
 
 /// The main support is kept while its share is within this much of the largest (else it flickers in symmetric stance).
 pub const MAIN_HYSTERESIS: f64 = 0.1;

@@ -1,8 +1,8 @@
 //! What carries a figure besides the floor: parts that lean on things that do not give way.
 
 use super::contact_set::SupportPoint;
-use crate::sim::body::SegmentId;
-use crate::sim::math::{Mat3, Vec3};
+use crate::body::SegmentId;
+use crate::math::{Mat3, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// A part of the body that rests on an obstacle: a seat, a table, a wall.

@@ -8,9 +8,9 @@
 
 use super::contact_set::SupportPoint;
 use super::rest::NO_VERTEX;
-use crate::sim::body::SEGMENT_COUNT;
-use crate::sim::body::topology::{L_TOES, R_TOES};
-use crate::sim::math::{Vec3, vec3::vec3};
+use crate::body::SEGMENT_COUNT;
+use crate::body::topology::{L_TOES, R_TOES};
+use crate::math::{Vec3, vec3::vec3};
 
 /// A 6×6 matrix; spatial order, moment first.
 pub type Mat6 = [[f64; 6]; 6];
@@ -297,8 +297,8 @@ fn pseudo_inverse(a: &Mat6) -> (Mat6, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::{L_FOOT, R_FOOT};
-    use crate::sim::support::testing::Rng;
+    use crate::body::topology::{L_FOOT, R_FOOT};
+    use crate::support::testing::Rng;
 
     /// Two square feet of 20 × 8 cm at y = ±0.1, shifted by `at`.
     fn stance(at: Vec3) -> Vec<SupportPoint> {

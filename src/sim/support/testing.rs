@@ -1,11 +1,11 @@
 //! A plain mannequin and random states for tests of support and control: no tables, no files.
 
-use crate::sim::body::angles::{clamp_to_limits, set_anatomical_angles};
-use crate::sim::body::model::{Body, Mesh, Profile, Segment, Sex};
-use crate::sim::body::topology::{DOF_COUNT, DOF_LEN, DOF_START, NV, SEGMENT_COUNT, SEGMENT_NAMES};
-use crate::sim::body::{Links, Posture, State};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::{Sym3, Vec3, vec3::vec3};
+use crate::body::angles::{clamp_to_limits, set_anatomical_angles};
+use crate::body::model::{Body, Mesh, Profile, Segment, Sex};
+use crate::body::topology::{DOF_COUNT, DOF_LEN, DOF_START, NV, SEGMENT_COUNT, SEGMENT_NAMES};
+use crate::body::{Links, Posture, State};
+use crate::dynamics::Terms;
+use crate::math::{Sym3, Vec3, vec3::vec3};
 
 pub(crate) const GRAVITY: f64 = 9.81;
 

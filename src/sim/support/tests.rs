@@ -4,10 +4,10 @@ use super::ratio::{Touching, support_ratios};
 use super::testing::{GRAVITY, Rng, mannequin, random_stance, random_state, standing, terms};
 use super::zmp::{FootLoad, foot_ground_wrench, foot_zmp};
 use super::*;
-use crate::sim::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_HAND, R_SHANK, R_TOES};
-use crate::sim::body::{Links, State};
-use crate::sim::math::Quat;
-use crate::sim::math::vec3::vec3;
+use crate::body::topology::{L_FOOT, L_TOES, NV, R_FOOT, R_HAND, R_SHANK, R_TOES};
+use crate::body::{Links, State};
+use crate::math::Quat;
+use crate::math::vec3::vec3;
 
 fn supported(state: &State) -> (Terms, Support) {
     let body = mannequin();

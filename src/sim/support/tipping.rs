@@ -1,10 +1,10 @@
 //! Minimum-moment point and the axes about which a support tips (`docs/equations.md#repairs`).
 
 use super::{Feature, Polygon, Rest};
-use crate::sim::body::SegmentId;
-use crate::sim::dynamics::Terms;
-use crate::sim::math::dense::solve_up_to_2;
-use crate::sim::math::{Vec3, vec3::vec3};
+use crate::body::SegmentId;
+use crate::dynamics::Terms;
+use crate::math::dense::solve_up_to_2;
+use crate::math::{Vec3, vec3::vec3};
 
 /// A corner that goes down faster than this holds the rotation, m/s.
 const BLOCKED: f64 = 1e-9;

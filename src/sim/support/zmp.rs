@@ -1,6 +1,6 @@
 //! Zero-moment point, Eq. (3): from the total ground wrench, and in the paper's form from the forces at the ankle.
 
-use crate::sim::math::{Vec3, vec3::vec3};
+use crate::math::{Vec3, vec3::vec3};
 
 /// Normal force below which there is no zero-moment point (flight), N.
 pub const LEAST_NORMAL_FORCE: f64 = 1e-3;

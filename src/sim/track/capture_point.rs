@@ -22,15 +22,15 @@ use super::params::capture::{
     MOMENT_OFFSET, REACH_ACROSS, REACH_ALONG, SEPARATION, SMOOTHING_TIME,
 };
 use super::params::leg_collision::FOOTHOLD_DISTANCE;
-use crate::sim::body::topology::{FEET, outward};
-use crate::sim::body::{Body, Links, Posture};
-use crate::sim::control::PointTarget;
-use crate::sim::dynamics::{Kinematics, Terms, center_of_mass, momentum};
-use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::Target;
-use crate::sim::plan::params::common::ZMP_INSET;
-use crate::sim::support::Polygon;
+use crate::body::topology::{FEET, outward};
+use crate::body::{Body, Links, Posture};
+use crate::control::PointTarget;
+use crate::dynamics::{Kinematics, Terms, center_of_mass, momentum};
+use crate::math::exp::exp;
+use crate::math::{Quat, Vec3};
+use crate::motion::Target;
+use crate::plan::params::common::ZMP_INSET;
+use crate::support::Polygon;
 use serde::{Deserialize, Serialize};
 
 /// Corners that a support polygon has room for.

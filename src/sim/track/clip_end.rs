@@ -5,12 +5,12 @@ use super::foot_places::{FootPlaces, middle};
 use super::params::common::STOP_TIME;
 use super::planned_to_world::Anchor;
 use super::{Purpose, RecoveryStep, StepTracker};
-use crate::sim::body::Posture;
-use crate::sim::body::topology::NV;
-use crate::sim::dynamics::Terms;
-use crate::sim::math::Vec3;
-use crate::sim::math::curve::smoothstep;
-use crate::sim::motion::{Target, TargetPair};
+use crate::body::Posture;
+use crate::body::topology::NV;
+use crate::dynamics::Terms;
+use crate::math::Vec3;
+use crate::math::curve::smoothstep;
+use crate::motion::{Target, TargetPair};
 use serde::{Deserialize, Serialize};
 
 /// How a figure comes to a stand.

@@ -11,8 +11,8 @@ use super::params::contact::{
 use super::params::flight::{JUMP_INTERVAL, LEAST_FALL_TIME, LEAST_GRAVITY, LONGEST, SLOWEST_RATE};
 use super::step_plan::{Footfall, StepPlan};
 use super::{Landing, StepTracker};
-use crate::sim::dynamics::Terms;
-use crate::sim::motion::Target;
+use crate::dynamics::Terms;
+use crate::motion::Target;
 
 impl StepTracker {
     /// Lifts feet when planned and plants them when they touch. Returns the rate at which the plan goes on. `sample`:

@@ -46,9 +46,9 @@ impl StepTracker {
 mod tests {
     use super::super::Foot;
     use super::*;
-    use crate::sim::body::Body;
-    use crate::sim::motion::builtin::at_ease;
-    use crate::sim::motion::{Clip, PlanarTransform};
+    use crate::body::Body;
+    use crate::motion::builtin::at_ease;
+    use crate::motion::{Clip, PlanarTransform};
 
     const RATE: f64 = 120.0;
 

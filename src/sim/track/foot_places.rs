@@ -2,14 +2,14 @@
 
 use super::params::contact::TOUCH_HEIGHT;
 use super::{Footfall, Legs, StepTracker};
-use crate::sim::body::topology::{FEET, TOES};
-use crate::sim::body::{Body, Posture};
-use crate::sim::control::FootTarget;
-use crate::sim::dynamics::{Placement, Terms};
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::foot_lock::FootPlacement;
-use crate::sim::support::Support;
+use crate::body::topology::{FEET, TOES};
+use crate::body::{Body, Posture};
+use crate::control::FootTarget;
+use crate::dynamics::{Placement, Terms};
+use crate::math::{Quat, Vec3, trig};
+use crate::motion::leg_ik::forward;
+use crate::plan::foot_lock::FootPlacement;
+use crate::support::Support;
 
 /// Point of the floor under the flat ankle of a foot, and the heading of the foot.
 #[derive(Clone, Copy, Debug, PartialEq)]

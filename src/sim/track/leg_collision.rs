@@ -10,8 +10,8 @@ use super::params::leg_collision::{
     AVOIDED_FROM, AVOIDED_FULLY, CLEARING_TIME, CROSSED_LENGTH, CROSSED_SLANT, FOOT_LAG, ROUNDING,
     SLANT_FRONT, SLANT_REAR, SPARE, STRIP_FRONT, STRIP_REAR, SWING_DISTANCE,
 };
-use crate::sim::body::topology::outward;
-use crate::sim::math::Vec3;
+use crate::body::topology::outward;
+use crate::math::Vec3;
 
 /// The stance leg as seen from a foot that swings past it.
 #[derive(Clone, Copy, Debug)]

@@ -1,10 +1,10 @@
 //! Tunable numbers of tracking, in groups.
 
-use crate::sim::params::Param;
+use crate::params::Param;
 
 /// Numbers that all of tracking shares.
 pub mod common {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A capture point nearer to its planned place than this is settled.
         SETTLED_OFFSET: f64 = 0.03, "m", 0.01..=0.1, "docs/locomotion.md#stops";
         /// Least speed of a plan, clip seconds per second.
@@ -20,7 +20,7 @@ pub mod common {
 
 /// The map from the plan to the world.
 pub mod world_map {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Time constant with which the plan moves to a new anchor.
         SETTLING_TIME: f64 = 0.04, "s", 0.01..=0.3, "docs/locomotion.md#contact";
         /// Share of the heading error of a landed foot that the plan takes over.
@@ -32,7 +32,7 @@ pub mod world_map {
 
 /// Contact by events.
 pub mod contact {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A sole lower than this touches the floor.
         TOUCH_HEIGHT: f64 = 0.004, "m", 0.001..=0.02, "docs/locomotion.md#contact";
         /// A foot may land this long before its time; earlier touches are scuffs.
@@ -54,7 +54,7 @@ pub mod contact {
 
 /// Flight phases.
 pub mod flight {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A flight is announced to the controller this long before it begins.
         ANNOUNCED: f64 = 0.2, "s", 0.1..=0.5, "docs/locomotion.md#runs";
         /// A body that is to jump from a stand leans for so long before take-off.
@@ -74,7 +74,7 @@ pub mod flight {
 
 /// The capture point and the displacement of planned footholds.
 pub mod capture {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Gain `k` of the zero-moment point `p = p_ref + (1 + k) e`.
         GAIN: f64 = 1.0, "1", 0.0..=3.0, "docs/locomotion.md#capture-point";
         /// Largest displacement of a foothold along its heading.
@@ -104,7 +104,7 @@ pub mod capture {
 
 /// Swinging feet.
 pub mod swing {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Time over which a lifting foot gives up its offset from the plan.
         RELEASE_TIME: f64 = 0.25, "s", 0.1..=0.5, "docs/locomotion.md#contact";
         /// Share of a swing in which the foot is led to its displaced foothold.
@@ -125,7 +125,7 @@ pub mod swing {
 
 /// The leg that stands as an obstacle to the one that swings.
 pub mod leg_collision {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// Least distance of two ankles side by side in a swing.
         SWING_DISTANCE: f64 = 0.09, "m", 0.05..=0.15, "docs/locomotion.md#recovery";
         /// The same of a foothold. Feet that stand may be nearer to each other than legs that move.
@@ -159,7 +159,7 @@ pub mod leg_collision {
 
 /// Time and place of the next step, chosen together.
 pub mod step_timing {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A capture point nearer to the plan's than this leaves the time of the step as it is: undisturbed clips are.
         ERROR: f64 = 0.2, "m", 0.05..=0.3, "docs/locomotion.md#step-timing";
         /// Number of intervals between the planned rate and the fastest one.
@@ -179,7 +179,7 @@ pub mod step_timing {
 
 /// Steps that no plan has.
 pub mod recovery {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A capture point this far outside the support asks for a step: arms and trunk bring back what is less.
         LOST_MARGIN: f64 = 0.02, "m", 0.0..=0.1, "docs/locomotion.md#recovery";
         /// Beyond this distance no step helps.
@@ -228,7 +228,7 @@ pub mod recovery {
 
 /// Loss of balance in a long stance on one foot.
 pub mod support_recovery {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// The capture point is off its planned place by more than this. It grows threefold while a foot comes down.
         ERROR: f64 = 0.045, "m", 0.02..=0.1, "docs/locomotion.md#one-foot";
         /// And outside the sole by more than this.
@@ -252,7 +252,7 @@ pub mod support_recovery {
 
 /// Stances of a clip or a stream.
 pub mod step_plan {
-    crate::sim::params::params! {
+    crate::params::params! {
         /// A foot this close to the floor carries the body if no other does.
         NEAR_FLOOR: f64 = 0.03, "m", 0.01..=0.1, "docs/locomotion.md#contact";
         /// A body falls while the floor would give less than this share of its weight.

@@ -8,8 +8,8 @@
 use super::filter_gain;
 use super::foot_places::turn;
 use super::params::world_map::{HEADING_GAIN, HEADING_RETURN, SETTLING_TIME};
-use crate::sim::math::{Vec3, trig};
-use crate::sim::motion::PlanarTransform;
+use crate::math::{Vec3, trig};
+use crate::motion::PlanarTransform;
 use serde::{Deserialize, Serialize};
 
 /// The map at one time, and what it approaches.

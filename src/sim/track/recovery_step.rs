@@ -14,13 +14,13 @@ use super::params::recovery::{
     FARTHEST_FORWARD, FOOTHOLD_DISTANCE, HANGING_HEIGHT, LANDS_AFTER, RAISED_STEP_TIME,
     RETURN_STEP_TIME, SOLE_HALF_WIDTH, STANCE_WIDTH, STEP_TIME,
 };
-use crate::sim::body::topology::outward;
-use crate::sim::control::{FootTarget, PointTarget, RotationTarget};
-use crate::sim::math::curve::{arc, smootherstep};
-use crate::sim::math::exp::exp;
-use crate::sim::math::{Vec3, trig};
-use crate::sim::plan::foot_lock::Sole;
-use crate::sim::plan::params::common::SOLE_MIDDLE;
+use crate::body::topology::outward;
+use crate::control::{FootTarget, PointTarget, RotationTarget};
+use crate::math::curve::{arc, smootherstep};
+use crate::math::exp::exp;
+use crate::math::{Vec3, trig};
+use crate::plan::foot_lock::Sole;
+use crate::plan::params::common::SOLE_MIDDLE;
 use serde::{Deserialize, Serialize};
 
 /// What a step is for.

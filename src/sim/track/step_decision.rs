@@ -8,12 +8,12 @@ use super::params::recovery::{
 use super::recovery_step::{Aim, Purpose, RecoveryStep};
 use super::step_plan::StepPlan;
 use super::{Landing, StepTracker, TaskTargets};
-use crate::sim::body::topology::{FEET, TOES, outward};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::polygon::Closest;
-use crate::sim::math::{Vec3, trig};
-use crate::sim::plan::params::common::{MISPLACED_BY, MISPLACED_TURN, REST_SPEED, SOLE_MIDDLE};
-use crate::sim::support::Support;
+use crate::body::topology::{FEET, TOES, outward};
+use crate::dynamics::Terms;
+use crate::math::polygon::Closest;
+use crate::math::{Vec3, trig};
+use crate::plan::params::common::{MISPLACED_BY, MISPLACED_TURN, REST_SPEED, SOLE_MIDDLE};
+use crate::support::Support;
 use serde::{Deserialize, Serialize};
 
 /// The step that no plan has.

@@ -4,19 +4,19 @@ use super::params::step_plan::{
     FALLING_LOAD, LOAD_SAMPLES, NEAR_FLOOR, PAUSE_AFTER, PAUSE_BEFORE, STREAM_REST_AFTER,
     STREAM_REST_BEFORE,
 };
-use crate::sim::body::topology::FEET;
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::Vec3;
-use crate::sim::motion::Clip;
-use crate::sim::motion::clip::{MAX_SAMPLES, PlanarTransform};
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::contact_labels::{remove_short, stretches};
-use crate::sim::plan::foot_lock::Sole;
-use crate::sim::plan::motion_transition::TransitionClip;
-use crate::sim::plan::params::contact::SHORTEST_TOLD;
-use crate::sim::plan::pelvis_shift::mass_track;
-use crate::sim::plan::stream;
-use crate::sim::plan::stream::StreamPlan;
+use crate::body::topology::FEET;
+use crate::body::{Body, Posture};
+use crate::math::Vec3;
+use crate::motion::Clip;
+use crate::motion::clip::{MAX_SAMPLES, PlanarTransform};
+use crate::motion::leg_ik::forward;
+use crate::plan::contact_labels::{remove_short, stretches};
+use crate::plan::foot_lock::Sole;
+use crate::plan::motion_transition::TransitionClip;
+use crate::plan::params::contact::SHORTEST_TOLD;
+use crate::plan::pelvis_shift::mass_track;
+use crate::plan::stream;
+use crate::plan::stream::StreamPlan;
 use serde::{Deserialize, Serialize};
 
 /// A stance of one foot as the clip has it. Times in clip seconds, place and heading in clip coordinates.
@@ -58,7 +58,7 @@ pub struct StepPlan {
     round: Option<PlanarTransform>,
     /// What holds instead before some time: the way into a clip that repeats, with its first round, or the one out of
     /// another motion.
-    #[serde(with = "crate::sim::saved::nested")]
+    #[serde(with = "crate::saved::nested")]
     lead: Option<Box<Lead>>,
 }
 
@@ -376,7 +376,7 @@ impl StepPlan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::motion::builtin::builtin;
+    use crate::motion::builtin::builtin;
     use std::sync::Arc;
 
     fn stances(times: &[(f64, f64)]) -> Vec<Footfall> {

@@ -20,10 +20,10 @@ use super::params::step_timing::{
     EARLIEST_DECISION, EFFORT, ERROR, FOOT_SPEED, HURRY, LATEST_DECISION, RATES,
 };
 use super::step_plan::Footfall;
-use crate::sim::dynamics::Terms;
-use crate::sim::math::Vec3;
-use crate::sim::motion::Target;
-use crate::sim::support::Support;
+use crate::dynamics::Terms;
+use crate::math::Vec3;
+use crate::motion::Target;
+use crate::support::Support;
 use serde::{Deserialize, Serialize};
 
 /// Where the motion has its capture point at a touch-down.

@@ -19,16 +19,16 @@ use super::params::support_recovery::{
     SLOWING_TIME, STREAM_LIFTS,
 };
 use super::recovery_step::RecoveryStep;
-use crate::sim::body::Posture;
-use crate::sim::body::topology::{DOF_LEN, DOF_START, NV, outward};
-use crate::sim::control::{FootTarget, PointTarget, RotationTarget};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::Vec3;
-use crate::sim::math::curve::smoothstep;
-use crate::sim::motion::TargetPair;
-use crate::sim::motion::leg_ik::leg_segments;
-use crate::sim::plan::params::common::REST_SPEED;
-use crate::sim::support::Support;
+use crate::body::Posture;
+use crate::body::topology::{DOF_LEN, DOF_START, NV, outward};
+use crate::control::{FootTarget, PointTarget, RotationTarget};
+use crate::dynamics::Terms;
+use crate::math::Vec3;
+use crate::math::curve::smoothstep;
+use crate::motion::TargetPair;
+use crate::motion::leg_ik::leg_segments;
+use crate::plan::params::common::REST_SPEED;
+use crate::support::Support;
 use serde::{Deserialize, Serialize};
 
 /// The foot that was put down, and the plan that waits for it.

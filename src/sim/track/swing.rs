@@ -17,11 +17,11 @@ use super::params::swing::{
 };
 use super::step_plan::Footfall;
 use super::{StepTracker, TaskTargets};
-use crate::sim::body::topology::FEET;
-use crate::sim::control::{FootTarget, PointTarget};
-use crate::sim::dynamics::Terms;
-use crate::sim::math::curve::smootherstep;
-use crate::sim::math::{Quat, Vec3, trig};
+use crate::body::topology::FEET;
+use crate::control::{FootTarget, PointTarget};
+use crate::dynamics::Terms;
+use crate::math::curve::smootherstep;
+use crate::math::{Quat, Vec3, trig};
 
 impl StepTracker {
     /// Gives planted feet the heading they landed with: they could only be turned by scraping.

@@ -14,12 +14,12 @@
 
 use super::collisions::{CollisionReport, Neighbourhood};
 use super::{World, WorldError, WorldParams, validate};
-use crate::sim::body::Body;
-use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey};
-use crate::sim::figure::{Figure, FigureKey, Planning, RehearsedMotion, SavedFigure};
-use crate::sim::motion::Clip;
-use crate::sim::plan::motion_transition::TransitionClip;
-use crate::sim::saved::{self, Definition};
+use crate::body::Body;
+use crate::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey};
+use crate::figure::{Figure, FigureKey, Planning, RehearsedMotion, SavedFigure};
+use crate::motion::Clip;
+use crate::plan::motion_transition::TransitionClip;
+use crate::saved::{self, Definition};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -132,7 +132,7 @@ struct Content {
 }
 
 #[derive(Clone, Debug, Serialize, Deserialize)]
-struct Bytes(#[serde(with = "crate::sim::saved::bytes")] Vec<u8>);
+struct Bytes(#[serde(with = "crate::saved::bytes")] Vec<u8>);
 
 /// The state of a world at one tick, not yet a value of its own: it holds on to the bodies and clips.
 pub struct Capture {

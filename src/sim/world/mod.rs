@@ -6,20 +6,20 @@ mod validate;
 
 pub use collisions::CollisionReport;
 
-pub use crate::sim::figure::{
+pub use crate::figure::{
     ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, LivePlayback,
     RehearsedMotion, RehearsedPlayback,
 };
 
-use crate::sim::body::State;
-use crate::sim::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};
-use crate::sim::figure::loads::MAX_PERTURBATIONS;
-use crate::sim::figure::{
+use crate::body::State;
+use crate::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};
+use crate::figure::loads::MAX_PERTURBATIONS;
+use crate::figure::{
     Constraint, ControlParams, ControllerKind, FigureOptions, LatePlans, MAX_CONSTRAINTS,
     Perturbation, PlanRequest, Planning, Slot, StrengthScale, TickContext,
 };
-use crate::sim::math::hash::Fnv;
-use crate::sim::motion::GRAVITY;
+use crate::math::hash::Fnv;
+use crate::motion::GRAVITY;
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 

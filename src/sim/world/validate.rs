@@ -1,12 +1,12 @@
 //! Bounds of everything a world takes in: parsed once, trusted afterwards.
 
 use super::{WorldError, WorldParams};
-use crate::sim::body::State;
-use crate::sim::body::topology::{L_HAND, R_HAND};
-use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
-use crate::sim::figure::constraints::{Constrained, Constraint, MAX_CONSTRAINTS, MAX_EASE};
-use crate::sim::figure::{ControlParams, FigureOptions, FigureSetup, Perturbation, StrengthScale};
-use crate::sim::math::Vec3;
+use crate::body::State;
+use crate::body::topology::{L_HAND, R_HAND};
+use crate::collide::{Mobility, ObstacleSetup, Shape};
+use crate::figure::constraints::{Constrained, Constraint, MAX_CONSTRAINTS, MAX_EASE};
+use crate::figure::{ControlParams, FigureOptions, FigureSetup, Perturbation, StrengthScale};
+use crate::math::Vec3;
 
 /// Farthest from the world origin a figure may be put, m: beyond, positions lose the precision that contact needs.
 const FAR: f64 = 1e5;
@@ -70,7 +70,7 @@ pub(super) fn options(o: &FigureOptions) -> Result<(), WorldError> {
         "fatigue_time_scale",
         o.fatigue_time_scale,
         0.0,
-        crate::sim::strength::fatigue::MAX_TIME_SCALE,
+        crate::strength::fatigue::MAX_TIME_SCALE,
     )?;
     range("assist", o.assist, 0.0, 1.0)?;
     range("max_help", o.max_help, 0.0, LARGEST_HELP)

@@ -5,16 +5,16 @@ use super::super::status::Fault;
 use super::super::types::BodyRef;
 use super::names::BODY;
 use super::{shortened, vector_out};
-use crate::sim::body::names::DEFAULT_BODY;
-use crate::sim::body::provenance::Provenance;
-use crate::sim::body::topology::{
+use sinew_physics::body::names::DEFAULT_BODY;
+use sinew_physics::body::provenance::Provenance;
+use sinew_physics::body::topology::{
     BONE_NAMES, DOF_AXIS, DOF_LEN, DOF_NAMES, DOF_SEGMENT, DOF_START, JOINT, JOINT_NAMES, Joint,
     PARENT, SEGMENT_NAMES,
 };
-use crate::sim::body::{Body, DOF_COUNT, Profile, SEGMENT_COUNT, Sex};
-use crate::sim::math::Vec3;
+use sinew_physics::body::{Body, DOF_COUNT, Profile, SEGMENT_COUNT, Sex};
+use sinew_physics::math::Vec3;
 
-pub use crate::sim::body::names::NAMED_BODIES as NAMED;
+pub use sinew_physics::body::names::NAMED_BODIES as NAMED;
 
 /// The body with this last part of a name.
 pub fn by_id(id: &str) -> Option<BodyRef> {

@@ -3,7 +3,7 @@
 use super::names::CHECKPOINT;
 pub use super::names::checkpoint_name;
 use super::timestamp;
-use crate::wire::pb;
+use crate::pb;
 use std::time::SystemTime;
 
 /// What a checkpoint is told by.

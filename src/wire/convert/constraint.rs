@@ -5,9 +5,9 @@ use super::super::status::Fault;
 use super::super::types::ConstraintSettings;
 use super::perturbation::{lasting, segment};
 use super::{rotation, vector, vector_out, within};
-use crate::sim::figure::MAX_CONSTRAINTS;
-use crate::sim::figure::constraints::MAX_EASE;
-use crate::sim::math::Vec3;
+use sinew_physics::figure::MAX_CONSTRAINTS;
+use sinew_physics::figure::constraints::MAX_EASE;
+use sinew_physics::math::Vec3;
 
 /// Farthest place from the world origin, m.
 const FAR: f64 = 1e4;

@@ -8,12 +8,12 @@ use super::names::{BODY, CLIP, FIGURE};
 use super::{
     body, constraint, display_name, etags, motion, or_default, place, place_out, shortened, within,
 };
-use crate::sim::body::topology::DOF_NAMES;
-use crate::sim::figure::{
+use sinew_physics::body::topology::DOF_NAMES;
+use sinew_physics::figure::{
     ControlParams, ControllerKind, FigureOptions, Metric, Priority, Share, StepperKind,
     StrengthScale,
 };
-use crate::sim::strength::fatigue::MAX_TIME_SCALE;
+use sinew_physics::strength::fatigue::MAX_TIME_SCALE;
 
 /// Controller of a request.
 pub fn controller(field: &str, value: i32) -> Result<ControllerKind, Fault> {

@@ -25,7 +25,7 @@ pub use pages::page;
 use super::pb;
 use super::status::Fault;
 use super::types::Place;
-use crate::sim::math::{Quat, Vec3};
+use sinew_physics::math::{Quat, Vec3};
 use std::fmt::Display;
 
 /// Farthest place from the origin, m.
@@ -62,13 +62,7 @@ pub(crate) fn or_default(
 }
 
 /// An integer within bounds where 0 stands for `default`.
-pub(crate) fn count(
-    field: &str,
-    value: i32,
-    default: u32,
-    least: u32,
-    most: u32,
-) -> Result<u32, Fault> {
+pub fn count(field: &str, value: i32, default: u32, least: u32, most: u32) -> Result<u32, Fault> {
     match u32::try_from(value) {
         Ok(0) => Ok(default),
         Ok(n) if (least..=most).contains(&n) => Ok(n),
@@ -118,7 +112,7 @@ pub(crate) fn rotation(field: impl Display, q: pb::Quaternion) -> Result<Quat, F
 }
 
 /// A place on the ground.
-pub(crate) fn place(field: &str, p: pb::Placement) -> Result<Place, Fault> {
+pub fn place(field: &str, p: pb::Placement) -> Result<Place, Fault> {
     Ok(Place {
         x: within(format!("{field}.x_m"), p.x_m, -WORLD_EXTENT, WORLD_EXTENT)?,
         y: within(format!("{field}.y_m"), p.y_m, -WORLD_EXTENT, WORLD_EXTENT)?,
@@ -136,7 +130,7 @@ pub fn place_out(p: Place) -> pb::Placement {
 }
 
 /// A name for people.
-pub(crate) fn display_name(field: &str, name: &str) -> Result<String, Fault> {
+pub fn display_name(field: &str, name: &str) -> Result<String, Fault> {
     if name.len() > 128 {
         return Err(Fault::invalid(
             field,
@@ -150,10 +144,10 @@ pub(crate) fn display_name(field: &str, name: &str) -> Result<String, Fault> {
 }
 
 /// Most bytes of the last part of a name.
-pub(crate) const MAX_ID: usize = 63;
+pub const MAX_ID: usize = 63;
 
 /// The last part of a new name; `None` if the server is to choose.
-pub(crate) fn new_id(field: &str, id: &str) -> Result<Option<String>, Fault> {
+pub fn new_id(field: &str, id: &str) -> Result<Option<String>, Fault> {
     if id.is_empty() {
         return Ok(None);
     }
@@ -176,7 +170,7 @@ pub(crate) fn new_id(field: &str, id: &str) -> Result<Option<String>, Fault> {
 }
 
 /// Who asks, at most 64 printable ASCII characters.
-pub(crate) fn client_id(field: &str, id: &str) -> Result<String, Fault> {
+pub fn client_id(field: &str, id: &str) -> Result<String, Fault> {
     if id.len() > 64 || !id.bytes().all(|b| b.is_ascii_graphic() || b == b' ') {
         return Err(Fault::invalid(
             field,

@@ -12,11 +12,11 @@ use super::names::{BODY, CLIP};
 use super::{
     WORLD_EXTENT, client_id, or_default, place, rotation, shortened, timestamp, vector, within,
 };
-use crate::sim::body::angles::set_anatomical_angles;
-use crate::sim::body::topology::{BONE_NAMES, PARENT};
-use crate::sim::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
-use crate::sim::figure::FollowMode;
-use crate::sim::math::Quat;
+use sinew_physics::body::angles::set_anatomical_angles;
+use sinew_physics::body::topology::{BONE_NAMES, PARENT};
+use sinew_physics::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
+use sinew_physics::figure::FollowMode;
+use sinew_physics::math::Quat;
 use std::fmt::Display;
 use std::sync::Arc;
 use std::time::Duration;
@@ -26,7 +26,7 @@ pub const MAX_BATCH_FRAMES: usize = 64;
 /// Most figures one driver can drive.
 pub const MAX_DRIVEN_FIGURES: usize = 64;
 /// Most frames of a clip given as frames.
-pub const MAX_CLIP_FRAMES: usize = crate::sim::motion::clip::MAX_SAMPLES;
+pub const MAX_CLIP_FRAMES: usize = sinew_physics::motion::clip::MAX_SAMPLES;
 
 fn optional(field: &str, value: Option<f64>, least: f64, most: f64) -> Result<Option<f64>, Fault> {
     value.map(|v| within(field, v, least, most)).transpose()
@@ -210,7 +210,7 @@ pub fn drive_open(
 
 /// A window in ms as seconds: none, or one that is long enough to be of use.
 fn window(field: &str, ms: f64) -> Result<f64, Fault> {
-    let (least, most) = crate::sim::plan::stream::WINDOW;
+    let (least, most) = sinew_physics::plan::stream::WINDOW;
     if ms == 0.0 {
         return Ok(0.0);
     }
@@ -701,7 +701,7 @@ pub fn figure_motion(
                 w: q.w,
             }),
         }),
-        joint_angles_rad: crate::sim::body::angles::anatomical_angles(posture).to_vec(),
+        joint_angles_rad: sinew_physics::body::angles::anatomical_angles(posture).to_vec(),
         velocity: velocity.to_vec(),
         planted: planted.map(|p| p.to_vec()).unwrap_or_default(),
         ..Default::default()
@@ -753,7 +753,7 @@ mod tests {
                     local
                 };
                 m.bone_rotations.push(pb::BoneRotation {
-                    bone: crate::sim::body::topology::BONE_NAMES[s].into(),
+                    bone: sinew_physics::body::topology::BONE_NAMES[s].into(),
                     rotation: Some(pb::Quaternion {
                         x: q.x,
                         y: q.y,

@@ -6,8 +6,8 @@ use super::super::types::{FREE_PLANE, ObstacleInfo, ObstacleMobility, ObstacleUp
 use super::masks::Fields;
 use super::names::OBSTACLE;
 use super::{WORLD_EXTENT, etags, rotation, vector, vector_out, within};
-use crate::sim::collide::{Mobility, OBSTACLE_FRICTION, ObstacleSetup, Shape};
-use crate::sim::math::{Quat, Vec3};
+use sinew_physics::collide::{Mobility, OBSTACLE_FRICTION, ObstacleSetup, Shape};
+use sinew_physics::math::{Quat, Vec3};
 
 /// Largest radius or half length, and largest half edge of a box, m.
 const ROUND: f64 = 100.0;

@@ -4,9 +4,9 @@ use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{Disturbance, FigureDisturbance, SecondSegment};
 use super::{or_default, shortened, vector, within};
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::SEGMENT_NAMES;
-use crate::sim::figure::SecondHand;
+use sinew_physics::body::SegmentId;
+use sinew_physics::body::topology::SEGMENT_NAMES;
+use sinew_physics::figure::SecondHand;
 
 /// Most disturbances in one request.
 pub const MAX_BATCH: usize = 64;

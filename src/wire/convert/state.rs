@@ -6,7 +6,7 @@ use super::super::status::Fault;
 use super::super::types::{EventFilter, EventKind, Fields, NumberFormat, ViewSpec, WorldEvent};
 use super::names::CLIP;
 use super::{count, shortened};
-use crate::sim::body::topology::DOF_NAMES;
+use sinew_physics::body::topology::DOF_NAMES;
 
 /// Most figures a view or filter can name.
 pub const MAX_NAMED_FIGURES: usize = 256;

@@ -6,7 +6,7 @@ use super::super::types::{Overrun, Pace, WorldCondition, WorldInfo, WorldSetting
 use super::masks::Fields;
 use super::names::WORLD;
 use super::{count, display_name, etags, or_default, timestamp, within};
-use crate::sim::world::WorldParams;
+use sinew_physics::world::WorldParams;
 use std::time::Duration;
 
 /// Least and largest tick rate, Hz.

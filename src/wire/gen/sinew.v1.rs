@@ -472,7 +472,7 @@ pub mod access_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.AccessService/GetCaller",
             );
@@ -498,7 +498,7 @@ pub mod access_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.AccessService/CreateGrant",
             );
@@ -523,7 +523,7 @@ pub mod access_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.AccessService/GetGrant",
             );
@@ -548,7 +548,7 @@ pub mod access_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.AccessService/ListGrants",
             );
@@ -573,7 +573,7 @@ pub mod access_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.AccessService/UpdateGrant",
             );
@@ -598,7 +598,7 @@ pub mod access_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.AccessService/DeleteGrant",
             );
@@ -779,7 +779,7 @@ pub mod access_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetCallerSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -824,7 +824,7 @@ pub mod access_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CreateGrantSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -869,7 +869,7 @@ pub mod access_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetGrantSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -914,7 +914,7 @@ pub mod access_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListGrantsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -959,7 +959,7 @@ pub mod access_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = UpdateGrantSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -1004,7 +1004,7 @@ pub mod access_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteGrantSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -1893,7 +1893,7 @@ pub mod body_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.BodyService/ListBodies",
             );
@@ -1918,7 +1918,7 @@ pub mod body_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.BodyService/GetBody",
             );
@@ -1943,7 +1943,7 @@ pub mod body_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.BodyService/ExportBody",
             );
@@ -2098,7 +2098,7 @@ pub mod body_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListBodiesSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -2143,7 +2143,7 @@ pub mod body_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetBodySvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -2188,7 +2188,7 @@ pub mod body_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ExportBodySvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -2851,7 +2851,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/CreateWorld",
             );
@@ -2876,7 +2876,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/GetWorld",
             );
@@ -2901,7 +2901,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/ListWorlds",
             );
@@ -2927,7 +2927,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/UpdateWorld",
             );
@@ -2952,7 +2952,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/DeleteWorld",
             );
@@ -2977,7 +2977,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/PauseWorld",
             );
@@ -3003,7 +3003,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/ResumeWorld",
             );
@@ -3029,7 +3029,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/StepWorld",
             );
@@ -3054,7 +3054,7 @@ pub mod world_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.WorldService/SetWorldSpeed",
             );
@@ -3262,7 +3262,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CreateWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3307,7 +3307,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3352,7 +3352,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListWorldsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3397,7 +3397,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = UpdateWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3442,7 +3442,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3487,7 +3487,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = PauseWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3532,7 +3532,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ResumeWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3577,7 +3577,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = StepWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -3622,7 +3622,7 @@ pub mod world_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = SetWorldSpeedSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4101,7 +4101,7 @@ pub mod checkpoint_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.CheckpointService/CheckpointWorld",
             );
@@ -4128,7 +4128,7 @@ pub mod checkpoint_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.CheckpointService/GetCheckpoint",
             );
@@ -4153,7 +4153,7 @@ pub mod checkpoint_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.CheckpointService/ListCheckpoints",
             );
@@ -4180,7 +4180,7 @@ pub mod checkpoint_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.CheckpointService/DeleteCheckpoint",
             );
@@ -4211,7 +4211,7 @@ pub mod checkpoint_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.CheckpointService/RestoreWorld",
             );
@@ -4238,7 +4238,7 @@ pub mod checkpoint_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.CheckpointService/ForkWorld",
             );
@@ -4426,7 +4426,7 @@ pub mod checkpoint_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CheckpointWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4472,7 +4472,7 @@ pub mod checkpoint_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetCheckpointSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4518,7 +4518,7 @@ pub mod checkpoint_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListCheckpointsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4564,7 +4564,7 @@ pub mod checkpoint_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteCheckpointSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4610,7 +4610,7 @@ pub mod checkpoint_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = RestoreWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -4655,7 +4655,7 @@ pub mod checkpoint_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ForkWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -5077,7 +5077,7 @@ pub mod control_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ControlService/AcquireControl",
             );
@@ -5102,7 +5102,7 @@ pub mod control_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ControlService/ReleaseControl",
             );
@@ -5127,7 +5127,7 @@ pub mod control_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ControlService/TransferControl",
             );
@@ -5153,7 +5153,7 @@ pub mod control_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ControlService/AcceptControl",
             );
@@ -5178,7 +5178,7 @@ pub mod control_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ControlService/GetControl",
             );
@@ -5355,7 +5355,7 @@ pub mod control_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = AcquireControlSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -5401,7 +5401,7 @@ pub mod control_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ReleaseControlSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -5447,7 +5447,7 @@ pub mod control_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = TransferControlSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -5492,7 +5492,7 @@ pub mod control_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = AcceptControlSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -5537,7 +5537,7 @@ pub mod control_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetControlSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -6903,7 +6903,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/CreateClip",
             );
@@ -6928,7 +6928,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/StreamCreateClip",
             );
@@ -6953,7 +6953,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/GetClip",
             );
@@ -6978,7 +6978,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/ListClips",
             );
@@ -7003,7 +7003,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/DeleteClip",
             );
@@ -7033,7 +7033,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/RehearseClip",
             );
@@ -7061,7 +7061,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/PlayClip",
             );
@@ -7087,7 +7087,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/StopClip",
             );
@@ -7112,7 +7112,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/PushMotion",
             );
@@ -7141,7 +7141,7 @@ pub mod motion_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.MotionService/DriveFigures",
             );
@@ -7376,7 +7376,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CreateClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7424,7 +7424,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = StreamCreateClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7469,7 +7469,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7514,7 +7514,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListClipsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7559,7 +7559,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7604,7 +7604,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = RehearseClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7649,7 +7649,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = PlayClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7694,7 +7694,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = StopClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7739,7 +7739,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = PushMotionSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -7787,7 +7787,7 @@ pub mod motion_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DriveFiguresSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -8703,7 +8703,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/CreateFigure",
             );
@@ -8728,7 +8728,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/GetFigure",
             );
@@ -8753,7 +8753,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/ListFigures",
             );
@@ -8779,7 +8779,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/UpdateFigure",
             );
@@ -8804,7 +8804,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/DeleteFigure",
             );
@@ -8829,7 +8829,7 @@ pub mod figure_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.FigureService/ResetFigure",
             );
@@ -9011,7 +9011,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CreateFigureSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -9056,7 +9056,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetFigureSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -9101,7 +9101,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListFiguresSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -9146,7 +9146,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = UpdateFigureSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -9191,7 +9191,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteFigureSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -9236,7 +9236,7 @@ pub mod figure_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ResetFigureSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -10206,7 +10206,7 @@ pub mod state_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.StateService/GetWorldFrame",
             );
@@ -10222,7 +10222,7 @@ pub mod state_service_client {
             request: impl tonic::IntoRequest<super::WatchWorldRequest>,
         ) -> std::result::Result<
             tonic::Response<
-                tonic::codec::Streaming<crate::wire::watched::WatchWorldResponse>,
+                tonic::codec::Streaming<crate::watched::WatchWorldResponse>,
             >,
             tonic::Status,
         > {
@@ -10234,7 +10234,7 @@ pub mod state_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.StateService/WatchWorld",
             );
@@ -10259,7 +10259,7 @@ pub mod state_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.StateService/WatchEvents",
             );
@@ -10294,7 +10294,7 @@ pub mod state_service_server {
         /// Server streaming response type for the WatchWorld method.
         type WatchWorldStream: tonic::codegen::tokio_stream::Stream<
                 Item = std::result::Result<
-                    crate::wire::watched::WatchWorldResponse,
+                    crate::watched::WatchWorldResponse,
                     tonic::Status,
                 >,
             >
@@ -10428,7 +10428,7 @@ pub mod state_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetWorldFrameSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -10450,7 +10450,7 @@ pub mod state_service_server {
                         T: StateService,
                     > tonic::server::ServerStreamingService<super::WatchWorldRequest>
                     for WatchWorldSvc<T> {
-                        type Response = crate::wire::watched::WatchWorldResponse;
+                        type Response = crate::watched::WatchWorldResponse;
                         type ResponseStream = T::WatchWorldStream;
                         type Future = BoxFuture<
                             tonic::Response<Self::ResponseStream>,
@@ -10474,7 +10474,7 @@ pub mod state_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = WatchWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -10520,7 +10520,7 @@ pub mod state_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = WatchEventsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -10894,7 +10894,7 @@ pub mod history_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.HistoryService/GetHistory",
             );
@@ -10921,7 +10921,7 @@ pub mod history_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.HistoryService/ReadHistory",
             );
@@ -10949,7 +10949,7 @@ pub mod history_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.HistoryService/SeekWorld",
             );
@@ -10975,7 +10975,7 @@ pub mod history_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.HistoryService/ReplayWorld",
             );
@@ -11154,7 +11154,7 @@ pub mod history_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetHistorySvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -11200,7 +11200,7 @@ pub mod history_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ReadHistorySvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -11245,7 +11245,7 @@ pub mod history_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = SeekWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -11290,7 +11290,7 @@ pub mod history_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ReplayWorldSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -11822,7 +11822,7 @@ pub mod obstacle_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ObstacleService/CreateObstacle",
             );
@@ -11847,7 +11847,7 @@ pub mod obstacle_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ObstacleService/GetObstacle",
             );
@@ -11872,7 +11872,7 @@ pub mod obstacle_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ObstacleService/ListObstacles",
             );
@@ -11897,7 +11897,7 @@ pub mod obstacle_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ObstacleService/UpdateObstacle",
             );
@@ -11922,7 +11922,7 @@ pub mod obstacle_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ObstacleService/DeleteObstacle",
             );
@@ -12096,7 +12096,7 @@ pub mod obstacle_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CreateObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -12141,7 +12141,7 @@ pub mod obstacle_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -12187,7 +12187,7 @@ pub mod obstacle_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListObstaclesSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -12233,7 +12233,7 @@ pub mod obstacle_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = UpdateObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -12279,7 +12279,7 @@ pub mod obstacle_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteObstacleSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -12706,7 +12706,7 @@ pub mod perturbation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.PerturbationService/ApplyPerturbations",
             );
@@ -12733,7 +12733,7 @@ pub mod perturbation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.PerturbationService/ClearPerturbations",
             );
@@ -12887,7 +12887,7 @@ pub mod perturbation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ApplyPerturbationsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -12936,7 +12936,7 @@ pub mod perturbation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ClearPerturbationsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -13317,7 +13317,7 @@ pub mod simulation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.SimulationService/SimulateClip",
             );
@@ -13343,7 +13343,7 @@ pub mod simulation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.SimulationService/StreamSimulateClip",
             );
@@ -13504,7 +13504,7 @@ pub mod simulation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = SimulateClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -13555,7 +13555,7 @@ pub mod simulation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = StreamSimulateClipSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -14050,7 +14050,7 @@ pub mod operation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.OperationService/StartOperation",
             );
@@ -14075,7 +14075,7 @@ pub mod operation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.OperationService/GetOperation",
             );
@@ -14100,7 +14100,7 @@ pub mod operation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.OperationService/ListOperations",
             );
@@ -14125,7 +14125,7 @@ pub mod operation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.OperationService/WaitOperation",
             );
@@ -14150,7 +14150,7 @@ pub mod operation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.OperationService/CancelOperation",
             );
@@ -14175,7 +14175,7 @@ pub mod operation_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.OperationService/DeleteOperation",
             );
@@ -14360,7 +14360,7 @@ pub mod operation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = StartOperationSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -14406,7 +14406,7 @@ pub mod operation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetOperationSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -14452,7 +14452,7 @@ pub mod operation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListOperationsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -14498,7 +14498,7 @@ pub mod operation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = WaitOperationSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -14544,7 +14544,7 @@ pub mod operation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = CancelOperationSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -14590,7 +14590,7 @@ pub mod operation_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteOperationSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -15099,7 +15099,7 @@ pub mod recording_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.RecordingService/StartRecording",
             );
@@ -15125,7 +15125,7 @@ pub mod recording_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.RecordingService/StopRecording",
             );
@@ -15150,7 +15150,7 @@ pub mod recording_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.RecordingService/GetRecording",
             );
@@ -15175,7 +15175,7 @@ pub mod recording_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.RecordingService/ListRecordings",
             );
@@ -15200,7 +15200,7 @@ pub mod recording_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.RecordingService/DeleteRecording",
             );
@@ -15226,7 +15226,7 @@ pub mod recording_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.RecordingService/ExportRecording",
             );
@@ -15417,7 +15417,7 @@ pub mod recording_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = StartRecordingSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -15463,7 +15463,7 @@ pub mod recording_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = StopRecordingSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -15509,7 +15509,7 @@ pub mod recording_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetRecordingSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -15555,7 +15555,7 @@ pub mod recording_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ListRecordingsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -15601,7 +15601,7 @@ pub mod recording_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = DeleteRecordingSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -15649,7 +15649,7 @@ pub mod recording_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = ExportRecordingSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -16040,7 +16040,7 @@ pub mod server_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ServerService/GetServerInfo",
             );
@@ -16065,7 +16065,7 @@ pub mod server_service_client {
                         format!("Service was not ready: {}", e.into()),
                     )
                 })?;
-            let codec = crate::wire::codec::Codec::default();
+            let codec = crate::codec::Codec::default();
             let path = http::uri::PathAndQuery::from_static(
                 "/sinew.v1.ServerService/GetServerStats",
             );
@@ -16213,7 +16213,7 @@ pub mod server_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetServerInfoSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,
@@ -16259,7 +16259,7 @@ pub mod server_service_server {
                     let inner = self.inner.clone();
                     let fut = async move {
                         let method = GetServerStatsSvc(inner);
-                        let codec = crate::wire::codec::Codec::default();
+                        let codec = crate::codec::Codec::default();
                         let mut grpc = tonic::server::Grpc::new(codec)
                             .apply_compression_config(
                                 accept_compression_encodings,

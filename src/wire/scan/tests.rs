@@ -2,7 +2,7 @@
 //! mutations of good ones, and the sizes of the generated types.
 
 use super::*;
-use crate::wire::pb;
+use crate::pb;
 use proptest::prelude::*;
 use prost::{Message, Name};
 

@@ -1,8 +1,8 @@
 //! Stored motions: how they are read, described, followed and played.
 
 use super::world::Place;
-use crate::sim::body::Posture;
 use serde::{Deserialize, Serialize};
+use sinew_physics::body::Posture;
 use std::sync::Arc;
 
 /// How a clip is played.

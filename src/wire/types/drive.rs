@@ -1,8 +1,8 @@
 //! Desired motion as it is streamed, and how the jitter buffer answers.
 
 use super::control::ControlKey;
-use crate::sim::body::{NV, Posture};
 use serde::{Deserialize, Serialize};
+use sinew_physics::body::{NV, Posture};
 
 /// Delay between arrival and use of live motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,14 +1,14 @@
 //! Figures: what they are asked for, what they are, and what changes.
 
 use super::world::Place;
-use crate::sim::body::{Profile, SegmentId};
-use crate::sim::figure::{
+use serde::{Deserialize, Serialize};
+use sinew_physics::body::{Profile, SegmentId};
+use sinew_physics::figure::{
     ControlParams, ControllerKind, FigureOptions, Following, StepperKind, StrengthScale,
 };
-use crate::sim::math::{Quat, Vec3};
-use serde::{Deserialize, Serialize};
+use sinew_physics::math::{Quat, Vec3};
 
-/// Which body: a name that says its profile, see [`crate::wire::convert::body`].
+/// Which body: a name that says its profile, see [`crate::convert::body`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyRef {
     /// Last part of the name.

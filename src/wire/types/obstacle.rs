@@ -1,8 +1,8 @@
 //! Obstacles and what changes of them.
 
-use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
-use crate::sim::math::{Quat, Vec3};
-use crate::wire::status::Fault;
+use crate::status::Fault;
+use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
+use sinew_physics::math::{Quat, Vec3};
 
 /// How an obstacle moves, without its mass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,9 @@
 //! What disturbs a figure.
 
-use crate::sim::body::SegmentId;
-use crate::sim::figure::SecondHand;
-use crate::sim::math::Vec3;
 use serde::{Deserialize, Serialize};
+use sinew_physics::body::SegmentId;
+use sinew_physics::figure::SecondHand;
+use sinew_physics::math::Vec3;
 
 /// What holds a load besides its segment. In bytes, the first two are an option.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

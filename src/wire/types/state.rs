@@ -2,10 +2,10 @@
 
 use super::figure::Follows;
 use super::obstacle::ObstacleInfo;
-use crate::sim::body::{Body, SegmentId, State};
-use crate::sim::figure::TickReport;
-use crate::sim::math::Vec3;
-use crate::sim::motion::Target;
+use sinew_physics::body::{Body, SegmentId, State};
+use sinew_physics::figure::TickReport;
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::Target;
 use std::sync::Arc;
 
 /// How numbers are written.

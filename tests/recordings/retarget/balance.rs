@@ -2,9 +2,9 @@
 
 use super::{take, text};
 use crate::common::mocap;
-use sinew::sim::body::{Body, Posture};
-use sinew::sim::plan::feasibility::{Consistency, consistency};
-use sinew::sim::retarget::{Preparation, RetargetOptions};
+use sinew_physics::body::{Body, Posture};
+use sinew_physics::plan::feasibility::{Consistency, consistency};
+use sinew_physics::retarget::{Preparation, RetargetOptions};
 
 /// A recording as it fits the body, and prepared, judged on the feet that its labels have on the floor.
 fn before_and_after(body: &Body, name: &str) -> [Consistency; 2] {

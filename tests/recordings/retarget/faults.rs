@@ -2,8 +2,8 @@
 
 use super::source::Source;
 use super::{same, take, text};
-use sinew::sim::body::Body;
-use sinew::sim::retarget::{FileFacts, RetargetError, RetargetOptions};
+use sinew_physics::body::Body;
+use sinew_physics::retarget::{FileFacts, RetargetError, RetargetOptions};
 
 #[test]
 fn poses_before_the_motion_and_glitches_are_taken_out() {

@@ -2,11 +2,11 @@
 
 use super::{take, text};
 use crate::common::mocap::CLIPS;
-use sinew::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
-use sinew::sim::body::{Body, Posture};
-use sinew::sim::math::Vec3;
-use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::retarget::{Preparation, RetargetOptions};
+use sinew_physics::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use sinew_physics::body::{Body, Posture};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::leg_ik::forward;
+use sinew_physics::retarget::{Preparation, RetargetOptions};
 
 /// Heel, toe joint and tip of the toes of both feet, and the lowest point of either sole.
 fn soles(body: &Body, posture: &Posture) -> [([Vec3; 3], f64); 2] {

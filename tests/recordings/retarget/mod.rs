@@ -10,14 +10,14 @@ mod feet;
 mod source;
 
 use crate::common::mocap::{self, CLIPS};
-use sinew::sim::body::Body;
-use sinew::sim::body::angles::anatomical_angles;
-use sinew::sim::body::topology::{DOF_NAMES, L_FOOT, L_THIGH, R_FOOT, R_THIGH};
-use sinew::sim::math::Vec3;
-use sinew::sim::motion::Bvh;
-use sinew::sim::motion::leg_ik::forward;
-use sinew::sim::retarget::{Preparation, retarget};
-use sinew::sim::retarget::{RetargetError, RetargetOptions, Retargeted, UpAxis};
+use sinew_physics::body::Body;
+use sinew_physics::body::angles::anatomical_angles;
+use sinew_physics::body::topology::{DOF_NAMES, L_FOOT, L_THIGH, R_FOOT, R_THIGH};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::Bvh;
+use sinew_physics::motion::leg_ik::forward;
+use sinew_physics::retarget::{Preparation, retarget};
+use sinew_physics::retarget::{RetargetError, RetargetOptions, Retargeted, UpAxis};
 
 fn text(name: &str) -> String {
     String::from_utf8(mocap::read(&format!("{name}.bvh"))).unwrap()

@@ -3,11 +3,11 @@
 
 use super::{playing, run};
 use crate::common::{man, recorded};
-use sinew::sim::body::topology::{DOF_START, L_HAND, L_THIGH, R_HAND, R_UPPER_ARM};
-use sinew::sim::body::{Body, SegmentId};
-use sinew::sim::figure::Perturbation;
-use sinew::sim::motion::Clip;
-use sinew::sim::plan::cycle;
+use sinew_physics::body::topology::{DOF_START, L_HAND, L_THIGH, R_HAND, R_UPPER_ARM};
+use sinew_physics::body::{Body, SegmentId};
+use sinew_physics::figure::Perturbation;
+use sinew_physics::motion::Clip;
+use sinew_physics::plan::cycle;
 use std::sync::Arc;
 
 /// The repeated walk of 20 s with `mass` kg in each of `hands` from `from` until `to` (s): its measures.

@@ -2,10 +2,10 @@
 //! are in `tests/corpus`.
 
 use crate::common::{man, mocap};
-use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};
-use sinew::sim::motion::Bvh;
-use sinew::sim::retarget::retarget;
-use sinew::sim::retarget::{Preparation, RetargetOptions};
+use sinew_evaluate::experiments::walk::{self as experiments, Walk, Walker};
+use sinew_physics::motion::Bvh;
+use sinew_physics::retarget::retarget;
+use sinew_physics::retarget::{Preparation, RetargetOptions};
 use std::sync::Arc;
 
 /// A recording with other frames in place of its own, of which each takes so many seconds.

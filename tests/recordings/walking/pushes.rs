@@ -3,17 +3,17 @@
 
 use super::{RATE, playing};
 use crate::common::{man, recorded};
-use sinew::evaluate::experiments::walk::{self as experiments, Walk, Walker};
-use sinew::sim::body::topology::{
+use sinew_evaluate::experiments::walk::{self as experiments, Walk, Walker};
+use sinew_physics::body::topology::{
     CHEST, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH, R_TOES,
 };
-use sinew::sim::body::{Body, SegmentId};
-use sinew::sim::dynamics::Kinematics;
-use sinew::sim::figure::{Figure, Perturbation};
-use sinew::sim::math::Vec3;
-use sinew::sim::motion::Clip;
-use sinew::sim::plan::cycle;
-use sinew::sim::track::Purpose;
+use sinew_physics::body::{Body, SegmentId};
+use sinew_physics::dynamics::Kinematics;
+use sinew_physics::figure::{Figure, Perturbation};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::Clip;
+use sinew_physics::plan::cycle;
+use sinew_physics::track::Purpose;
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
 

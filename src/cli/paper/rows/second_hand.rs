@@ -1,12 +1,12 @@
 //! Row 5: a ladder of loads with one hand, with two, and with the second hand as it is needed.
 
-use crate::cli::page::Page;
-use crate::evaluate::experiments::Pair;
-use crate::evaluate::experiments::second_hand::{LADDER, Rung, rung};
-use crate::evaluate::strip::View;
-use crate::sim::body::{Body, Profile, Sex};
-use crate::sim::figure::SecondHand;
+use crate::page::Page;
 use anyhow::Result;
+use sinew_evaluate::experiments::Pair;
+use sinew_evaluate::experiments::second_hand::{LADDER, Rung, rung};
+use sinew_evaluate::strip::View;
+use sinew_physics::body::{Body, Profile, Sex};
+use sinew_physics::figure::SecondHand;
 use std::sync::Arc;
 
 /// Panels of a strip.

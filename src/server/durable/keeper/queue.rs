@@ -1,9 +1,7 @@
 //! What waits to be written, and what is known of the writing: shared by those who hand in and the thread that writes.
 
 use super::Sizes;
-use crate::server::durable::store::{
-    CheckpointStore, Durability, Entry, Item, WorldKey, WorldRecord,
-};
+use crate::durable::store::{CheckpointStore, Durability, Entry, Item, WorldKey, WorldRecord};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};

@@ -1,7 +1,7 @@
 //! What worlds hand in. Nothing here waits for the disk.
 
 use super::queue::{Later, Queued, Shared, TOO_LATE, Ticket, WorldState, locked};
-use crate::server::durable::store::{Durability, Entry, Item, StoreError, WorldKey};
+use crate::durable::store::{Durability, Entry, Item, StoreError, WorldKey};
 use bytes::Bytes;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;

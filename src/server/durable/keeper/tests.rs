@@ -4,8 +4,8 @@
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
 use super::*;
-use crate::server::durable::memory::{Disk, MemoryStore};
-use crate::server::durable::store::{Durability, WorldKey};
+use crate::durable::memory::{Disk, MemoryStore};
+use crate::durable::store::{Durability, WorldKey};
 use std::io::Write;
 use std::time::Duration;
 

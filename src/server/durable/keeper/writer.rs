@@ -1,7 +1,7 @@
 //! The thread that writes: it takes groups out of the queue, commits them, and looks after the disk.
 
 use super::queue::{Queued, Request, Shared, TOO_LATE, WorldState, locked};
-use crate::server::durable::store::{
+use crate::durable::store::{
     CheckpointStore, Durability, Entry, Item, Remedy, StoreError, WorldKey,
 };
 use std::collections::HashSet;

@@ -7,7 +7,7 @@
 //! Rows of worlds that rest are followed by those of others, so that the last row alone would not tell.
 
 use super::Log;
-use crate::server::durable::store::{StoreError, WorldKey};
+use crate::durable::store::{StoreError, WorldKey};
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write;

@@ -2,7 +2,7 @@
 
 use super::row::{CHECKPOINT, Row};
 use super::{Log, now_ms};
-use crate::server::durable::store::{StoreError, WorldKey};
+use crate::durable::store::{StoreError, WorldKey};
 use std::collections::{BTreeMap, VecDeque};
 
 /// Number that no row has: a million a second for ten thousand years.

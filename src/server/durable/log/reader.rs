@@ -4,7 +4,7 @@
 use super::Log;
 use super::index::Place;
 use super::row::{CHECKPOINT, GROUP, Row};
-use crate::server::durable::store::{History, Loss, Remedy, StoreError, WorldKey};
+use crate::durable::store::{History, Loss, Remedy, StoreError, WorldKey};
 use bytes::Bytes;
 use rusqlite::OptionalExtension;
 use std::collections::{HashMap, VecDeque};
@@ -278,8 +278,8 @@ impl Log {
 mod tests {
     use super::super::row::{HASH, INPUT, frame};
     use super::*;
-    use crate::server::durable::store::{Entry, Item};
-    use crate::server::testing::Temporary;
+    use crate::durable::store::{Entry, Item};
+    use crate::testing::Temporary;
     use proptest::prelude::*;
 
     fn row(id: i64, kind: u8, (session, seq): (i64, i64), bytes: Vec<u8>) -> Row {

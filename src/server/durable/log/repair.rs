@@ -1,8 +1,8 @@
 //! What can be done when the disk is full or the file is damaged.
 
 use super::Log;
-use crate::server::durable::files;
-use crate::server::durable::store::{Retention, StoreError};
+use crate::durable::files;
+use crate::durable::store::{Retention, StoreError};
 use rusqlite::Connection;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
@@ -12,7 +12,7 @@ use std::time::{Duration, SystemTime};
 ///
 /// # Errors
 /// They could not be moved.
-pub(in crate::server::durable) fn set_aside(log: &Path) -> Result<PathBuf, StoreError> {
+pub(in crate::durable) fn set_aside(log: &Path) -> Result<PathBuf, StoreError> {
     let dir = log.parent().unwrap_or(Path::new("."));
     let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
     let aside = dir.join(format!("damaged-{}", since.unwrap_or_default().as_millis()));

@@ -3,7 +3,7 @@
 
 use super::index::Track;
 use super::{Log, now_ms};
-use crate::server::durable::store::{Retention, StoreError, Usage, WorldKey};
+use crate::durable::store::{Retention, StoreError, Usage, WorldKey};
 use rusqlite::params;
 use std::ops::Range;
 
@@ -148,8 +148,8 @@ impl Log {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::server::durable::store::{Entry, Item};
-    use crate::server::testing::Temporary;
+    use crate::durable::store::{Entry, Item};
+    use crate::testing::Temporary;
     use bytes::Bytes;
     use std::time::Duration;
 

@@ -5,7 +5,7 @@
 //!   group        frames one behind the other:  kind u8 │ tick u64 │ length u32 │ bytes
 //! ```
 
-use crate::server::durable::store::{Item, Logged, WorldKey};
+use crate::durable::store::{Item, Logged, WorldKey};
 use bytes::Bytes;
 
 /// Kind of a row: the state after a tick.

@@ -1,6 +1,6 @@
 //! Tables and settings of the log in SQLite, and what SQLite's errors mean for a store.
 
-use crate::server::durable::store::StoreError;
+use crate::durable::store::StoreError;
 use rusqlite::{Connection, ErrorCode};
 use std::path::Path;
 use std::time::Duration;

@@ -3,7 +3,7 @@
 use super::index::{Place, Track};
 use super::row::{CHECKPOINT, GROUP, HASH, INPUT, Row, frame};
 use super::{Log, now_ms};
-use crate::server::durable::store::{Entry, Item, StoreError, WorldKey};
+use crate::durable::store::{Entry, Item, StoreError, WorldKey};
 use bytes::Bytes;
 use rusqlite::params;
 use std::collections::BTreeMap;

@@ -6,8 +6,8 @@
 //! It is taken up there, a little older or newer than its delay has it, and makes up for that slowly.
 
 use super::{JitterBuffer, Supply};
-use crate::sim::body::Posture;
-use crate::sim::plan::likeness;
+use sinew_physics::body::Posture;
+use sinew_physics::plan::likeness;
 
 /// Most that is played older than its delay has it, s: a stride, so that there is a like moment in every walk. Two
 /// hundredths of time make up for it.
@@ -126,9 +126,9 @@ impl JitterBuffer {
 mod tests {
     use super::super::{Due, Frame, Now};
     use super::*;
-    use crate::sim::body::Body;
-    use crate::sim::motion::Target;
-    use crate::wire::types::{Delay, DriveSettings};
+    use sinew_physics::body::Body;
+    use sinew_physics::motion::Target;
+    use sinew_wire::types::{Delay, DriveSettings};
     use std::cell::Cell;
     use std::sync::Arc;
     use std::time::Instant;

@@ -1,9 +1,9 @@
 //! The motion is a sine of the right elbow, so that every answer has a closed form.
 
 use super::*;
-use crate::server::ingest::playout::{CATCH_UP, MOST_BEHIND, SHRINK};
-use crate::sim::plan::StreamPlan;
-use crate::wire::types::Delay;
+use crate::ingest::playout::{CATCH_UP, MOST_BEHIND, SHRINK};
+use sinew_physics::plan::StreamPlan;
+use sinew_wire::types::Delay;
 
 const RATE: f64 = 60.0;
 const TICK: f64 = 1.0 / 60.0;
@@ -225,7 +225,7 @@ fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
         f
     };
     let mut b = buffer(Delay::Fixed(0.05));
-    let body = std::sync::Arc::new(crate::sim::body::Body::adult_man());
+    let body = std::sync::Arc::new(sinew_physics::body::Body::adult_man());
     let mut motion = StreamPlan::new(body, 0.3);
     let (mut news, mut broken) = (Vec::new(), Vec::new());
     for i in 0..60 {

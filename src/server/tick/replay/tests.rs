@@ -4,16 +4,16 @@
 //! late plans) keeps a journal as a server does. `SINEW_REPLAYS` is how often it is done again.
 
 use super::*;
-use crate::server::engine::{self, Clip, FigureKey, ObstacleKey};
-use crate::server::ingest::jitter_buffer::Frame;
-use crate::server::tick::journal::{Journal, Room, Segment, Total, from_disk};
-use crate::server::tick::scene::{Done, Input, PlayerKey};
-use crate::sim::body::Body;
-use crate::sim::collide::{Mobility, ObstacleSetup, Shape};
-use crate::sim::math::Vec3;
-use crate::wire::convert;
-use crate::wire::pb;
-use crate::wire::types::{
+use crate::engine::{self, Clip, FigureKey, ObstacleKey};
+use crate::ingest::jitter_buffer::Frame;
+use crate::tick::journal::{Journal, Room, Segment, Total, from_disk};
+use crate::tick::scene::{Done, Input, PlayerKey};
+use sinew_physics::body::Body;
+use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
+use sinew_physics::math::Vec3;
+use sinew_wire::convert;
+use sinew_wire::pb;
+use sinew_wire::types::{
     Delay, Disturbance, DriveSettings, FigureDisturbance, FigureUpdate, Playback,
 };
 use std::cell::Cell;
@@ -125,7 +125,7 @@ impl Script {
             sequence: i,
             source_ns: i * 16_666_667,
             posture,
-            velocity: (player == 1).then(|| Box::new([0.0; crate::sim::body::NV])),
+            velocity: (player == 1).then(|| Box::new([0.0; sinew_physics::body::NV])),
             planted: (i % 5 == 0).then_some([true, true]),
             guess: Cell::default(),
             arrival: Instant::now(),
@@ -142,7 +142,7 @@ impl Script {
             figure: figure.into(),
             tick: None,
             what: Disturbance::Force {
-                segment: crate::sim::body::topology::PELVIS,
+                segment: sinew_physics::body::topology::PELVIS,
                 point: None,
                 force: Vec3::Y * newtons,
                 duration: 0.2,
@@ -282,7 +282,7 @@ fn obstacle() -> ObstacleSetup {
             y: 0.0,
             z: 0.12,
         },
-        rotation: crate::sim::math::Quat::identity(),
+        rotation: sinew_physics::math::Quat::identity(),
         velocity: Vec3::zero(),
         angular_velocity: Vec3::zero(),
     }
@@ -408,7 +408,7 @@ fn a_record_with_its_clips_comes_back_from_the_disk() {
         .map(|e| match e {
             Logged::Record(r) => {
                 clips += r.definitions.len();
-                let bytes = crate::server::tick::journal::on_disk(r);
+                let bytes = crate::tick::journal::on_disk(r);
                 Logged::Record(from_disk(r.tick, &bytes).unwrap())
             }
             hash => hash.clone(),

@@ -5,14 +5,14 @@
 //! have a form of their own in the record ([`record`](super::record)): frames of desired motion as they arrived, and
 //! which plans were late.
 
-use crate::server::engine::{Clip, FigureKey, ObstacleKey};
-use crate::sim::body::Body;
-use crate::sim::collide::ObstacleSetup;
-use crate::sim::world::RehearsedMotion;
-use crate::wire::types::{
+use crate::engine::{Clip, FigureKey, ObstacleKey};
+use serde::{Deserialize, Serialize};
+use sinew_physics::body::Body;
+use sinew_physics::collide::ObstacleSetup;
+use sinew_physics::world::RehearsedMotion;
+use sinew_wire::types::{
     DriveSettings, FigureDisturbance, FigureSettings, FigureUpdate, Pace, Place, Playback,
 };
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// Number of a player in its scene: none is given twice.
@@ -46,7 +46,7 @@ pub enum Input {
         /// Last part of the name of the clip.
         name: String,
         /// The clip, prepared for its body.
-        #[serde(with = "crate::sim::saved::definition")]
+        #[serde(with = "sinew_physics::saved::definition")]
         clip: Arc<Clip>,
         /// How.
         playback: Playback,
@@ -86,7 +86,7 @@ pub enum Input {
         /// Figure.
         figure: FigureKey,
         /// The rehearsal.
-        #[serde(with = "crate::sim::saved::definition")]
+        #[serde(with = "sinew_physics::saved::definition")]
         motion: Arc<RehearsedMotion>,
     },
 }

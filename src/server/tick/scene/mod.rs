@@ -17,15 +17,15 @@ pub use player::{Player, Window};
 pub use record::{Item, Reader, Record, Unreadable};
 pub use saved::SavedScene;
 
-use crate::server::engine::{self, Drive as Motion, FigureKey, ObstacleKey, Planning, World};
-use crate::server::ingest::jitter_buffer::{Frame, Now, Resync};
-use crate::sim::body::{Body, State};
-use crate::sim::figure::loads::MAX_PERTURBATIONS;
-use crate::sim::figure::{ControlParams, LatePlans, Perturbation};
-use crate::wire::status::Fault;
-use crate::wire::types::{FigureDisturbance, FigureSettings, FigureUpdate, Place, WorldSettings};
+use crate::engine::{self, Drive as Motion, FigureKey, ObstacleKey, Planning, World};
+use crate::ingest::jitter_buffer::{Frame, Now, Resync};
 use record::Writer;
 use serde::{Deserialize, Serialize};
+use sinew_physics::body::{Body, State};
+use sinew_physics::figure::loads::MAX_PERTURBATIONS;
+use sinew_physics::figure::{ControlParams, LatePlans, Perturbation};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{FigureDisturbance, FigureSettings, FigureUpdate, Place, WorldSettings};
 use std::sync::Arc;
 use std::time::Instant;
 

@@ -2,10 +2,10 @@
 
 use super::player::{Player, Window};
 use super::{Done, PlayerKey, Scene};
-use crate::server::engine::{self, Clip, Drive as Motion, FigureKey};
-use crate::server::ingest::jitter_buffer::{JitterBuffer, Now, Seam};
-use crate::wire::status::Fault;
-use crate::wire::types::{DriveSettings, Place, Playback};
+use crate::engine::{self, Clip, Drive as Motion, FigureKey};
+use crate::ingest::jitter_buffer::{JitterBuffer, Now, Seam};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{DriveSettings, Place, Playback};
 use std::sync::Arc;
 
 impl Scene {

@@ -4,15 +4,15 @@
 //! were counted by, both of which are recorded. Who may send it frames is a matter of drives (`drives`).
 
 use super::input::PlayerKey;
-use crate::server::engine::{self, Figure, FigureKey, LivePlayback};
-use crate::server::ingest::jitter_buffer::{Due, JitterBuffer, Now, Seam};
-use crate::sim::body::{Body, Posture, State};
-use crate::sim::motion::TargetPair;
-use crate::sim::plan::StreamPlan;
-use crate::sim::plan::motion_transition::StreamBeginning;
-use crate::sim::plan::stream::RATE;
-use crate::wire::types::Supply;
+use crate::engine::{self, Figure, FigureKey, LivePlayback};
+use crate::ingest::jitter_buffer::{Due, JitterBuffer, Now, Seam};
 use serde::{Deserialize, Serialize};
+use sinew_physics::body::{Body, Posture, State};
+use sinew_physics::motion::TargetPair;
+use sinew_physics::plan::StreamPlan;
+use sinew_physics::plan::motion_transition::StreamBeginning;
+use sinew_physics::plan::stream::RATE;
+use sinew_wire::types::Supply;
 use std::sync::Arc;
 
 /// Samples of standing before a stream begins, for a figure that is not put into it.

@@ -13,14 +13,14 @@
 //! first one behind each checkpoint is, so that reading can begin there.
 
 use super::input::{Input, PlayerKey};
-use crate::server::engine::FigureKey;
-use crate::server::ingest::jitter_buffer::Frame;
-use crate::sim::body::topology::{BALL_COUNT, HINGE_COUNT};
-use crate::sim::body::{NV, Posture};
-use crate::sim::figure::LatePlans;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::saved::{self, Definition};
+use crate::engine::FigureKey;
+use crate::ingest::jitter_buffer::Frame;
 use bytes::Bytes;
+use sinew_physics::body::topology::{BALL_COUNT, HINGE_COUNT};
+use sinew_physics::body::{NV, Posture};
+use sinew_physics::figure::LatePlans;
+use sinew_physics::math::{Quat, Vec3};
+use sinew_physics::saved::{self, Definition};
 use std::cell::Cell;
 use std::time::Instant;
 

@@ -2,13 +2,13 @@
 
 use super::record::Writer;
 use super::{Member, Player, PlayerKey, Scene};
-use crate::server::engine::{Drive as Motion, Figure, ObstacleKey, World};
-use crate::sim::figure::constraints::MAX_CONSTRAINTS;
-use crate::sim::world::checkpoint::Capture;
-use crate::wire::convert::world::is_pace;
-use crate::wire::convert::{MAX_ID, display_name, new_id};
-use crate::wire::types::WorldSettings;
+use crate::engine::{Drive as Motion, Figure, ObstacleKey, World};
 use serde::{Deserialize, Serialize};
+use sinew_physics::figure::constraints::MAX_CONSTRAINTS;
+use sinew_physics::world::checkpoint::Capture;
+use sinew_wire::convert::world::is_pace;
+use sinew_wire::convert::{MAX_ID, display_name, new_id};
+use sinew_wire::types::WorldSettings;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 

@@ -1,9 +1,9 @@
 //! What a scene looks like.
 
 use super::{Player, Scene};
-use crate::server::engine::{self, FigureKey, ObstacleKey};
-use crate::sim::collide::Other;
-use crate::wire::types::{FigureSnapshot, ObstacleInfo, RosterEntry, Snapshot};
+use crate::engine::{self, FigureKey, ObstacleKey};
+use sinew_physics::collide::Other;
+use sinew_wire::types::{FigureSnapshot, ObstacleInfo, RosterEntry, Snapshot};
 use std::sync::Arc;
 
 impl Scene {

@@ -2,16 +2,16 @@
 //! checkpoints agree on it.
 
 use super::*;
-use crate::server::engine::Planning;
-use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::figure::rehearsed::{Hold, JointOffset, MotorLaw, RootStep, Stage};
-use crate::sim::figure::{Flags, FollowMode, RehearsedMotion};
-use crate::sim::math::Vec3;
-use crate::sim::motion::{Clip, Target, TargetPair};
-use crate::wire::convert;
-use crate::wire::frame::figure_frame;
-use crate::wire::pb;
-use crate::wire::types::{Disturbance, Fields, Follows, NumberFormat, Playback};
+use crate::engine::Planning;
+use sinew_physics::body::topology::DOF_COUNT;
+use sinew_physics::figure::rehearsed::{Hold, JointOffset, MotorLaw, RootStep, Stage};
+use sinew_physics::figure::{Flags, FollowMode, RehearsedMotion};
+use sinew_physics::math::Vec3;
+use sinew_physics::motion::{Clip, Target, TargetPair};
+use sinew_wire::convert;
+use sinew_wire::frame::figure_frame;
+use sinew_wire::pb;
+use sinew_wire::types::{Disturbance, Fields, Follows, NumberFormat, Playback};
 
 /// Ticks of the motion that is rehearsed.
 const TICKS: usize = 30;
@@ -123,7 +123,7 @@ fn what_is_refused_is_not_recorded() {
             figure: "anna".into(),
             tick,
             what: Disturbance::Force {
-                segment: crate::sim::body::topology::CHEST,
+                segment: sinew_physics::body::topology::CHEST,
                 point: None,
                 force: Vec3::X,
                 duration: 0.1,

@@ -3,7 +3,7 @@
 //! Telling wakes a thread, which costs both sides more than a frame does. A worker that has more ticks to run at once
 //! tells of several of them together: one wake-up serves all.
 
-use crate::server::tick::Outlet;
+use crate::tick::Outlet;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 

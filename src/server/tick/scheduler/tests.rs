@@ -1,8 +1,8 @@
 //! Many worlds on few threads: each gets its ticks, whatever the others do.
 
 use super::*;
-use crate::server::tick::command::{Command, Origin};
-use crate::server::tick::tests::{Running, workers};
+use crate::tick::command::{Command, Origin};
+use crate::tick::tests::{Running, workers};
 use std::sync::mpsc::sync_channel;
 
 fn rounds(scheduler: &Scheduler) -> u64 {

@@ -3,9 +3,9 @@
 //! A bound is for what one principal does to one figure at a time, however many calls and perturbations it is made of:
 //! twice the force is twice the force, whether it comes in one piece or in two.
 
-use crate::sim::world::FigureKey;
-use crate::wire::status::Fault;
-use crate::wire::types::Disturbance;
+use sinew_physics::world::FigureKey;
+use sinew_wire::status::Fault;
+use sinew_wire::types::Disturbance;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -124,8 +124,8 @@ fn refused(i: usize, message: String) -> Fault {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::CHEST;
-    use crate::sim::math::Vec3;
+    use sinew_physics::body::topology::CHEST;
+    use sinew_physics::math::Vec3;
 
     fn push(principal: &Arc<str>, figure: FigureKey, newtons: f64, ticks: Range<u64>) -> Share {
         let what = Disturbance::Force {

@@ -2,12 +2,12 @@
 
 use super::Shard;
 use super::bounds::Shares;
-use crate::server::engine::FigureKey;
-use crate::server::telemetry::metrics::CheckpointTimer;
-use crate::server::tick::scene::{Input, Player, Scene};
-use crate::sim::world::checkpoint::Capture;
-use crate::wire::status::Fault;
-use crate::wire::types::{EventKind, WorldInfo};
+use crate::engine::FigureKey;
+use crate::telemetry::metrics::CheckpointTimer;
+use crate::tick::scene::{Input, Player, Scene};
+use sinew_physics::world::checkpoint::Capture;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{EventKind, WorldInfo};
 use std::time::Instant;
 
 /// Where the state comes from that a world goes on with.
@@ -130,7 +130,7 @@ impl Shard {
 
     /// Lets figures finish their steps and stand whose drives came with the state that the world began with, after the
     /// grace time of their drivers in world time.
-    pub(in crate::server::tick) fn expire_undriven(&mut self) {
+    pub(in crate::tick) fn expire_undriven(&mut self) {
         let tick = self.scene.world().tick();
         while let Some((key, _)) = self.undriven.iter().find(|(_, until)| **until <= tick) {
             let key = *key;
@@ -157,7 +157,7 @@ impl Shard {
                     let follow = Input::Follow {
                         figure: self.scene.members()[i].key,
                         // It goes over from what the figure does now.
-                        settings: crate::wire::types::DriveSettings {
+                        settings: sinew_wire::types::DriveSettings {
                             reset: false,
                             ..settings.clone()
                         },
@@ -165,7 +165,7 @@ impl Shard {
                         takeover: None,
                     };
                     match self.scene.apply(follow) {
-                        Ok(crate::server::tick::scene::Done::Player(key)) => Some(key),
+                        Ok(crate::tick::scene::Done::Player(key)) => Some(key),
                         _ => None,
                     }
                 });

@@ -1,9 +1,9 @@
 //! When clips begin and end, for those who watch events.
 
 use super::Shard;
-use crate::server::engine;
-use crate::server::tick::scene::Member;
-use crate::wire::types::EventKind;
+use crate::engine;
+use crate::tick::scene::Member;
+use sinew_wire::types::EventKind;
 
 /// A clip that plays: its id, and the world time of its start, s.
 pub(super) type Playing = (String, f64);

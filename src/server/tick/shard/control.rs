@@ -1,11 +1,11 @@
 //! Leases of figures: taking, giving back, handing over, losing them.
 
 use super::Shard;
-use crate::server::ingest::mailbox::DriverId;
-use crate::server::tick::leases::{Lease, Offer, controlled, fenced, token_hash};
-use crate::server::tick::scene::Input;
-use crate::wire::status::Fault;
-use crate::wire::types::{Acquire, ControlInfo, ControlKey, EventKind, KeptLease, Transfer};
+use crate::ingest::mailbox::DriverId;
+use crate::tick::leases::{Lease, Offer, controlled, fenced, token_hash};
+use crate::tick::scene::Input;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{Acquire, ControlInfo, ControlKey, EventKind, KeptLease, Transfer};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 

@@ -1,14 +1,14 @@
 //! What figures are asked to do: clips, and drives that stream.
 
 use super::Shard;
-use crate::server::engine::Clip;
-use crate::server::ingest::mailbox::{DriverId, Mailbox, fenced};
-use crate::server::rehearsals::{Performer, Rehearsed};
-use crate::server::telemetry::metrics::ticks;
-use crate::server::tick::drives::{Drive, Slot};
-use crate::server::tick::scene::{Done, Input};
-use crate::wire::status::Fault;
-use crate::wire::types::{ControlKey, DriveOpen, EventKind, Feedback, Playback};
+use crate::engine::Clip;
+use crate::ingest::mailbox::{DriverId, Mailbox, fenced};
+use crate::rehearsals::{Performer, Rehearsed};
+use crate::telemetry::metrics::ticks;
+use crate::tick::drives::{Drive, Slot};
+use crate::tick::scene::{Done, Input};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{ControlKey, DriveOpen, EventKind, Feedback, Playback};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -184,7 +184,7 @@ impl Shard {
     }
 
     /// Takes what drivers have sent since the last tick.
-    pub(in crate::server::tick) fn collect_motion(&mut self) {
+    pub(in crate::tick) fn collect_motion(&mut self) {
         let now = Instant::now();
         let scheduled = self.schedule();
         for drive in &mut self.drives {
@@ -227,14 +227,14 @@ impl Shard {
     }
 
     /// Lets drivers who push know the state of their drives without asking for it.
-    pub(in crate::server::tick) fn publish_feedback(&self) {
+    pub(in crate::tick) fn publish_feedback(&self) {
         for drive in self.drives.iter().filter(|d| d.connection.is_none()) {
             drive.mailbox.publish(drive.feedback(&self.scene));
         }
     }
 
     /// Notes that a frame has been published: how long the motion that it shows took to get there.
-    pub(in crate::server::tick) fn note_shown(&mut self) {
+    pub(in crate::tick) fn note_shown(&mut self) {
         let now = Instant::now();
         for arrival in self.scene.take_shown() {
             ticks().input_to_frame.record(now - arrival);
@@ -242,7 +242,7 @@ impl Shard {
     }
 
     /// Takes no more motion: the world has failed.
-    pub(in crate::server::tick) fn close_mailboxes(&self, why: &Fault) {
+    pub(in crate::tick) fn close_mailboxes(&self, why: &Fault) {
         for drive in &self.drives {
             drive.mailbox.close(why.clone());
         }
@@ -305,7 +305,7 @@ impl Shard {
     }
 
     /// Gives up the figures of drivers that did not come back.
-    pub(in crate::server::tick) fn expire_drives(&mut self, now: Instant) {
+    pub(in crate::tick) fn expire_drives(&mut self, now: Instant) {
         while let Some(driver) = self
             .drives
             .iter()
@@ -319,7 +319,7 @@ impl Shard {
     }
 
     /// Hands the desired motion of this tick to driven figures.
-    pub(in crate::server::tick) fn sample_motion(&mut self) {
+    pub(in crate::tick) fn sample_motion(&mut self) {
         self.expire_undriven();
         for player in self.scene.sample(self.lost()) {
             let slots = self.drives.iter().flat_map(|d| &d.slots);

@@ -1,11 +1,11 @@
 //! Figures of a world: members, their settings, what there is to tell of them.
 
 use super::Shard;
-use crate::server::engine;
-use crate::server::tick::scene::{Input, Member};
-use crate::sim::body::Body;
-use crate::wire::status::Fault;
-use crate::wire::types::{
+use crate::engine;
+use crate::tick::scene::{Input, Member};
+use sinew_physics::body::Body;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{
     ControlKey, EventKind, FigureInfo, FigureSettings, FigureUpdate, Follows, Place,
 };
 use std::sync::Arc;
@@ -229,7 +229,7 @@ impl Shard {
 
     /// Breaks the world: the physics has lost a figure that is shown.
     #[cfg(test)]
-    pub(in crate::server::tick) fn forget_in_physics(&mut self, figure: &str) {
+    pub(in crate::tick) fn forget_in_physics(&mut self, figure: &str) {
         let i = self.member(figure).expect("it is there");
         let key = self.scene.members()[i].key;
         self.scene.forget_in_physics(key);

@@ -1,12 +1,12 @@
 //! Obstacles of a world.
 
 use super::Shard;
-use crate::server::engine;
-use crate::server::tick::scene::{Done, Input};
-use crate::sim::collide::ObstacleSetup;
-use crate::sim::math::Vec3;
-use crate::wire::status::Fault;
-use crate::wire::types::{EventKind, ObstacleInfo};
+use crate::engine;
+use crate::tick::scene::{Done, Input};
+use sinew_physics::collide::ObstacleSetup;
+use sinew_physics::math::Vec3;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{EventKind, ObstacleInfo};
 
 impl Shard {
     pub(super) fn obstacle(&self, id: &str) -> Result<usize, Fault> {

@@ -2,9 +2,9 @@
 
 use super::Shard;
 use super::bounds::{Bound, Share};
-use crate::server::tick::scene::Input;
-use crate::wire::status::Fault;
-use crate::wire::types::{Disturbance, EventKind, FigureDisturbance};
+use crate::tick::scene::Input;
+use sinew_wire::status::Fault;
+use sinew_wire::types::{Disturbance, EventKind, FigureDisturbance};
 
 impl Shard {
     /// Checks that a batch is of figures that there are.

@@ -1,8 +1,8 @@
 //! A segment's surface as a few boxes and cylinders, for formats that know no mesh within the document.
 
-use crate::sim::body::geometry::mass_properties;
-use crate::sim::body::model::Mesh;
-use crate::sim::math::Vec3;
+use crate::body::geometry::mass_properties;
+use crate::body::model::Mesh;
+use crate::math::Vec3;
 
 /// Slices of a segment along its longest extent.
 const SLICES: usize = 4;
@@ -127,7 +127,7 @@ fn slice(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::Body;
+    use crate::body::Body;
 
     #[test]
     fn solids_have_the_volume_of_the_surface_and_lie_within_its_bounds() {

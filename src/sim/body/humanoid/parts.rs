@@ -5,8 +5,8 @@ use super::super::geometry::{mass_properties, mirrored};
 use super::super::model::{Mesh, Profile, Segment};
 use super::super::shape::{self, FootSize, TrunkSize, extremes};
 use super::tables::{MAN, Table, WOMAN};
-use crate::sim::math::Vec3;
-use crate::sim::math::vec3::vec3;
+use crate::math::Vec3;
+use crate::math::vec3::vec3;
 
 /// Heel to ankle centre over foot length.
 pub(super) const HEEL_SHARE: f64 = 0.213;

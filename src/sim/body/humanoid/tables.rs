@@ -1,7 +1,7 @@
 //! Lengths, mass fractions and ranges of motion that bodies are made from.
 
 use super::super::age::{ARM_CHANGE, LEG_CHANGE, LimitChange, MassFractions, Proportions, mix};
-use crate::sim::body::topology::DOF_COUNT;
+use crate::body::topology::DOF_COUNT;
 
 /// Lengths (mm) and mass fractions (%) at the reference stature.
 #[derive(Clone, Copy)]
@@ -182,7 +182,7 @@ pub(super) fn joint_limits(age: f64) -> [[f64; DOF_COUNT]; 2] {
 }
 
 /// How the limits of DOF `d` change with age.
-pub(in crate::sim::body) fn limit_changes(d: usize) -> impl Iterator<Item = &'static LimitChange> {
+pub(in crate::body) fn limit_changes(d: usize) -> impl Iterator<Item = &'static LimitChange> {
     let (table, dof): (&'static [LimitChange], usize) = match d {
         0..9 => (&[], 0),
         9..23 => (&ARM_CHANGE, (d - 9) % 7),

@@ -6,7 +6,7 @@ use super::super::topology::{SEGMENT_NAMES, SegmentId};
 use super::parts::HEEL_SHARE;
 use super::tables::{MAN, WOMAN};
 use super::*;
-use crate::sim::math::Sym3;
+use crate::math::Sym3;
 
 /// Statures and masses that adults may have, m and kg.
 const HEIGHT_RANGE: [f64; 2] = [1.4, 2.1];

@@ -1,16 +1,16 @@
 //! Newton's matrix of an island and the direction that follows.
 
 use super::{Articulated, Block, Column, Contact, Island, Kind, Parts, dot};
-use crate::sim::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
-use crate::sim::contact::SparseSystem;
-use crate::sim::contact::cone::squared;
-use crate::sim::contact::newton::System;
-use crate::sim::contact::projection::{Region, derivative};
-use crate::sim::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
-use crate::sim::dynamics::factor::{factor, solve};
-use crate::sim::dynamics::mass_matrix::{CHAIN, DEPTH};
-use crate::sim::math::Vec3;
-use crate::sim::math::dense::{factor_columns, factor_rows, solve_lower, solve_rows, solve_upper};
+use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
+use crate::contact::SparseSystem;
+use crate::contact::cone::squared;
+use crate::contact::newton::System;
+use crate::contact::projection::{Region, derivative};
+use crate::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
+use crate::dynamics::factor::{factor, solve};
+use crate::dynamics::mass_matrix::{CHAIN, DEPTH};
+use crate::math::Vec3;
+use crate::math::dense::{factor_columns, factor_rows, solve_lower, solve_rows, solve_upper};
 use multiversion::multiversion;
 
 impl Island {
@@ -287,7 +287,7 @@ fn root(c: &Contact) -> ([[f64; 3]; 3], usize) {
     )
 }
 
-/// The matrix of one figure's own problem into its storage, as in [`crate::sim::contact::minimise`].
+/// The matrix of one figure's own problem into its storage, as in [`crate::contact::minimise`].
 fn own_matrix(p: &mut Parts<'_>, b: &Block, inside: bool) {
     type S<'a> = SparseSystem<'a>;
     SparseSystem(p.m).load(p.hessian);

@@ -1,4 +1,4 @@
-//! A way on for islands at which Newton's method jams: the interior-point method of [`crate::sim::contact::interior`],
+//! A way on for islands at which Newton's method jams: the interior-point method of [`crate::contact::interior`],
 //! for all bodies at once.
 //!
 //! Motor values, joint limits, contacts with the ground and contacts between bodies are unknowns of their own, strictly
@@ -7,12 +7,12 @@
 //! the way.
 
 use super::{Articulated, Island, Kind, Parts, relative};
-use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::contact::cone::{Cone, squared};
-use crate::sim::contact::interior::{Inner, TO_BOUNDARY, Wall, aim, to_cone, to_world};
-use crate::sim::contact::projection::Region;
-use crate::sim::contact::{ContactRows, Motors};
-use crate::sim::math::Vec3;
+use crate::body::topology::{DOF_COUNT, NV};
+use crate::contact::cone::{Cone, squared};
+use crate::contact::interior::{Inner, TO_BOUNDARY, Wall, aim, to_cone, to_world};
+use crate::contact::projection::Region;
+use crate::contact::{ContactRows, Motors};
+use crate::math::Vec3;
 
 /// Forces at the start, in units of the largest one at present; multipliers are as large as the largest velocity.
 /// Started with less, bodies that are thrown into walls crawl along the boundary; with much more a few iterations are

@@ -1,7 +1,7 @@
 //! One convex problem for all bodies of an island: figures with their motors, limits and ground, free obstacles, and
 //! the contacts between.
 //!
-//! The problem of a figure's substep ([`crate::sim::contact::minimise`]) is a sum of convex terms on its own velocity.
+//! The problem of a figure's substep ([`crate::contact::minimise`]) is a sum of convex terms on its own velocity.
 //! A contact between two bodies adds one more on the relative velocity of its two points. Newton's matrix (`direction`)
 //! is then block-diagonal plus a term of low rank: contacts with fixed things stay in the blocks' own pattern, those
 //! between two moving bodies are taken in apart. One line search (`newton`) along the common direction keeps the
@@ -14,13 +14,13 @@ mod direction;
 mod interior;
 mod newton;
 
-use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::collide::narrow::Near;
-use crate::sim::contact::cone::Cone;
-use crate::sim::contact::projection::{Region, project};
-use crate::sim::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
-use crate::sim::dynamics::mass_matrix::MassMatrix;
-use crate::sim::math::Vec3;
+use crate::body::topology::{DOF_COUNT, NV};
+use crate::collide::narrow::Near;
+use crate::contact::cone::Cone;
+use crate::contact::projection::{Region, project};
+use crate::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
+use crate::dynamics::mass_matrix::MassMatrix;
+use crate::math::Vec3;
 
 /// The parts of a figure's substep that the island needs.
 #[derive(Debug)]

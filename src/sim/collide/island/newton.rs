@@ -1,10 +1,10 @@
 //! Newton's method for an island: gradients, line search and when to stop.
 
 use super::{Articulated, Block, Island, Kind, dot, relative};
-use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::contact::Outcome;
-use crate::sim::contact::newton::{LineSearch, largest};
-use crate::sim::contact::projection::Region;
+use crate::body::topology::{DOF_COUNT, NV};
+use crate::contact::Outcome;
+use crate::contact::newton::{LineSearch, largest};
+use crate::contact::projection::Region;
 
 /// Newton iterations after which it counts as jammed; 5 to 15 are typical.
 const NEWTON_ITERATIONS: u32 = 30;

@@ -2,13 +2,13 @@
 //! seats and tables, each with the acceleration that keeps it where it is.
 
 use super::{Hold, MEANT_FADE, Modern, POINTS, blend, weight};
-use crate::sim::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
-use crate::sim::contact::rows::PointRow;
-use crate::sim::control::ControlInput;
-use crate::sim::math::Vec3;
-use crate::sim::math::curve::fall;
-use crate::sim::report::MAX_CONTACTS;
-use crate::sim::support::Rest;
+use crate::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
+use crate::contact::rows::PointRow;
+use crate::control::ControlInput;
+use crate::math::Vec3;
+use crate::math::curve::fall;
+use crate::report::MAX_CONTACTS;
+use crate::support::Rest;
 
 /// Time constant that brings a planted point to rest, s.
 const HOLD_TIME: f64 = 0.05;

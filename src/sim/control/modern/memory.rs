@@ -1,17 +1,17 @@
 //! What the controller remembers from tick to tick, also in a checkpoint.
 
-use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::math::Vec3;
-use crate::sim::report::MAX_CONTACTS;
+use crate::body::topology::{DOF_COUNT, NV};
+use crate::math::Vec3;
+use crate::report::MAX_CONTACTS;
 use serde::{Deserialize, Serialize};
 
 /// What [`Modern`](super::Modern) remembers from tick to tick: where its next solve starts, and what that is to stay
 /// near.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ModernMemory {
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub(super) price: [f64; NV],
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     pub(super) torque: [f64; DOF_COUNT],
     /// Contact forces by segment × 8 + vertex, N.
     #[serde(with = "sparse")]

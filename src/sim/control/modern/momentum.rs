@@ -6,7 +6,7 @@
 //! the last moments the momentum itself is a task, ahead of what joints are to do.
 
 use super::{Modern, TaskRow};
-use crate::sim::control::ControlInput;
+use crate::control::ControlInput;
 
 /// The task comes in over this time before the momentum is to be reached, s.
 const BEFORE: f64 = 0.15;

@@ -2,12 +2,12 @@
 //! toes with the whole foot.
 
 use super::{Modern, POINTS};
-use crate::sim::body::Body;
-use crate::sim::body::topology::{DOF_START, JOINT, Joint, L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::sim::control::{ContactPhase, ControlInput};
-use crate::sim::math::curve::fall;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::Target;
+use crate::body::Body;
+use crate::body::topology::{DOF_START, JOINT, Joint, L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::control::{ContactPhase, ControlInput};
+use crate::math::curve::fall;
+use crate::math::{Quat, Vec3};
+use crate::motion::Target;
 
 /// A point of a planted foot is planned down fully where the motion has it below the first height, not at all above the
 /// second, m.

@@ -4,15 +4,15 @@ use super::{
     Law, MEANT_FADE, Modern, POINTS, ROTATION_FEEDBACK, Seat, TaskRow, danger, gives_way,
     law_feedback, rotation_error, weight,
 };
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::{L_FOOT, L_THIGH, L_TOES, PELVIS, R_FOOT, R_THIGH, R_TOES};
-use crate::sim::control::goals::{MAX_GOALS, Pace};
-use crate::sim::control::{ContactPhase, ControlInput, FootTarget, Goal, PointTarget, com_law};
-use crate::sim::dynamics::Terms;
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::math::Vec3;
-use crate::sim::math::curve::fall;
-use crate::sim::report::MAX_CONTACTS;
+use crate::body::SegmentId;
+use crate::body::topology::{L_FOOT, L_THIGH, L_TOES, PELVIS, R_FOOT, R_THIGH, R_TOES};
+use crate::control::goals::{MAX_GOALS, Pace};
+use crate::control::{ContactPhase, ControlInput, FootTarget, Goal, PointTarget, com_law};
+use crate::dynamics::Terms;
+use crate::dynamics::terms::WIDTH;
+use crate::math::Vec3;
+use crate::math::curve::fall;
+use crate::report::MAX_CONTACTS;
 
 /// How constraints from outside are approached.
 const GOAL_PACE: Pace = Pace {

@@ -4,10 +4,10 @@
 
 use super::contacts::FORCE_MEMORY;
 use super::*;
-use crate::sim::control::Goal;
-use crate::sim::control::testing::{DT, Scene};
-use crate::sim::math::vec3::vec3;
-use crate::sim::support::testing::{
+use crate::control::Goal;
+use crate::control::testing::{DT, Scene};
+use crate::math::vec3::vec3;
+use crate::support::testing::{
     GRAVITY, Rng, mannequin, on_floor, random_stance, random_state, standing,
 };
 use clarabel::algebra::CscMatrix;
@@ -384,7 +384,7 @@ fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
         5 => s.assist = [40.0 * 40.0, 500.0 * 500.0].map(|a| a * (0.1 + rng.unit().abs())),
         6 => {
             for _ in 0..4 {
-                let segment = crate::sim::body::SegmentId::new(rng.between(1.0, 10.0) as usize);
+                let segment = crate::body::SegmentId::new(rng.between(1.0, 10.0) as usize);
                 let axis = vec3(rng.unit(), rng.unit(), rng.unit());
                 s.goals.push(Goal {
                     segment: segment.unwrap(),

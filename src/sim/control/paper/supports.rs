@@ -2,17 +2,17 @@
 //! kept where it is.
 
 use super::{Mode, Paper};
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::{DOF_START, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES};
-use crate::sim::control::ControlInput;
-use crate::sim::control::reroot::{only_main, shift};
-use crate::sim::control::rows::{Row, dot};
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::math::dense::cholesky_solve;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::report::MAX_CONTACTS;
-use crate::sim::setup::Share;
-use crate::sim::support::{NO_VERTEX, zmp};
+use crate::body::SegmentId;
+use crate::body::topology::{DOF_START, L_FOOT, L_THIGH, L_TOES, R_FOOT, R_THIGH, R_TOES};
+use crate::control::ControlInput;
+use crate::control::reroot::{only_main, shift};
+use crate::control::rows::{Row, dot};
+use crate::dynamics::terms::WIDTH;
+use crate::math::dense::cholesky_solve;
+use crate::math::{Quat, Vec3};
+use crate::report::MAX_CONTACTS;
+use crate::setup::Share;
+use crate::support::{NO_VERTEX, zmp};
 
 /// While tilting, only points this close to the pivot line carry load, m.
 const PIVOT_REACH: f64 = 0.012;

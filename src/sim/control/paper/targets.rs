@@ -2,17 +2,17 @@
 //! wish x that serves them.
 
 use super::{Mode, Paper};
-use crate::sim::body::NV;
-use crate::sim::body::topology::{DOF_LEN, DOF_START};
-use crate::sim::control::feasible_com::{INSET, feasible};
-use crate::sim::control::goals::Pace;
-use crate::sim::control::rows::{Row, dot};
-use crate::sim::control::spatial_targets::wish;
-use crate::sim::control::tracking::Law;
-use crate::sim::control::{ControlInput, Effector, Goal};
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::setup::ControlParams;
+use crate::body::NV;
+use crate::body::topology::{DOF_LEN, DOF_START};
+use crate::control::feasible_com::{INSET, feasible};
+use crate::control::goals::Pace;
+use crate::control::rows::{Row, dot};
+use crate::control::spatial_targets::wish;
+use crate::control::tracking::Law;
+use crate::control::{ControlInput, Effector, Goal};
+use crate::dynamics::terms::WIDTH;
+use crate::math::{Quat, Vec3};
+use crate::setup::ControlParams;
 
 /// Length that makes rotations of an end-effector comparable with its motion, m.
 const ROTATION_LENGTH: f64 = 0.3;

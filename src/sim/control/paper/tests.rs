@@ -1,15 +1,15 @@
 //! Goal: the equations do what the paper says of them. Method: identities, on a plain mannequin in random stances.
 
 use super::*;
-use crate::sim::body::NV;
-use crate::sim::body::topology::{L_FOOT, R_FOOT};
-use crate::sim::control::rows::{dot, padded};
-use crate::sim::control::testing::{DT, Scene};
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::math::Quat;
-use crate::sim::math::vec3::vec3;
-use crate::sim::setup::{Priority, Share};
-use crate::sim::support::testing::{
+use crate::body::NV;
+use crate::body::topology::{L_FOOT, R_FOOT};
+use crate::control::rows::{dot, padded};
+use crate::control::testing::{DT, Scene};
+use crate::dynamics::terms::WIDTH;
+use crate::math::Quat;
+use crate::math::vec3::vec3;
+use crate::setup::{Priority, Share};
+use crate::support::testing::{
     GRAVITY, Rng, mannequin, on_floor, random_stance, random_state, standing,
 };
 
@@ -294,9 +294,9 @@ fn a_leaning_figure_tips_and_a_lifted_one_flies() {
     let body = mannequin();
     let mut state = standing(&body);
     // Lean forward about the ankles until the centre of mass is in front of the toes.
-    let mut a = crate::sim::body::angles::anatomical_angles(&state.posture);
+    let mut a = crate::body::angles::anatomical_angles(&state.posture);
     (a[27], a[35]) = (0.6, 0.6);
-    crate::sim::body::angles::set_anatomical_angles(&mut state.posture, &a);
+    crate::body::angles::set_anatomical_angles(&mut state.posture, &a);
     state.posture.root_rotation = Quat::exp(vec3(0.0, 0.5, 0.0));
     state.posture = on_floor(&body, state.posture);
     let s = bare(Scene::new(&state, &state, 20.0));

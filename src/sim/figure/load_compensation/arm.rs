@@ -4,16 +4,16 @@
 //! does not have, and the body would have to stand against it. So the arm moves the load about with the force of the
 //! motion: what it does slowly stays as it is, what it does quickly becomes the less the more it carries.
 
-use crate::sim::body::topology::{PARENT, SEGMENT_COUNT};
-use crate::sim::body::{Body, Posture, SegmentId};
-use crate::sim::figure::params::load::{
+use crate::body::topology::{PARENT, SEGMENT_COUNT};
+use crate::body::{Body, Posture, SegmentId};
+use crate::figure::params::load::{
     BENT_ELBOW, HABIT_TIME, HALF_SWING, HANGS_ELBOW, HANGS_SWING, QUICK, RAISED_SWING,
 };
-use crate::sim::math::curve::fall;
-use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::motion::arm_ik::{Arm, joints};
-use crate::sim::motion::leg_ik::forward;
+use crate::math::curve::fall;
+use crate::math::exp::exp;
+use crate::math::{Quat, Vec3, trig};
+use crate::motion::arm_ik::{Arm, joints};
+use crate::motion::leg_ik::forward;
 use serde::{Deserialize, Serialize};
 
 /// Positions and rotations of all segments, m.
@@ -108,8 +108,8 @@ fn ahead(poses: &Poses) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::motion::arm_ik::ARMS;
-    use crate::sim::motion::builtin::at_ease;
+    use crate::motion::arm_ik::ARMS;
+    use crate::motion::builtin::at_ease;
 
     const RIGHT: [SegmentId; 3] = ARMS[1];
 

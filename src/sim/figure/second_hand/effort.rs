@@ -1,13 +1,13 @@
 //! What two arms need to hold a load still in a posture, as shares of their strength, and how they best share it.
 
 use super::{LARGEST_SHARE, Sight};
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::{DOF_COUNT, DOF_SEGMENT, DOF_START};
-use crate::sim::body::{Posture, SegmentId};
-use crate::sim::dynamics::Kinematics;
-use crate::sim::math::Vec3;
-use crate::sim::motion::arm_ik::ARMS;
-use crate::sim::setup::HeldLoad;
+use crate::body::angles::anatomical_angles;
+use crate::body::topology::{DOF_COUNT, DOF_SEGMENT, DOF_START};
+use crate::body::{Posture, SegmentId};
+use crate::dynamics::Kinematics;
+use crate::math::Vec3;
+use crate::motion::arm_ik::ARMS;
+use crate::setup::HeldLoad;
 
 /// Degrees of freedom from the shoulder to the wrist, which follow each other.
 const ARM_DOFS: usize = 7;

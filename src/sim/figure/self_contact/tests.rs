@@ -3,25 +3,25 @@
 //! motors at full strength that drive arms through the trunk.
 
 use super::*;
-use crate::sim::body::State;
-use crate::sim::body::angles::{anatomical_angles, angles_of, set_anatomical_angles, swings};
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES, NV};
-use crate::sim::body::{Body, Links};
-use crate::sim::contact::Tissue;
-use crate::sim::dynamics::Terms;
-use crate::sim::dynamics::{Kinematics, kinetic_energy, rotor_energy};
-use crate::sim::figure::plan_task::Planning;
-use crate::sim::figure::rehearsed::MotorLaw;
-use crate::sim::figure::tick::TickContext;
-use crate::sim::figure::torque_step::{
+use crate::body::State;
+use crate::body::angles::{anatomical_angles, angles_of, set_anatomical_angles, swings};
+use crate::body::topology::{DOF_COUNT, DOF_NAMES, NV};
+use crate::body::{Body, Links};
+use crate::contact::Tissue;
+use crate::dynamics::Terms;
+use crate::dynamics::{Kinematics, kinetic_energy, rotor_energy};
+use crate::figure::plan_task::Planning;
+use crate::figure::rehearsed::MotorLaw;
+use crate::figure::tick::TickContext;
+use crate::figure::torque_step::{
     ExternalForces, MotorCommand, StepInput, Stepper, TickStart, TorqueRange, TorqueStepper,
 };
-use crate::sim::figure::{ControllerKind, FigureSetup};
-use crate::sim::math::vec3::vec3;
-use crate::sim::motion::Target;
-use crate::sim::setup::StrengthScale;
-use crate::sim::strength::Strength;
-use crate::sim::world::{Drive, World, WorldParams};
+use crate::figure::{ControllerKind, FigureSetup};
+use crate::math::vec3::vec3;
+use crate::motion::Target;
+use crate::setup::StrengthScale;
+use crate::strength::Strength;
+use crate::world::{Drive, World, WorldParams};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
@@ -213,7 +213,7 @@ fn capsules_of_a_body_at_rest_are_as_near_as_expected() {
     println!("zero {:?}", name(&Posture::default()));
     println!(
         "at ease {:?}",
-        name(&crate::sim::motion::builtin::at_ease(&rig.body))
+        name(&crate::motion::builtin::at_ease(&rig.body))
     );
     println!("folded {:?}", name(&folded()));
     assert_eq!(name(&apart()), []);

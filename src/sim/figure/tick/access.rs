@@ -2,27 +2,27 @@
 
 use super::state::rested;
 use super::{ExitPlan, Figure, StreamEntryPlan};
-use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::body::{Body, Links, SegmentId, State};
-use crate::sim::collide::shape::BodyShape;
-use crate::sim::dynamics::{Dynamics, Placement};
-use crate::sim::figure::constraints::Constraint;
-use crate::sim::figure::drive::{Drive, LivePlayback, QueuedClip};
-use crate::sim::figure::events::FigureEvent;
-use crate::sim::figure::following::Following;
-use crate::sim::figure::plan_task::{LatePlans, PlanRequest};
-use crate::sim::figure::second_hand::{Help, SecondHand};
-use crate::sim::figure::tasks::TaskWorkspace;
-use crate::sim::figure::touches::Touches;
-use crate::sim::math::Vec3;
-use crate::sim::motion::{PlanarTransform, TargetPair};
-use crate::sim::report::TickReport;
-use crate::sim::setup::{
+use crate::body::topology::{DOF_COUNT, NV};
+use crate::body::{Body, Links, SegmentId, State};
+use crate::collide::shape::BodyShape;
+use crate::dynamics::{Dynamics, Placement};
+use crate::figure::constraints::Constraint;
+use crate::figure::drive::{Drive, LivePlayback, QueuedClip};
+use crate::figure::events::FigureEvent;
+use crate::figure::following::Following;
+use crate::figure::plan_task::{LatePlans, PlanRequest};
+use crate::figure::second_hand::{Help, SecondHand};
+use crate::figure::tasks::TaskWorkspace;
+use crate::figure::touches::Touches;
+use crate::math::Vec3;
+use crate::motion::{PlanarTransform, TargetPair};
+use crate::report::TickReport;
+use crate::setup::{
     ControlParams, ControllerKind, FigureOptions, FigureSetup, Perturbation, StrengthScale,
 };
-use crate::sim::strength::fatigue::Fatigue;
-use crate::sim::strength::{MuscleScale, Strength};
-use crate::sim::track::{StepPlan, StepTracker};
+use crate::strength::fatigue::Fatigue;
+use crate::strength::{MuscleScale, Strength};
+use crate::track::{StepPlan, StepTracker};
 use std::sync::Arc;
 
 impl Figure {
@@ -248,7 +248,7 @@ impl Figure {
     }
     /// Hash of the state's bits (64-bit FNV-1a over little-endian words).
     pub fn state_hash(&self) -> u64 {
-        let mut h = crate::sim::math::hash::Fnv::default();
+        let mut h = crate::math::hash::Fnv::default();
         let p = &self.physical.state.posture;
         h.f64s(&p.root_position.to_array());
         h.f64s(&p.root_rotation.to_xyzw());

@@ -3,20 +3,20 @@
 use super::state::StageResults;
 use super::workspace::Workspace;
 use super::{Figure, StepDemand, TickContext};
-use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::control::{
+use crate::body::topology::DOF_COUNT;
+use crate::control::{
     CentroidalTarget, ContactPhase, ContactTargets, ControlInput, Controller, Law, MomentumTarget,
     tracking,
 };
-use crate::sim::figure::assist::Assist;
-use crate::sim::figure::bracing;
-use crate::sim::figure::drive::Drive;
-use crate::sim::figure::params::{bracing::HORIZON, fall, motors};
-use crate::sim::figure::tasks::TaskPoints;
-use crate::sim::figure::torque_step::MotorCommand;
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::setup::{ControlParams, ControllerKind, StrengthScale};
-use crate::sim::strength::MuscleScale;
+use crate::figure::assist::Assist;
+use crate::figure::bracing;
+use crate::figure::drive::Drive;
+use crate::figure::params::{bracing::HORIZON, fall, motors};
+use crate::figure::tasks::TaskPoints;
+use crate::figure::torque_step::MotorCommand;
+use crate::motion::{Target, TargetPair};
+use crate::setup::{ControlParams, ControllerKind, StrengthScale};
+use crate::strength::MuscleScale;
 
 impl Figure {
     /// Desired motion of the tick: getting up, or the source of the motion, at the pace of its steps.

@@ -3,15 +3,15 @@
 
 use super::workspace::Workspace;
 use super::{Figure, Integration, TickContext};
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::{L_FOOT, NV, R_FOOT};
-use crate::sim::collide::island::{Articulated, Parts};
-use crate::sim::contact::Outcome;
-use crate::sim::figure::FigureKey;
-use crate::sim::figure::touches::Contacting;
-use crate::sim::math::Vec3;
-use crate::sim::report::Flags;
-use crate::sim::setup::{ControllerKind, StepperKind};
+use crate::body::SegmentId;
+use crate::body::topology::{L_FOOT, NV, R_FOOT};
+use crate::collide::island::{Articulated, Parts};
+use crate::contact::Outcome;
+use crate::figure::FigureKey;
+use crate::figure::touches::Contacting;
+use crate::math::Vec3;
+use crate::report::Flags;
+use crate::setup::{ControllerKind, StepperKind};
 
 impl Articulated for (FigureKey, Box<Figure>) {
     fn parts(&mut self) -> Parts<'_> {

@@ -2,23 +2,23 @@
 
 use super::state::rested;
 use super::{Figure, TickContext};
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::{HEAD, L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
-use crate::sim::control::PointTarget;
-use crate::sim::figure::balance_loss::{Observation, Reach};
-use crate::sim::figure::constraints::MAX_CONSTRAINTS;
-use crate::sim::figure::drive::Drive;
-use crate::sim::figure::events::FigureEvent;
-use crate::sim::figure::help::Help;
-use crate::sim::figure::kinematic_step::other_part_arrives;
-use crate::sim::figure::loads::MAX_APPLIED;
-use crate::sim::figure::params::balance::PAPER_REACH;
-use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
-use crate::sim::figure::params::get_up::STILL_SPEED;
-use crate::sim::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::report::{Flags, TickReport};
-use crate::sim::setup::ControllerKind;
+use crate::body::SegmentId;
+use crate::body::topology::{HEAD, L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
+use crate::control::PointTarget;
+use crate::figure::balance_loss::{Observation, Reach};
+use crate::figure::constraints::MAX_CONSTRAINTS;
+use crate::figure::drive::Drive;
+use crate::figure::events::FigureEvent;
+use crate::figure::help::Help;
+use crate::figure::kinematic_step::other_part_arrives;
+use crate::figure::loads::MAX_APPLIED;
+use crate::figure::params::balance::PAPER_REACH;
+use crate::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
+use crate::figure::params::get_up::STILL_SPEED;
+use crate::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
+use crate::motion::{Target, TargetPair};
+use crate::report::{Flags, TickReport};
+use crate::setup::ControllerKind;
 
 /// Parts that a figure stands on.
 pub(super) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
@@ -76,7 +76,7 @@ impl Figure {
         }
     }
 
-    /// True while it falls as a person does ([`bracing`](crate::sim::figure::bracing)): from the loss of balance until
+    /// True while it falls as a person does ([`bracing`](crate::figure::bracing)): from the loss of balance until
     /// neither body nor head go down any more. Not where its motion goes to the floor by itself, or has lost balance as
     /// the figure has, as one that sits down on a seat; nor with the paper's controller, whose falls are those of the
     /// paper, nor where feet have to stay.

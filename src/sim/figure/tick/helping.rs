@@ -2,12 +2,12 @@
 
 use super::fall_detection::FEET;
 use super::{Figure, TickContext};
-use crate::sim::figure::drive::Drive;
-use crate::sim::figure::help::{Forecast, Situation, pull};
-use crate::sim::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
-use crate::sim::figure::rehearsed::{Hold, MotorLaw};
-use crate::sim::figure::torque_step::MotorCommand;
-use crate::sim::setup::ControllerKind;
+use crate::figure::drive::Drive;
+use crate::figure::help::{Forecast, Situation, pull};
+use crate::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
+use crate::figure::rehearsed::{Hold, MotorLaw};
+use crate::figure::torque_step::MotorCommand;
+use crate::setup::ControllerKind;
 
 impl Figure {
     /// True while stiff motors and a pull on the pelvis keep it with its motion.

@@ -2,17 +2,17 @@
 //! Both are worked out aside, and taken in a tick that is fixed when they are asked for.
 
 use super::{Figure, TickContext};
-use crate::sim::body::Posture;
-use crate::sim::figure::drive::{ClipPlayback, Drive, LivePlayback, QueuedClip};
-use crate::sim::figure::events::FigureEvent;
-use crate::sim::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP_TIME};
-use crate::sim::figure::plan_task::{PlanRequest, PlanTask, Planning};
-use crate::sim::motion::clip::{Clip, PlanarTransform};
-use crate::sim::plan::motion_transition;
-use crate::sim::plan::motion_transition::{TransitionCandidates, TransitionClip};
-use crate::sim::plan::splice;
-use crate::sim::plan::splice::{RUN_UP, Sample, StopCandidates};
-use crate::sim::track::StepPlan;
+use crate::body::Posture;
+use crate::figure::drive::{ClipPlayback, Drive, LivePlayback, QueuedClip};
+use crate::figure::events::FigureEvent;
+use crate::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP_TIME};
+use crate::figure::plan_task::{PlanRequest, PlanTask, Planning};
+use crate::motion::clip::{Clip, PlanarTransform};
+use crate::plan::motion_transition;
+use crate::plan::motion_transition::{TransitionCandidates, TransitionClip};
+use crate::plan::splice;
+use crate::plan::splice::{RUN_UP, Sample, StopCandidates};
+use crate::track::StepPlan;
 use serde::{Deserialize, Serialize, Serializer};
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ pub(super) struct ExitGoal {
 /// How a motion is left, while that is planned.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(try_from = "ExitProblem")]
-pub(in crate::sim::figure) struct ExitPlan {
+pub(in crate::figure) struct ExitPlan {
     problem: ExitProblem,
     /// Over to the clip that waits, best first.
     over: Vec<PlanTask<Over>>,

@@ -4,18 +4,16 @@
 use super::fall_detection::FEET;
 use super::motion_switch::ExitGoal;
 use super::{Figure, TickContext};
-use crate::sim::body::Posture;
-use crate::sim::figure::drive::{ClipPlayback, Drive, Entry, EntryProblem, QueuedClip};
-use crate::sim::figure::get_up::GetUpDecision;
-use crate::sim::figure::params::get_up::UP_HEIGHT;
-use crate::sim::figure::params::switch::{
-    EARLIEST_BEGIN, ENTRY_TIME, LEAD, PATIENCE, STILL, UPRIGHT,
-};
-use crate::sim::figure::plan_task::Planning;
-use crate::sim::motion::{Clip, Target};
-use crate::sim::plan::splice;
-use crate::sim::setup::ControllerKind;
-use crate::sim::track::StepPlan;
+use crate::body::Posture;
+use crate::figure::drive::{ClipPlayback, Drive, Entry, EntryProblem, QueuedClip};
+use crate::figure::get_up::GetUpDecision;
+use crate::figure::params::get_up::UP_HEIGHT;
+use crate::figure::params::switch::{EARLIEST_BEGIN, ENTRY_TIME, LEAD, PATIENCE, STILL, UPRIGHT};
+use crate::figure::plan_task::Planning;
+use crate::motion::{Clip, Target};
+use crate::plan::splice;
+use crate::setup::ControllerKind;
+use crate::track::StepPlan;
 use std::sync::Arc;
 
 /// How a clip begins.

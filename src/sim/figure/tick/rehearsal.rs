@@ -1,13 +1,13 @@
 //! A rehearsed motion within the tick: motors, help, and the end of it.
 
 use super::{Figure, TickContext};
-use crate::sim::figure::drive::Drive;
-use crate::sim::figure::rehearsed::{MotorLaw, RehearsedMotion, RehearsedPlayback};
-use crate::sim::figure::torque_step::MotorCommand;
-use crate::sim::motion::TargetPair;
-use crate::sim::report::Flags;
-use crate::sim::setup::ControllerKind;
-use crate::sim::track::planned_to_world::Anchor;
+use crate::figure::drive::Drive;
+use crate::figure::rehearsed::{MotorLaw, RehearsedMotion, RehearsedPlayback};
+use crate::figure::torque_step::MotorCommand;
+use crate::motion::TargetPair;
+use crate::report::Flags;
+use crate::setup::ControllerKind;
+use crate::track::planned_to_world::Anchor;
 use std::sync::Arc;
 
 impl Figure {

@@ -2,13 +2,13 @@
 
 use super::state::{PhysicalState, StageResults};
 use super::{Figure, TickContext};
-use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::figure::following::FollowMode;
-use crate::sim::figure::torque_step::TorqueRange;
-use crate::sim::math::Vec3;
-use crate::sim::motion::GRAVITY;
-use crate::sim::report::Flags;
-use crate::sim::support::zmp_above;
+use crate::body::topology::{DOF_COUNT, NV};
+use crate::figure::following::FollowMode;
+use crate::figure::torque_step::TorqueRange;
+use crate::math::Vec3;
+use crate::motion::GRAVITY;
+use crate::report::Flags;
+use crate::support::zmp_above;
 
 /// DOFs whose torque is at its limit, a bit each. Limits follow angles and rates within the tick.
 fn at_limit(torque: &[f64; DOF_COUNT], available: &TorqueRange) -> u64 {

@@ -8,11 +8,11 @@ use super::state::{
     Surroundings,
 };
 use super::workspace::{Loan, Memory};
-use crate::sim::body::State;
-use crate::sim::dynamics::Terms;
-use crate::sim::figure::activity::MotionState;
-use crate::sim::figure::drive::Drive;
-use crate::sim::setup::FigureSetup;
+use crate::body::State;
+use crate::dynamics::Terms;
+use crate::figure::activity::MotionState;
+use crate::figure::drive::Drive;
+use crate::setup::FigureSetup;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 

@@ -1,9 +1,9 @@
 //! Stage 2: what the other hand does for a load that is too heavy for one arm.
 
 use super::{Figure, TickContext};
-use crate::sim::body::SegmentId;
-use crate::sim::figure::second_hand::Sight;
-use crate::sim::motion::arm_ik::ARMS;
+use crate::body::SegmentId;
+use crate::figure::second_hand::Sight;
+use crate::motion::arm_ik::ARMS;
 
 impl Figure {
     /// Changes the desired motion of an arm whose hand helps with a load.

@@ -1,38 +1,38 @@
-//! What a figure consists of. [`PhysicalState`], [`MotionState`](crate::sim::figure::activity::MotionState),
+//! What a figure consists of. [`PhysicalState`], [`MotionState`](crate::figure::activity::MotionState),
 //! [`DesiredMotion`], [`Surroundings`] and [`StepperChoice`] are its state: they pass from tick to tick and decide what
 //! comes next, with what controllers and steppers remember ([`Loan`](super::workspace::Loan)). [`Scratch`] holds what
 //! stages hand on; of it, only dynamics and state at the start of a tick are looked at after it.
 
-use crate::sim::body::angles::{Swings, anatomical_angles, swings};
-use crate::sim::body::topology::DOF_COUNT;
-use crate::sim::body::{Body, Links, Posture, State};
-use crate::sim::collide::shape::BodyShape;
-use crate::sim::contact::Tissue;
-use crate::sim::control::PointTarget;
-use crate::sim::dynamics::{Kinematics, Placement, center_of_mass};
-use crate::sim::figure::assist::Assist;
-use crate::sim::figure::balance_loss::BalanceWatch;
-use crate::sim::figure::constraints::Constraints;
-use crate::sim::figure::events::Watcher;
-use crate::sim::figure::get_up::GetUp;
-use crate::sim::figure::help::Help;
-use crate::sim::figure::load_compensation::LoadCompensation;
-use crate::sim::figure::loads::Disturbances;
-use crate::sim::figure::plan_task::LatePlans;
-use crate::sim::figure::second_hand::SecondHand;
-use crate::sim::figure::tasks::TaskPoints;
-use crate::sim::figure::torque_step::{MotorCommand, TorqueRange};
-use crate::sim::figure::touches::Touches;
-use crate::sim::get_up::GetUpSolver;
-use crate::sim::math::Vec3;
-use crate::sim::motion::builtin::at_ease;
-use crate::sim::motion::{Target, TargetPair};
-use crate::sim::report::{MAX_CONTACTS, TickReport};
-use crate::sim::setup::{FigureOptions, FigureSetup, StrengthScale};
-use crate::sim::strength::fatigue::Fatigue;
-use crate::sim::strength::{MuscleScale, Strength};
-use crate::sim::support::Support;
-use crate::sim::track::StepTracker;
+use crate::body::angles::{Swings, anatomical_angles, swings};
+use crate::body::topology::DOF_COUNT;
+use crate::body::{Body, Links, Posture, State};
+use crate::collide::shape::BodyShape;
+use crate::contact::Tissue;
+use crate::control::PointTarget;
+use crate::dynamics::{Kinematics, Placement, center_of_mass};
+use crate::figure::assist::Assist;
+use crate::figure::balance_loss::BalanceWatch;
+use crate::figure::constraints::Constraints;
+use crate::figure::events::Watcher;
+use crate::figure::get_up::GetUp;
+use crate::figure::help::Help;
+use crate::figure::load_compensation::LoadCompensation;
+use crate::figure::loads::Disturbances;
+use crate::figure::plan_task::LatePlans;
+use crate::figure::second_hand::SecondHand;
+use crate::figure::tasks::TaskPoints;
+use crate::figure::torque_step::{MotorCommand, TorqueRange};
+use crate::figure::touches::Touches;
+use crate::get_up::GetUpSolver;
+use crate::math::Vec3;
+use crate::motion::builtin::at_ease;
+use crate::motion::{Target, TargetPair};
+use crate::report::{MAX_CONTACTS, TickReport};
+use crate::setup::{FigureOptions, FigureSetup, StrengthScale};
+use crate::strength::fatigue::Fatigue;
+use crate::strength::{MuscleScale, Strength};
+use crate::support::Support;
+use crate::track::StepTracker;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

@@ -2,17 +2,17 @@
 //! when it is asked for; whoever feeds the stream puts it before what comes.
 
 use super::{Figure, TickContext};
-use crate::sim::body::Posture;
-use crate::sim::figure::params::switch::MOST_LEAD;
-use crate::sim::figure::plan_task::{PlanRequest, PlanTask, Planning};
-use crate::sim::plan::motion_transition::{StreamBeginning, StreamEntry};
-use crate::sim::plan::splice;
+use crate::body::Posture;
+use crate::figure::params::switch::MOST_LEAD;
+use crate::figure::plan_task::{PlanRequest, PlanTask, Planning};
+use crate::plan::motion_transition::{StreamBeginning, StreamEntry};
+use crate::plan::splice;
 use serde::{Deserialize, Serialize, Serializer};
 
 /// The way into a stream, while it is planned.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(from = "StreamEntryProblem")]
-pub(in crate::sim::figure) struct StreamEntryPlan {
+pub(in crate::figure) struct StreamEntryPlan {
     problem: StreamEntryProblem,
     task: PlanTask<Option<StreamEntry>>,
 }

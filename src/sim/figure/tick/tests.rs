@@ -1,12 +1,12 @@
 //! What a figure does when its numbers break, and when its plans are late.
 
 use super::*;
-use crate::sim::body::{Body, Posture};
-use crate::sim::figure::{ClipPlayback, Drive, FigureEvent, FigureKey};
-use crate::sim::math::Vec3;
-use crate::sim::motion::builtin::builtin;
-use crate::sim::motion::{Clip, Target, TargetPair};
-use crate::sim::world::{World, WorldParams};
+use crate::body::{Body, Posture};
+use crate::figure::{ClipPlayback, Drive, FigureEvent, FigureKey};
+use crate::math::Vec3;
+use crate::motion::builtin::builtin;
+use crate::motion::{Clip, Target, TargetPair};
+use crate::world::{World, WorldParams};
 use std::sync::Arc;
 
 /// What is shown of a figure has no number that is not finite.

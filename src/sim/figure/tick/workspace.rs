@@ -4,13 +4,13 @@
 //! figure finds it in the cache. What controllers and steppers remember from tick to tick is a few kB, and stays with
 //! the figure ([`Memory`]).
 
-use crate::sim::body::SegmentId;
-use crate::sim::control::{Command, Controller, Modern, ModernMemory, Paper, PaperMemory};
-use crate::sim::dynamics::Terms;
-use crate::sim::figure::kinematic_step::KinematicStepper;
-use crate::sim::figure::tasks::TaskWorkspace;
-use crate::sim::figure::torque_step::TorqueStepper;
-use crate::sim::math::{Quat, Vec3};
+use crate::body::SegmentId;
+use crate::control::{Command, Controller, Modern, ModernMemory, Paper, PaperMemory};
+use crate::dynamics::Terms;
+use crate::figure::kinematic_step::KinematicStepper;
+use crate::figure::tasks::TaskWorkspace;
+use crate::figure::torque_step::TorqueStepper;
+use crate::math::{Quat, Vec3};
 use serde::{Deserialize, Serialize};
 use std::ops::{Deref, DerefMut};
 

@@ -1,14 +1,14 @@
 //! The bar between two hands that hold one load: one more unknown of a substep.
 
 use super::TorqueStepper;
-use crate::sim::body::topology::{NV, SegmentId};
-use crate::sim::contact::Outcome;
-use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::dynamics::{Dynamics, factor, solve};
-use crate::sim::figure::assist::Spring;
-use crate::sim::figure::loads::Bar;
-use crate::sim::figure::params::bar;
-use crate::sim::math::Vec3;
+use crate::body::topology::{NV, SegmentId};
+use crate::contact::Outcome;
+use crate::dynamics::jacobian::for_each_column;
+use crate::dynamics::{Dynamics, factor, solve};
+use crate::figure::assist::Spring;
+use crate::figure::loads::Bar;
+use crate::figure::params::bar;
+use crate::math::Vec3;
 
 /// The bar as a row of the solve.
 #[derive(Clone, Copy, Debug)]

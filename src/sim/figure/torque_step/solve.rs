@@ -1,13 +1,13 @@
 //! How a substep is solved: once, again for points that slide, with the springs of an assist, with softer motors.
 
 use super::{StepInput, SubstepProblem, SubstepSolver, TorqueStepper};
-use crate::sim::body::State;
-use crate::sim::body::topology::{DOF_COUNT, NV};
-use crate::sim::contact::{NewtonWorkspace, Outcome, Problem, SparseSystem, StopRule, minimise};
-use crate::sim::dynamics::MassMatrix;
-use crate::sim::figure::assist::Spring;
-use crate::sim::figure::params::{contact, motors, self_contact};
-use crate::sim::math::Vec3;
+use crate::body::State;
+use crate::body::topology::{DOF_COUNT, NV};
+use crate::contact::{NewtonWorkspace, Outcome, Problem, SparseSystem, StopRule, minimise};
+use crate::dynamics::MassMatrix;
+use crate::figure::assist::Spring;
+use crate::figure::params::{contact, motors, self_contact};
+use crate::math::Vec3;
 use multiversion::multiversion;
 
 impl TorqueStepper {

@@ -8,15 +8,15 @@
 use super::RATE;
 use super::shape::{COM_AHEAD, Foot, Measures, Plan, posture};
 use super::standing::{at_ease, stand};
-use crate::sim::body::topology::outward;
-use crate::sim::body::{Body, Posture, SEGMENT_COUNT};
-use crate::sim::math::curve::ramp;
-use crate::sim::math::{Quat, Vec3};
+use crate::body::topology::outward;
+use crate::body::{Body, Posture, SEGMENT_COUNT};
+use crate::math::curve::ramp;
+use crate::math::{Quat, Vec3};
 use std::f64::consts::{PI, TAU};
 
 use super::super::leg_ik::{center_of_mass, forward};
 use super::shape::set;
-use crate::sim::motion::GRAVITY;
+use crate::motion::GRAVITY;
 
 /// Time the zero moment point takes from between the feet under the first to stand on, and back after the last step, s.
 const TRANSFER: f64 = 0.5;

@@ -4,10 +4,10 @@ use super::super::arm_ik::{ARMS, bend_elbow, joints};
 use super::super::leg_ik::{
     center_of_mass, forward, leg_segments, point_and_roll, solve_leg_in_plane,
 };
-use crate::sim::body::angles::{anatomical_angles, set_anatomical_angles};
-use crate::sim::body::topology::{CHEST, DOF_COUNT, DOF_START, L_FOOT, L_SHANK, PARENT, R_HAND};
-use crate::sim::body::{Body, Posture, SegmentId};
-use crate::sim::math::{Quat, Vec3};
+use crate::body::angles::{anatomical_angles, set_anatomical_angles};
+use crate::body::topology::{CHEST, DOF_COUNT, DOF_START, L_FOOT, L_SHANK, PARENT, R_HAND};
+use crate::body::{Body, Posture, SegmentId};
+use crate::math::{Quat, Vec3};
 
 /// Leg length (hip to ankle) that distances in plans are written for, m.
 pub const REFERENCE_LEG: f64 = 0.867;
@@ -169,7 +169,7 @@ pub fn reach_right(body: &Body, plan: &mut Plan, target: Vec3, axis: Vec3) {
 
 /// Index of a DOF by name. Panics on an unknown name: that is a bug here.
 pub fn dof(name: &str) -> usize {
-    crate::sim::body::topology::DOF_NAMES
+    crate::body::topology::DOF_NAMES
         .iter()
         .position(|n| *n == name)
         .expect("DOF names in plans are written out")

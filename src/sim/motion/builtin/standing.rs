@@ -2,10 +2,10 @@
 
 use super::RATE;
 use super::shape::{COM_AHEAD, Measures, Plan, posture, reach_right, set};
-use crate::sim::body::topology::{DOF_COUNT, DOF_NAMES};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::Vec3;
-use crate::sim::math::curve::ramp;
+use crate::body::topology::{DOF_COUNT, DOF_NAMES};
+use crate::body::{Body, Posture};
+use crate::math::Vec3;
+use crate::math::curve::ramp;
 use std::f64::consts::TAU;
 
 /// See [`super::LIFT_GRASP`].

@@ -1,13 +1,13 @@
 //! Goal: built-in motions are physical plans for any body. Method: forward kinematics of every sample, for four people.
 
 use super::*;
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::{
+use crate::body::angles::anatomical_angles;
+use crate::body::topology::{
     DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT,
 };
-use crate::sim::body::{Profile, Sex};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::leg_ik::{center_of_mass, forward};
+use crate::body::{Profile, Sex};
+use crate::math::{Quat, Vec3};
+use crate::motion::leg_ik::{center_of_mass, forward};
 
 type Poses = [(Vec3, Quat); SEGMENT_COUNT];
 

@@ -1,8 +1,8 @@
 //! Places on the floor and headings.
 
-use crate::sim::body::Posture;
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::motion::target::Target;
+use crate::body::Posture;
+use crate::math::{Quat, Vec3, trig};
+use crate::motion::target::Target;
 use serde::{Deserialize, Serialize};
 
 /// A turn about the vertical through the origin, then a shift along the ground.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::sim::math::Quat;
+use crate::math::Quat;
 
 const RATE: f64 = 120.0;
 

@@ -1,10 +1,10 @@
 //! The sole of a foot: its points, where it stands flat or rolled about heel edge or toe joint, and how far a foot is
 //! from that.
 
-use crate::sim::body::Body;
-use crate::sim::body::topology::{DOF_START, FEET, SEGMENT_COUNT, SegmentId, TOES};
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::plan::params::pitch;
+use crate::body::Body;
+use crate::body::topology::{DOF_START, FEET, SEGMENT_COUNT, SegmentId, TOES};
+use crate::math::{Quat, Vec3, trig};
+use crate::plan::params::pitch;
 use serde::{Deserialize, Serialize};
 
 /// Pose of one foot: ankle position, `world_from_foot`, toe extension.
@@ -19,18 +19,18 @@ pub struct FootPose {
 }
 
 /// Difference of two poses of a foot: translation (m), rotation vector (rad), toe extension (rad).
-pub(in crate::sim::plan) type FootOffset = [f64; 7];
+pub(in crate::plan) type FootOffset = [f64; 7];
 
 impl FootPose {
     /// What takes `other` to this pose.
-    pub(in crate::sim::plan) fn offset_from(&self, other: &Self) -> FootOffset {
+    pub(in crate::plan) fn offset_from(&self, other: &Self) -> FootOffset {
         let p = self.ankle - other.ankle;
         let r = (self.rotation * other.rotation.conjugate()).log();
         [p.x, p.y, p.z, r.x, r.y, r.z, self.toe - other.toe]
     }
 
     /// This pose moved by an offset.
-    pub(in crate::sim::plan) fn moved(&self, by: &FootOffset) -> Self {
+    pub(in crate::plan) fn moved(&self, by: &FootOffset) -> Self {
         let turn = Quat::exp(Vec3::from_array([by[3], by[4], by[5]]));
         Self {
             ankle: self.ankle + Vec3::from_array([by[0], by[1], by[2]]),
@@ -47,7 +47,7 @@ pub struct Sole {
     pub(super) side: usize,
     pub(super) foot: Vec<Vec3>,
     pub(super) toes: Vec<Vec3>,
-    pub(in crate::sim::plan) toe_joint: Vec3,
+    pub(in crate::plan) toe_joint: Vec3,
     pub(super) heel: Vec3,
     /// Height of the ankle over the floor when the foot is flat, m.
     pub ankle_height: f64,
@@ -69,12 +69,12 @@ pub struct FootPlacement {
 
 impl FootPlacement {
     /// True where the heel is raised: nothing behind the ball of the foot carries.
-    pub(in crate::sim::plan) fn is_on_ball(&self) -> bool {
+    pub(in crate::plan) fn is_on_ball(&self) -> bool {
         self.pitch <= -pitch::FLAT
     }
 
     /// Direction in which the foot points, x and y.
-    pub(in crate::sim::plan) fn ahead(&self) -> [f64; 2] {
+    pub(in crate::plan) fn ahead(&self) -> [f64; 2] {
         Quat::exp(Vec3::Z * self.yaw).rotate(Vec3::X).xy()
     }
 }

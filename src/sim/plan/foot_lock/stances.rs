@@ -3,9 +3,9 @@
 
 use super::sole::{Sole, turn, yaw_pitch};
 use super::{RecordedFoot, median};
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::plan::contact_labels::runs;
-use crate::sim::plan::params::{contact, stance};
+use crate::math::{Quat, Vec3, trig};
+use crate::plan::contact_labels::runs;
+use crate::plan::params::{contact, stance};
 
 /// One stance of one foot: its place and its heading stay.
 #[derive(Clone, Copy, Debug, PartialEq)]

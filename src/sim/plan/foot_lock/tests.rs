@@ -1,6 +1,6 @@
 use super::stances::Pieces;
 use super::*;
-use crate::sim::plan::params::stance;
+use crate::plan::params::stance;
 
 fn sole() -> Sole {
     Sole {

@@ -1,16 +1,16 @@
 //! Where a motion is like the beginning of another one.
 
-use crate::sim::body::topology::FEET;
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::clip::PlanarTransform;
-use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::foot_lock::{FootPlacement, Sole};
-use crate::sim::plan::likeness::unlike;
-use crate::sim::plan::params::{balance, likeness, stop, transition};
-use crate::sim::plan::splice::Sample;
-use crate::sim::plan::turned_on_floor;
+use crate::body::topology::FEET;
+use crate::body::{Body, Posture};
+use crate::math::{Quat, Vec3, trig};
+use crate::motion::GRAVITY;
+use crate::motion::clip::PlanarTransform;
+use crate::motion::leg_ik::{center_of_mass, forward};
+use crate::plan::foot_lock::{FootPlacement, Sole};
+use crate::plan::likeness::unlike;
+use crate::plan::params::{balance, likeness, stop, transition};
+use crate::plan::splice::Sample;
+use crate::plan::turned_on_floor;
 use serde::{Deserialize, Serialize};
 
 /// A moment at which a motion is like another one's beginning.

@@ -1,22 +1,22 @@
 //! From a stand into a clip that does not begin like it: with other feet, in another posture, or in motion.
 //!
-//! It is an end of the beginning of the clip, backwards ([`crate::sim::plan::stop`]): the steps that would bring the
+//! It is an end of the beginning of the clip, backwards ([`crate::plan::stop`]): the steps that would bring the
 //! reversed motion to that very stand, prepared together with what comes after them. A clip that begins at once instead
 //! throws arms and trunk about, drags feet that stand elsewhere, and asks for a velocity that a standing body does not
 //! have.
 
 use super::candidates::{Features, far};
 use super::{NextClip, TransitionClip, samples_in};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Vec3, trig};
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::clip::Clip;
-use crate::sim::plan::cycle::relabel_prepared;
-use crate::sim::plan::foot_lock::FootPlacement;
-use crate::sim::plan::params::{balance, common, stop, transition};
-use crate::sim::plan::prepare::{Draft, prepare_in};
-use crate::sim::plan::splice::{SEAM_OPTIONS, blend_from_played};
-use crate::sim::plan::turned_on_floor;
+use crate::body::{Body, Posture};
+use crate::math::{Vec3, trig};
+use crate::motion::GRAVITY;
+use crate::motion::clip::Clip;
+use crate::plan::cycle::relabel_prepared;
+use crate::plan::foot_lock::FootPlacement;
+use crate::plan::params::{balance, common, stop, transition};
+use crate::plan::prepare::{Draft, prepare_in};
+use crate::plan::splice::{SEAM_OPTIONS, blend_from_played};
+use crate::plan::turned_on_floor;
 
 impl NextClip {
     /// True if a body that stands like `stand` need do nothing before the clip begins at clip time `first`, s. No

@@ -4,13 +4,13 @@
 //! stand lead with the least that no ground can give ([`super::from_stand`]). The stream goes on behind that way.
 
 use super::NextClip;
-use crate::sim::body::{Body, Posture};
-use crate::sim::motion::clip::Clip;
-use crate::sim::plan::StreamPlan;
-use crate::sim::plan::cycle::relabel_prepared;
-use crate::sim::plan::feasibility::infeasibility;
-use crate::sim::plan::params::{stop, stream, transition};
-use crate::sim::plan::splice::Sample;
+use crate::body::{Body, Posture};
+use crate::motion::clip::Clip;
+use crate::plan::StreamPlan;
+use crate::plan::cycle::relabel_prepared;
+use crate::plan::feasibility::infeasibility;
+use crate::plan::params::{stop, stream, transition};
+use crate::plan::splice::Sample;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub type Came = (Posture, Option<[bool; 2]>);
 /// The beginning of a stream, and a figure that stands.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StreamBeginning {
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "crate::saved::definition")]
     body: Arc<Body>,
     came: Vec<Came>,
     stand: Posture,

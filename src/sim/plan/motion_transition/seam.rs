@@ -7,26 +7,26 @@
 
 use super::candidates::Moment;
 use super::{NextClip, TransitionClip, samples_in};
-use crate::sim::body::angles::clamp_to_limits;
-use crate::sim::body::topology::{DOF_START, FEET, L_THIGH, L_UPPER_ARM, NV};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::curve::{fade, smootherstep};
-use crate::sim::math::{Vec3, trig};
-use crate::sim::motion::clip::Clip;
-use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg_in_plane};
-use crate::sim::plan::ankle_torque_limit::AnkleTorqueLimit;
-use crate::sim::plan::cycle::relabel_prepared;
-use crate::sim::plan::envelope::smoothest_below;
-use crate::sim::plan::feasibility::infeasibility;
-use crate::sim::plan::foot_lock::{FootPlacement, FootPose, LockedFoot, Sole};
-use crate::sim::plan::leg_reach::leg_geometry;
-use crate::sim::plan::params::{balance, leg, stop, transition};
-use crate::sim::plan::pelvis_shift::{ShiftProblem, mass_track, pelvis_shift};
-use crate::sim::plan::prepare::{
+use crate::body::angles::clamp_to_limits;
+use crate::body::topology::{DOF_START, FEET, L_THIGH, L_UPPER_ARM, NV};
+use crate::body::{Body, Posture};
+use crate::math::curve::{fade, smootherstep};
+use crate::math::{Vec3, trig};
+use crate::motion::clip::Clip;
+use crate::motion::leg_ik::{forward, knee_axis, solve_leg_in_plane};
+use crate::plan::ankle_torque_limit::AnkleTorqueLimit;
+use crate::plan::cycle::relabel_prepared;
+use crate::plan::envelope::smoothest_below;
+use crate::plan::feasibility::infeasibility;
+use crate::plan::foot_lock::{FootPlacement, FootPose, LockedFoot, Sole};
+use crate::plan::leg_reach::leg_geometry;
+use crate::plan::params::{balance, leg, stop, transition};
+use crate::plan::pelvis_shift::{ShiftProblem, mass_track, pelvis_shift};
+use crate::plan::prepare::{
     StandingFeet, limit_ankle_torques, other_support, planted_of, support_phases,
 };
-use crate::sim::plan::splice::Sample;
-use crate::sim::plan::toe_hinge;
+use crate::plan::splice::Sample;
+use crate::plan::toe_hinge;
 
 /// A difference before, at and after the seam, that fades from there on.
 struct FadingOffset<const N: usize>([[f64; N]; 3]);

@@ -3,12 +3,12 @@
 //! stand into the middle of the built-in lift.
 
 use super::*;
-use crate::sim::body::Posture;
-use crate::sim::body::topology::{L_FOOT, R_FOOT};
-use crate::sim::math::Vec3;
-use crate::sim::motion::builtin::{at_ease, builtin};
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::foot_lock::Sole;
+use crate::body::Posture;
+use crate::body::topology::{L_FOOT, R_FOOT};
+use crate::math::Vec3;
+use crate::motion::builtin::{at_ease, builtin};
+use crate::motion::leg_ik::forward;
+use crate::plan::foot_lock::Sole;
 
 const NOW: usize = 70;
 

@@ -1,12 +1,12 @@
 //! What bends for the sake of planted legs: ankles and hips that would have to go beyond their limits.
 
 use super::pelvis_yaw;
-use crate::sim::body::angles::anatomical_angles;
-use crate::sim::body::topology::{DOF_START, FEET, THIGHS};
-use crate::sim::body::{Body, Posture};
-use crate::sim::motion::filter::{low_pass, smooth_minimum};
-use crate::sim::plan::foot_lock::{Stance, StanceTurns};
-use crate::sim::plan::params::{leg, pitch};
+use crate::body::angles::anatomical_angles;
+use crate::body::topology::{DOF_START, FEET, THIGHS};
+use crate::body::{Body, Posture};
+use crate::motion::filter::{low_pass, smooth_minimum};
+use crate::plan::foot_lock::{Stance, StanceTurns};
+use crate::plan::params::{leg, pitch};
 
 /// What is bent so that planted legs stay within their limits, per sample.
 pub(super) struct AnkleUnloading {

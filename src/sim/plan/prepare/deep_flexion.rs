@@ -6,15 +6,15 @@
 //! smoothly, and the legs are solved again.
 
 use super::pelvis_yaw::turn_about;
-use crate::sim::body::angles::{anatomical_angles, clamp_to_limits};
-use crate::sim::body::topology::{DOF_COUNT, DOF_START, FEET, THIGHS};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::leg_ik::{forward, solve_leg};
-use crate::sim::plan::envelope::smoothest_below;
-use crate::sim::plan::foot_lock::{LockedFoot, Sole};
-use crate::sim::plan::params::leg;
-use crate::sim::plan::{least_without, toe_hinge};
+use crate::body::angles::{anatomical_angles, clamp_to_limits};
+use crate::body::topology::{DOF_COUNT, DOF_START, FEET, THIGHS};
+use crate::body::{Body, Posture};
+use crate::math::{Quat, Vec3};
+use crate::motion::leg_ik::{forward, solve_leg};
+use crate::plan::envelope::smoothest_below;
+use crate::plan::foot_lock::{LockedFoot, Sole};
+use crate::plan::params::leg;
+use crate::plan::{least_without, toe_hinge};
 
 /// How far the pelvis gave way.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

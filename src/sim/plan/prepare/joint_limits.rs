@@ -1,17 +1,17 @@
 //! Joints within the limits of the body: the upper body first, the legs last.
 
-use crate::sim::body::angles::clamp_to_limits;
-use crate::sim::body::topology::{
+use crate::body::angles::clamp_to_limits;
+use crate::body::topology::{
     BALL_COUNT, DOF_COUNT, DOF_START, FEET, HINGE_COUNT, JOINT, Joint, L_THIGH, SHANKS, THIGHS,
     TOES,
 };
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::filter::{low_pass, low_pass_rotations};
-use crate::sim::motion::leg_ik::{forward, knee_axis, solve_leg};
-use crate::sim::plan::foot_lock::{LockedFoot, Sole};
-use crate::sim::plan::params::{leg, swing};
-use crate::sim::plan::toe_hinge;
+use crate::body::{Body, Posture};
+use crate::math::{Quat, Vec3};
+use crate::motion::filter::{low_pass, low_pass_rotations};
+use crate::motion::leg_ik::{forward, knee_axis, solve_leg};
+use crate::plan::foot_lock::{LockedFoot, Sole};
+use crate::plan::params::{leg, swing};
+use crate::plan::toe_hinge;
 
 /// What is left of a lock when the legs are within their limits.
 #[derive(Default)]

@@ -1,14 +1,14 @@
 //! A pelvis that turns ahead of its recording, or after it: where one stance asks for more rotation than a hip has, in
 //! both directions.
 
-use crate::sim::body::angles::{clamp_to_limits, swing_twist};
-use crate::sim::body::topology::{ABDOMEN, CHEST, DOF_START, THIGHS, outward};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::filter::smooth_minimum;
-use crate::sim::plan::ball_joint;
-use crate::sim::plan::foot_lock::Stance;
-use crate::sim::plan::params::leg;
+use crate::body::angles::{clamp_to_limits, swing_twist};
+use crate::body::topology::{ABDOMEN, CHEST, DOF_START, THIGHS, outward};
+use crate::body::{Body, Posture};
+use crate::math::{Quat, Vec3};
+use crate::motion::filter::smooth_minimum;
+use crate::plan::ball_joint;
+use crate::plan::foot_lock::Stance;
+use crate::plan::params::leg;
 
 /// Adds to `yaw` (rad per sample, anticlockwise seen from above) what the hips of planted feet lack in rotation.
 ///
@@ -101,7 +101,7 @@ pub(super) fn turn_about(posture: &mut Posture, axis: Vec3, angle: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::body::topology::{L_THIGH, R_THIGH};
+    use crate::body::topology::{L_THIGH, R_THIGH};
 
     /// A right leg that turns from one end to the other while its foot stays, beside a left one that is or is not
     /// planted with `spare` rad left; 60 Hz.

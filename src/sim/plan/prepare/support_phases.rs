@@ -1,15 +1,15 @@
 //! What carries the body in each sample, and how well what is planned stays over it.
 
-use crate::sim::body::angles::clamp_to_limits;
-use crate::sim::body::topology::FEET;
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::polygon::{hull, margin};
-use crate::sim::motion::filter::{low_pass, percentile};
-use crate::sim::motion::leg_ik::forward;
-use crate::sim::plan::ankle_torque_limit::{AnkleTorqueLimit, Over};
-use crate::sim::plan::foot_lock::{LockedFoot, Sole};
-use crate::sim::plan::params::{ankle, balance, leg, pelvis};
-use crate::sim::plan::pelvis_shift::{MassTrack, OtherSupport, SupportPhase};
+use crate::body::angles::clamp_to_limits;
+use crate::body::topology::FEET;
+use crate::body::{Body, Posture};
+use crate::math::polygon::{hull, margin};
+use crate::motion::filter::{low_pass, percentile};
+use crate::motion::leg_ik::forward;
+use crate::plan::ankle_torque_limit::{AnkleTorqueLimit, Over};
+use crate::plan::foot_lock::{LockedFoot, Sole};
+use crate::plan::params::{ankle, balance, leg, pelvis};
+use crate::plan::pelvis_shift::{MassTrack, OtherSupport, SupportPhase};
 
 /// How far the zero-moment point is outside the support polygon of planted feet, over the samples that feet carry.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,7 +25,7 @@ pub struct ZmpOutside {
 }
 
 /// Which feet are planted, per sample.
-pub(in crate::sim::plan) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2]> {
+pub(in crate::plan) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2]> {
     let [left, right] = locked;
     let both = left.planted.iter().zip(&right.planted);
     both.map(|(l, r)| [*l, *r]).collect()
@@ -33,7 +33,7 @@ pub(in crate::sim::plan) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2
 
 /// Feet that are locked to the floor, and which of them carry the body.
 #[derive(Clone, Copy)]
-pub(in crate::sim::plan) struct StandingFeet<'a> {
+pub(in crate::plan) struct StandingFeet<'a> {
     /// Soles of the left and the right foot.
     pub soles: &'a [Sole; 2],
     /// Where they are locked.
@@ -68,7 +68,7 @@ pub(super) fn within_reach(
 }
 
 /// What carries the body in each sample.
-pub(in crate::sim::plan) fn support_phases(
+pub(in crate::plan) fn support_phases(
     body: &Body,
     feet: StandingFeet<'_>,
     upper: &[Posture],
@@ -96,7 +96,7 @@ pub(in crate::sim::plan) fn support_phases(
 }
 
 /// The same where no foot is asked to hold alone what its ankle cannot, of a body that `runs` or walks.
-pub(in crate::sim::plan) fn limit_ankle_torques(
+pub(in crate::plan) fn limit_ankle_torques(
     support: &[SupportPhase],
     feet: StandingFeet<'_>,
     limit: &AnkleTorqueLimit,
@@ -140,7 +140,7 @@ pub(in crate::sim::plan) fn limit_ankle_torques(
 
 /// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while.
 /// A body that steps is carried by its feet.
-pub(in crate::sim::plan) fn other_support(
+pub(in crate::plan) fn other_support(
     body: &Body,
     upper: &[Posture],
     planted: &[[bool; 2]],

@@ -2,18 +2,18 @@
 
 use super::ankle_unloading::AnkleUnloading;
 use super::{Draft, pelvis_yaw};
-use crate::sim::body::topology::{JOINT, Joint, outward};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::curve::smoothstep;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::filter::{low_pass, low_pass_points, low_pass_rotations};
-use crate::sim::motion::leg_ik::{leg_segments, solve_leg_in_plane};
-use crate::sim::plan::contact_labels::runs;
-use crate::sim::plan::envelope::smoothest_below;
-use crate::sim::plan::flight_phases::FlightPhases;
-use crate::sim::plan::foot_lock::LockedFoot;
-use crate::sim::plan::leg_reach::{leg_geometry, room_above};
-use crate::sim::plan::params::{leg, swing};
+use crate::body::topology::{JOINT, Joint, outward};
+use crate::body::{Body, Posture};
+use crate::math::curve::smoothstep;
+use crate::math::{Quat, Vec3};
+use crate::motion::filter::{low_pass, low_pass_points, low_pass_rotations};
+use crate::motion::leg_ik::{leg_segments, solve_leg_in_plane};
+use crate::plan::contact_labels::runs;
+use crate::plan::envelope::smoothest_below;
+use crate::plan::flight_phases::FlightPhases;
+use crate::plan::foot_lock::LockedFoot;
+use crate::plan::leg_reach::{leg_geometry, room_above};
+use crate::plan::params::{leg, swing};
 
 /// Postures from upper body, feet and trunk shift: pelvis lowered until planted legs reach, legs solved.
 pub(super) fn assemble(

@@ -3,10 +3,10 @@
 use super::footsteps::Step;
 use super::initial_state::InitialState;
 use super::turned;
-use crate::sim::math::curve::{self, min_jerk_3, smootherstep};
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::plan::foot_lock::{Sole, yaw_pitch};
-use crate::sim::plan::params::stop;
+use crate::math::curve::{self, min_jerk_3, smootherstep};
+use crate::math::{Quat, Vec3};
+use crate::plan::foot_lock::{Sole, yaw_pitch};
+use crate::plan::params::stop;
 
 /// Stance of a foot between two of its steps.
 struct Stance {

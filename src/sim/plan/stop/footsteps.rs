@@ -5,16 +5,16 @@
 
 use super::initial_state::InitialState;
 use super::turned;
-use crate::sim::body::topology::{FEET, outward};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::curve::rise;
-use crate::sim::math::exp::exp;
-use crate::sim::math::polygon::{Region, hull, margin};
-use crate::sim::math::{Vec3, trig};
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::foot_lock::{FootPlacement, Sole, turn, yaw_pitch};
-use crate::sim::plan::params::{common, stop};
+use crate::body::topology::{FEET, outward};
+use crate::body::{Body, Posture};
+use crate::math::curve::rise;
+use crate::math::exp::exp;
+use crate::math::polygon::{Region, hull, margin};
+use crate::math::{Vec3, trig};
+use crate::motion::GRAVITY;
+use crate::motion::leg_ik::{center_of_mass, forward};
+use crate::plan::foot_lock::{FootPlacement, Sole, turn, yaw_pitch};
+use crate::plan::params::{common, stop};
 
 /// One step of the end.
 #[derive(Clone, Copy, Debug)]

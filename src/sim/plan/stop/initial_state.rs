@@ -1,15 +1,15 @@
 //! What an end starts from: where the last samples of a motion have the body, and how it moves.
 
 use super::footsteps::Feet;
-use crate::sim::body::topology::NV;
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::polygon::margin;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::contact_labels::runs;
-use crate::sim::plan::foot_lock::{Sole, turn, yaw_pitch};
-use crate::sim::plan::params::{contact, stop};
-use crate::sim::plan::prepare::Draft;
+use crate::body::topology::NV;
+use crate::body::{Body, Posture};
+use crate::math::polygon::margin;
+use crate::math::{Quat, Vec3};
+use crate::motion::leg_ik::{center_of_mass, forward};
+use crate::plan::contact_labels::runs;
+use crate::plan::foot_lock::{Sole, turn, yaw_pitch};
+use crate::plan::params::{contact, stop};
+use crate::plan::prepare::Draft;
 
 /// How a foot is where a motion ends, and how it moves.
 #[derive(Clone, Copy)]

@@ -11,15 +11,15 @@ mod initial_state;
 
 use super::foot_lock::Sole;
 use super::prepare::Draft;
-use crate::sim::body::topology::{FEET, NV};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::curve::{min_jerk, smootherstep};
-use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::builtin::at_ease;
-use crate::sim::motion::filter::low_pass_points;
-use crate::sim::motion::leg_ik::{forward, knee_axis};
-use crate::sim::plan::params::{pelvis, stance, stop};
+use crate::body::topology::{FEET, NV};
+use crate::body::{Body, Posture};
+use crate::math::curve::{min_jerk, smootherstep};
+use crate::math::exp::exp;
+use crate::math::{Quat, Vec3};
+use crate::motion::builtin::at_ease;
+use crate::motion::filter::low_pass_points;
+use crate::motion::leg_ik::{forward, knee_axis};
+use crate::plan::params::{pelvis, stance, stop};
 use footsteps::{Footsteps, StandingPose, footsteps, frequency};
 use initial_state::InitialState;
 

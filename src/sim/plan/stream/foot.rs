@@ -1,11 +1,11 @@
 //! One foot of a stream: when it stands, where, and how it gets from one place to the next.
 
 use super::{H, RATE, is_sample};
-use crate::sim::math::curve::{fall, quintic, smoothstep_to};
-use crate::sim::math::{Quat, Vec3, trig};
-use crate::sim::plan::foot_lock::{FootOffset, FootPlacement, FootPose, Sole, swing_toe};
-use crate::sim::plan::least_without;
-use crate::sim::plan::params::{contact, pitch, stance, swing};
+use crate::math::curve::{fall, quintic, smoothstep_to};
+use crate::math::{Quat, Vec3, trig};
+use crate::plan::foot_lock::{FootOffset, FootPlacement, FootPose, Sole, swing_toe};
+use crate::plan::least_without;
+use crate::plan::params::{contact, pitch, stance, swing};
 use serde::{Deserialize, Serialize};
 
 /// Samples that labels are kept for.
@@ -58,9 +58,9 @@ pub struct Posed {
 /// Labels, stances and the swing of one foot.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Foot {
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     on: [bool; KEPT],
-    #[serde(with = "crate::sim::saved::array")]
+    #[serde(with = "crate::saved::array")]
     down: [bool; KEPT],
     level: [f64; 3],
     touches: [bool; 3],

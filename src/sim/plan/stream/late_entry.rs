@@ -2,11 +2,11 @@
 //! for that is left out where the stream comes to a moment like the present one again.
 
 use super::{RATE, StreamPlan};
-use crate::sim::body::Posture;
-use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::likeness::Seam;
-use crate::sim::plan::motion_transition::StreamEntry;
-use crate::sim::plan::params::{pelvis, stop, stream, transition};
+use crate::body::Posture;
+use crate::motion::leg_ik::{center_of_mass, forward};
+use crate::plan::likeness::Seam;
+use crate::plan::motion_transition::StreamEntry;
+use crate::plan::params::{pelvis, stop, stream, transition};
 use std::sync::Arc;
 
 impl StreamPlan {

@@ -19,15 +19,15 @@ mod whole_body;
 
 use super::ankle_torque_limit::AnkleTorqueLimit;
 use super::foot_lock::{FootPose, Sole};
-use crate::sim::body::topology::{FEET, NV, SEGMENT_COUNT, TOES};
-use crate::sim::body::{Body, Posture};
-use crate::sim::math::curve::smootherstep;
-use crate::sim::math::exp::exp;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::clip::{Knot, PlanarTransform, between};
-use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::motion::target::Target;
-use crate::sim::plan::params::{contact, pelvis, stream, transition};
+use crate::body::topology::{FEET, NV, SEGMENT_COUNT, TOES};
+use crate::body::{Body, Posture};
+use crate::math::curve::smootherstep;
+use crate::math::exp::exp;
+use crate::math::{Quat, Vec3};
+use crate::motion::clip::{Knot, PlanarTransform, between};
+use crate::motion::leg_ik::{center_of_mass, forward};
+use crate::motion::target::Target;
+use crate::plan::params::{contact, pelvis, stream, transition};
 use foot::Foot;
 pub use foot::Stance;
 use receding_horizon::Balance;
@@ -179,7 +179,7 @@ struct ShiftState {
 
 /// Components of a posture minus those of another one.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-struct Difference(#[serde(with = "crate::sim::saved::array")] [f64; NV]);
+struct Difference(#[serde(with = "crate::saved::array")] [f64; NV]);
 
 /// Where the stream lies in the world.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -196,7 +196,7 @@ struct Placement {
 /// A stream of one figure on its way to a motion. Times count from the first sample, s.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StreamPlan {
-    #[serde(with = "crate::sim::saved::definition")]
+    #[serde(with = "crate::saved::definition")]
     body: Arc<Body>,
     #[serde(skip)]
     soles: [Sole; 2],

@@ -2,16 +2,16 @@
 
 use super::receding_horizon::Balanced;
 use super::{H, RATE, Sample, StreamPlan};
-use crate::sim::body::topology::SEGMENT_COUNT;
-use crate::sim::math::curve::smoothstep;
-use crate::sim::math::exp::exp;
-use crate::sim::math::polygon::SmallPolygon;
-use crate::sim::math::{Quat, Vec3};
-use crate::sim::motion::GRAVITY;
-use crate::sim::motion::leg_ik::{center_of_mass, forward};
-use crate::sim::plan::ankle_torque_limit::Over;
-use crate::sim::plan::params::balance;
-use crate::sim::plan::pelvis_shift::{lasts_outside, pendulum_omega2, zero_moment_point};
+use crate::body::topology::SEGMENT_COUNT;
+use crate::math::curve::smoothstep;
+use crate::math::exp::exp;
+use crate::math::polygon::SmallPolygon;
+use crate::math::{Quat, Vec3};
+use crate::motion::GRAVITY;
+use crate::motion::leg_ik::{center_of_mass, forward};
+use crate::plan::ankle_torque_limit::Over;
+use crate::plan::params::balance;
+use crate::plan::pelvis_shift::{lasts_outside, pendulum_omega2, zero_moment_point};
 
 impl StreamPlan {
     /// Angular momentum of sample `i` by central differences.

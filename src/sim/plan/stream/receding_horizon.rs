@@ -2,12 +2,12 @@
 //! on with every sample.
 
 use super::{H, RATE};
-use crate::sim::math::banded::{Factor, Pentadiagonal};
-use crate::sim::math::exp::exp;
-use crate::sim::math::polygon::SmallPolygon;
-use crate::sim::plan::params::balance;
-use crate::sim::plan::pelvis_shift::PRICE;
-use crate::sim::plan::turned_on_floor;
+use crate::math::banded::{Factor, Pentadiagonal};
+use crate::math::exp::exp;
+use crate::math::polygon::SmallPolygon;
+use crate::plan::params::balance;
+use crate::plan::pelvis_shift::PRICE;
+use crate::plan::turned_on_floor;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
@@ -183,7 +183,7 @@ impl Balance {
     ///
     /// Minimises `Σ Δ² + τ⁴ Δ̈² + Σ (outside/COST)²` over the samples that are known, where the zero-moment point
     /// answers to a shift Δ by Δ − Δ̈/ω², as the preparation of clips does
-    /// ([`pelvis_shift`](crate::sim::plan::pelvis_shift::pelvis_shift)); but Δ goes on from where it is, and beyond the
+    /// ([`pelvis_shift`](crate::plan::pelvis_shift::pelvis_shift)); but Δ goes on from where it is, and beyond the
     /// window it falls, as a pendulum at rest does, to what zero-moment points lack on average: bodies that are built
     /// otherwise than the recorded one, or carry nothing where it does, are off in the same way all the time. A few
     /// alternations are enough, since every sample takes part in as many problems as the window is long.

@@ -1,8 +1,8 @@
 //! A stream whose newest samples repeat one: a driver that has stopped moving and goes on sending.
 
 use super::{RATE, is_sample};
-use crate::sim::body::Posture;
-use crate::sim::plan::params::{common, stream};
+use crate::body::Posture;
+use crate::plan::params::{common, stream};
 use serde::{Deserialize, Serialize};
 
 /// True if nothing moved between two postures.

@@ -1,7 +1,7 @@
 use super::*;
-use crate::sim::math::trig;
-use crate::sim::motion::builtin::{at_ease, builtin};
-use crate::sim::motion::leg_ik::{forward, solve_leg};
+use crate::math::trig;
+use crate::motion::builtin::{at_ease, builtin};
+use crate::motion::leg_ik::{forward, solve_leg};
 
 /// Feeds `posture` sample by sample and gives what comes out, one target per sample.
 fn through(
@@ -200,7 +200,7 @@ fn the_momentum_of_the_stream_is_known_ahead_of_what_is_put_out() {
     // One rigid body that turns: inertia about the lateral axis times the rate, by its own links.
     for t in [emit, emit + 0.2, newest - 0.1] {
         let poses = forward(&body, &fall(t));
-        let com = crate::sim::motion::leg_ik::center_of_mass(&body, &poses);
+        let com = crate::motion::leg_ik::center_of_mass(&body, &poses);
         let rate = Vec3::Y * 2.0;
         let mut expected = Vec3::zero();
         for (segment, (at, q)) in body.segments.iter().zip(&poses) {

@@ -3,13 +3,13 @@
 
 use super::foot::{self, Foot};
 use super::{H, Sample, StreamPlan};
-use crate::sim::body::Posture;
-use crate::sim::body::angles::clamp_to_limits;
-use crate::sim::body::topology::FEET;
-use crate::sim::math::Vec3;
-use crate::sim::motion::leg_ik::{knee_axis, solve_leg_in_plane};
-use crate::sim::plan::leg_reach::{leg_geometry, room_above};
-use crate::sim::plan::params::{balance, leg};
+use crate::body::Posture;
+use crate::body::angles::clamp_to_limits;
+use crate::body::topology::FEET;
+use crate::math::Vec3;
+use crate::motion::leg_ik::{knee_axis, solve_leg_in_plane};
+use crate::plan::leg_reach::{leg_geometry, room_above};
+use crate::plan::params::{balance, leg};
 use serde::{Deserialize, Serialize};
 
 /// Lowering of the pelvis: as low as was needed in the last seconds, so that it does not add to the ups and downs of

@@ -1,7 +1,7 @@
 //! Goal: runs are told from what is only fast. Method: points of figures that move by formula, 120 Hz.
 
 use super::*;
-use crate::sim::math::vec3::vec3;
+use crate::math::vec3::vec3;
 use std::f64::consts::PI;
 
 const RATE: f64 = 120.0;

@@ -1,13 +1,13 @@
 //! The bodies of one cluster, and where they are in the present substep.
 
 use super::Participant;
-use crate::sim::body::SegmentId;
-use crate::sim::collide::narrow::PosedBox;
-use crate::sim::collide::shape::Capsule;
-use crate::sim::collide::{Obstacle, ObstacleKey, Other, Shape};
-use crate::sim::dynamics::Placement;
-use crate::sim::figure::{Figure, FigureKey};
-use crate::sim::math::Vec3;
+use crate::body::SegmentId;
+use crate::collide::narrow::PosedBox;
+use crate::collide::shape::Capsule;
+use crate::collide::{Obstacle, ObstacleKey, Other, Shape};
+use crate::dynamics::Placement;
+use crate::figure::{Figure, FigureKey};
+use crate::math::Vec3;
 
 /// The bodies of one cluster.
 pub(super) struct Cast<'a> {

@@ -2,12 +2,12 @@
 
 use super::cast::{Cast, Posed, PosedShape, posed};
 use super::{Candidate, Cluster, Participant};
-use crate::sim::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES, SEGMENT_COUNT};
-use crate::sim::collide::OBSTACLE_FRICTION;
-use crate::sim::collide::narrow::{self, Near};
-use crate::sim::collide::shape::Capsule;
-use crate::sim::figure::Figure;
-use crate::sim::math::Vec3;
+use crate::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES, SEGMENT_COUNT};
+use crate::collide::OBSTACLE_FRICTION;
+use crate::collide::narrow::{self, Near};
+use crate::collide::shape::Capsule;
+use crate::figure::Figure;
+use crate::math::Vec3;
 
 /// Parts nearer than this take part in the solve even if they move apart, m.
 const NEARBY: f64 = 0.02;

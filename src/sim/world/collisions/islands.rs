@@ -2,14 +2,14 @@
 
 use super::cast::Cast;
 use super::{Candidate, Cluster, Participant, find, unite};
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::NV;
-use crate::sim::collide::island::{ContactLaw, Island};
-use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::figure::TickContext;
-use crate::sim::figure::touches::Contacting;
-use crate::sim::math::Vec3;
-use crate::sim::touch::MAX_ISLAND_CONTACTS as MAX_CONTACTS;
+use crate::body::SegmentId;
+use crate::body::topology::NV;
+use crate::collide::island::{ContactLaw, Island};
+use crate::dynamics::jacobian::for_each_column;
+use crate::figure::TickContext;
+use crate::figure::touches::Contacting;
+use crate::math::Vec3;
+use crate::touch::MAX_ISLAND_CONTACTS as MAX_CONTACTS;
 
 /// Compliance of a contact between bodies, 1/kg.
 const COMPLIANCE: f64 = 1e-4;

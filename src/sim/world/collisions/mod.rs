@@ -13,12 +13,12 @@ mod islands;
 mod neighbourhood;
 mod staged;
 
-use crate::sim::collide::impact::Impact;
-use crate::sim::collide::island::Island;
-use crate::sim::collide::narrow::Near;
-use crate::sim::collide::{Mobility, Obstacle, ObstacleKey};
-use crate::sim::figure::TickContext;
-use crate::sim::math::Vec3;
+use crate::collide::impact::Impact;
+use crate::collide::island::Island;
+use crate::collide::narrow::Near;
+use crate::collide::{Mobility, Obstacle, ObstacleKey};
+use crate::figure::TickContext;
+use crate::math::Vec3;
 use cast::Cast;
 pub(super) use neighbourhood::Neighbourhood;
 use serde::{Deserialize, Serialize};

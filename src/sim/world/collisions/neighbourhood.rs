@@ -2,13 +2,13 @@
 
 use super::cast::{Cast, posed};
 use super::{Cluster, CollisionReport, Participant, find, unite};
-use crate::sim::body::topology::SEGMENT_COUNT;
-use crate::sim::collide::broad::{self, Bounds};
-use crate::sim::collide::narrow;
-use crate::sim::collide::{Obstacle, ObstacleKey, Shape};
-use crate::sim::figure::{Figure, FigureKey, TickContext};
-use crate::sim::math::Vec3;
-use crate::sim::math::vec3::vec3;
+use crate::body::topology::SEGMENT_COUNT;
+use crate::collide::broad::{self, Bounds};
+use crate::collide::narrow;
+use crate::collide::{Obstacle, ObstacleKey, Shape};
+use crate::figure::{Figure, FigureKey, TickContext};
+use crate::math::Vec3;
+use crate::math::vec3::vec3;
 
 /// How much a body may exceed the way that its speed at the start of a tick predicts, m.
 const SLACK: f64 = 0.05;

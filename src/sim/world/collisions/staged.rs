@@ -5,15 +5,15 @@
 
 use super::cast::Cast;
 use super::{Candidate, Cluster, Participant};
-use crate::sim::body::SegmentId;
-use crate::sim::body::topology::NV;
-use crate::sim::collide::impact::{Impact, Row};
-use crate::sim::dynamics::jacobian::for_each_column;
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::figure::TickContext;
-use crate::sim::figure::params::staged::{CORRECTION, CORRECTIONS, OVERLAP};
-use crate::sim::figure::touches::Contacting;
-use crate::sim::math::Vec3;
+use crate::body::SegmentId;
+use crate::body::topology::NV;
+use crate::collide::impact::{Impact, Row};
+use crate::dynamics::jacobian::for_each_column;
+use crate::dynamics::terms::WIDTH;
+use crate::figure::TickContext;
+use crate::figure::params::staged::{CORRECTION, CORRECTIONS, OVERLAP};
+use crate::figure::touches::Contacting;
+use crate::math::Vec3;
 
 /// What one system is for.
 #[derive(Clone, Copy, PartialEq)]
@@ -177,7 +177,7 @@ impl Cluster {
 const HOLDS: usize = 1 << 16;
 
 /// Rows by which what the figure stands on holds still: whole feet, or the point about which one tips.
-fn hold_feet(impact: &mut Impact, f: &crate::sim::figure::Figure, body: usize, least: f64) {
+fn hold_feet(impact: &mut Impact, f: &crate::figure::Figure, body: usize, least: f64) {
     let t = f.substep_dynamics();
     for (n, (segment, point)) in f.held_still().into_iter().flatten().enumerate() {
         let group = 4 * body + n;

@@ -2,15 +2,15 @@
 //! bodies, random contacts between them and with fixed things; both ways, and the equation that they solve.
 
 use super::*;
-use crate::sim::collide::island::ContactLaw;
-use crate::sim::collide::narrow::Near;
-use crate::sim::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
-use crate::sim::dynamics::Terms;
-use crate::sim::dynamics::mass_matrix::MassMatrix;
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::math::Vec3;
-use crate::sim::math::vec3::vec3;
-use crate::sim::support::testing::{Rng, mannequin, random_state, terms};
+use crate::collide::island::ContactLaw;
+use crate::collide::narrow::Near;
+use crate::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
+use crate::dynamics::Terms;
+use crate::dynamics::mass_matrix::MassMatrix;
+use crate::dynamics::terms::WIDTH;
+use crate::math::Vec3;
+use crate::math::vec3::vec3;
+use crate::support::testing::{Rng, mannequin, random_state, terms};
 
 pub(in super::super) struct Puppet {
     pub(in super::super) terms: Terms,
@@ -93,12 +93,9 @@ pub(in super::super) fn scene(rng: &mut Rng, count: usize) -> (Island, Vec<Puppe
                 let k = if side == 0 { a } else { b };
                 if k % 2 == 0 {
                     let kin = &figures[k / 2].terms.kin;
-                    crate::sim::dynamics::jacobian::for_each_column(
-                        kin,
-                        parts[side],
-                        r,
-                        |i, _, v| visit(i, v),
-                    );
+                    crate::dynamics::jacobian::for_each_column(kin, parts[side], r, |i, _, v| {
+                        visit(i, v)
+                    });
                 } else {
                     for (i, e) in [Vec3::X, Vec3::Y, Vec3::Z].into_iter().enumerate() {
                         visit(i, e.cross(r));

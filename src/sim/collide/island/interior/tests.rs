@@ -6,12 +6,12 @@
 use super::super::direction::tests::{Puppet, numbers, scene};
 use super::super::newton::MAX_ITERATIONS;
 use super::*;
-use crate::sim::contact::limits::LIMIT_STIFFNESS;
-use crate::sim::contact::rows::PointRow;
-use crate::sim::contact::{LimitRow, Outcome};
-use crate::sim::dynamics::terms::WIDTH;
-use crate::sim::math::vec3::vec3;
-use crate::sim::support::testing::Rng;
+use crate::contact::limits::LIMIT_STIFFNESS;
+use crate::contact::rows::PointRow;
+use crate::contact::{LimitRow, Outcome};
+use crate::dynamics::terms::WIDTH;
+use crate::math::vec3::vec3;
+use crate::support::testing::Rng;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,

@@ -1,0 +1,19 @@
+//! The real binary: as a shell meets it, under attack, killed, and over hours in short.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
+
+#[cfg(target_os = "linux")] // limits of a process and its memory as Linux tells them
+mod abuse;
+#[cfg(unix)]
+mod chaos;
+mod cli;
+mod operations;
+mod pages;
+#[path = "../common/raw.rs"]
+mod raw;
+mod run_cli;
+mod sharing;
+mod strength;
+#[allow(dead_code, reason = "shared with tests/server")]
+#[path = "../server/support.rs"]
+mod support;
+mod survey;

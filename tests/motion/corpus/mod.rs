@@ -1,0 +1,43 @@
+//! Goal: recordings whose truth is known are read, retargeted, labelled, prepared and followed as they should be.
+//! Method: the synthesised corpus of this folder (README.md), written by `tools/corpus`. The program's modules are
+//! compiled into this test, so that every frame of every file can be compared with the pose it came from; contacts,
+//! footholds, flights, centre of mass and joint angles come from the truth files.
+//!
+//! * `files`: the folder is what the program writes, and the motions are physical.
+//! * `faults`: what is wrong with a file is left out, solved again or said.
+//! * `reading`: joint positions, unit, axes, rate, held poses.
+//! * `angles`: joint angles and centre of mass of the fitted motion.
+//! * `labels`: when feet stand: touch-downs, lift-offs, contact time.
+//! * `preparation`: feet that stand still where they should, zero-moment point.
+//! * `symmetry`: mirrored and turned files and motions give mirrored and turned plans.
+//! * `boundaries`: where starts, stops, loops and transitions begin and end.
+//! * `tracking`: motions that the default figure follows.
+
+#[path = "../../../tools/corpus/actor.rs"]
+mod actor;
+#[path = "../../../tools/corpus/corpus.rs"]
+mod corpus;
+#[path = "../../../tools/corpus/dialect.rs"]
+mod dialect;
+#[path = "../../../tools/corpus/gait.rs"]
+mod gait;
+#[path = "../../../tools/corpus/motions/mod.rs"]
+mod motions;
+#[path = "../../../tools/corpus/plan.rs"]
+mod plan;
+#[path = "../../../tools/corpus/tracks.rs"]
+mod tracks;
+#[path = "../../../tools/corpus/truth.rs"]
+mod truth;
+
+mod angles;
+mod boundaries;
+mod faults;
+mod files;
+mod labels;
+mod plans;
+mod preparation;
+mod reading;
+mod recorded;
+mod symmetry;
+mod tracking;

@@ -1,0 +1,7 @@
+//! Motion files and what is made of them: reading, fitting, preparation.
+#![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod corpus;
+mod reading;

@@ -1,0 +1,81 @@
+//! Acceptance scenarios: whole figures in whole worlds against statics, pendulums, parabolas and conservation laws.
+//!
+//! * `stand`: ten seconds of standing still.
+//! * `push`: what a standing figure survives, and where it falls when it does not.
+//! * `report`: what a tick says of the centre of mass.
+//! * `fall`: a stiff figure is a physical pendulum.
+//! * `bump`: who walks into somebody, or into a wall.
+//! * `bracing`: a person who falls lands on hands, not on the head.
+//! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
+//! * `slide`: Coulomb's law for points that slide.
+//! * `load`: a held load is inertia.
+//! * `second_hand`: the other hand helps with a load that one arm is too weak for.
+//! * `constrain`: hands, head and centre of mass at places that a client gives.
+//! * `get_up`: from belly, back and sides, within seconds.
+//! * `hand`: leaning on tables and walls; two figures that run into each other.
+//! * `people`: ages, sizes, fatigue, percentiles.
+//! * `assist`: the wrench that no body has, and its honesty.
+//! * `help`: the wrench that acts only while a motion is being lost.
+//! * `symmetry`: left and right, and all directions, are alike.
+//! * `containment`: bad input is refused, a figure that runs away harms nobody.
+//!
+//! Everything is seeded or constant; nothing is timed.
+
+mod assist;
+mod bare;
+mod bracing;
+mod bump;
+mod collide;
+mod constrain;
+mod containment;
+mod fall;
+mod flight;
+mod get_up;
+mod hand;
+mod help;
+mod jump;
+mod lift;
+mod load;
+mod people;
+mod push;
+mod report;
+mod second_hand;
+mod self_contact;
+mod slide;
+mod stand;
+mod symmetry;
+
+use sinew_physics::body::{Links, State};
+use sinew_physics::dynamics::{
+    Kinematics, Momentum, center_of_mass, kinetic_energy, momentum, rotor_energy,
+};
+use sinew_physics::math::Vec3;
+
+/// Gravity of the default world, m/s².
+const GRAVITY: f64 = 9.81;
+
+/// A vector.
+fn vec3(x: f64, y: f64, z: f64) -> Vec3 {
+    Vec3 { x, y, z }
+}
+
+/// World integrals of one state.
+struct Integrals {
+    com: Vec3,
+    momentum: Momentum,
+    /// Kinetic (armature included) and potential energy, J.
+    energy: f64,
+}
+
+fn integrals(links: &Links, state: &State) -> Integrals {
+    let mut kin = Kinematics::default();
+    kin.set_state(links, state);
+    let (com, mass) = center_of_mass(links, &kin);
+    let com = state.posture.root_position + com;
+    let rotors = rotor_energy(links, &state.velocity);
+    Integrals {
+        com,
+        momentum: momentum(links, &kin),
+        energy: kinetic_energy(links, &kin) + rotors + mass * GRAVITY * com.z,
+    }
+}

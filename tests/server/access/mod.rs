@@ -1,0 +1,9 @@
+//! Who may do what: identities, roles, leases and quotas, by a real client against the server in this process.
+
+#[allow(dead_code)] // not every function
+mod entering;
+mod identity;
+mod leases;
+mod roles;
+mod support;
+mod tenants;

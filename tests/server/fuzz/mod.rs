@@ -1,0 +1,24 @@
+//! Goal: no bytes that come from outside bring anything down. Method: arbitrary bytes, and valid ones that are damaged,
+//! given to everything that reads bytes: requests of every call of the protos, BVH, checkpoints, files of the store.
+//!
+//! `SINEW_FUZZ_CASES` says how many of each; docs/testing.md has the command and the result of the long run.
+
+mod bytes;
+mod edit;
+mod messages;
+mod records;
+mod services;
+mod store;
+
+use proptest::test_runner::{Config, TestRunner};
+
+/// Cases of one property: `few` in the short run.
+fn runner(few: u32) -> TestRunner {
+    let cases = std::env::var("SINEW_FUZZ_CASES").map_or(few, |n| n.parse().unwrap());
+    TestRunner::new(Config {
+        cases,
+        failure_persistence: None,
+        max_shrink_iters: 2000,
+        ..Config::default()
+    })
+}
