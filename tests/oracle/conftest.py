@@ -20,9 +20,13 @@ def target() -> Path:
 
 
 def build() -> None:
-    """Builds all programs with the profile of the tests; nothing to do when `make` has done so. Examples have features
-    of the tests' crates, so the server is built along with them: alone it would be compiled once more without."""
-    subprocess.run(["cargo", "build", "--quiet", "--locked", "--bins", "--examples"], cwd=ROOT, check=True)
+    """Builds the programs with the profile of the tests; nothing to do when `make` has done so. The example brings in
+    the features of the tests' crates, so that the server is not compiled once more without them."""
+    for programs in (
+        ["--bin", "sinew", "--example", "client"],
+        ["-p", "tools", "--bin", "dump_dynamics", "--bin", "dump_paper"],
+    ):
+        subprocess.run(["cargo", "build", "--quiet", "--locked", *programs], cwd=ROOT, check=True)
 
 
 @pytest.fixture(scope="session")
@@ -32,5 +36,5 @@ def dump(tmp_path_factory: pytest.TempPathFactory):
 
     build()
     directory = tmp_path_factory.mktemp("dynamics")
-    subprocess.run([target() / "examples" / "dump_dynamics", directory, "120"], check=True)
+    subprocess.run([target() / "dump_dynamics", directory, "120"], check=True)
     return Dump(directory)

@@ -363,7 +363,7 @@ class Mujoco(Engine):
 
 
 class Dump:
-    """What `examples/dump_dynamics.rs` wrote."""
+    """What `tools/dump_dynamics.rs` wrote."""
 
     def __init__(self, directory: Path):
         self.directory = directory

@@ -1,7 +1,7 @@
 """Makes `data/dynamics_vectors.json`: states of several bodies and what Pinocchio says, in Sinew's conventions.
 
-    cargo build --example dump_dynamics
-    target/debug/examples/dump_dynamics DIR 2
+    cargo build -p tools --bin dump_dynamics
+    target/debug/dump_dynamics DIR 2
     .venv/bin/python tests/oracle/make_vectors.py DIR
 
 Inputs (bodies, loads, states, accelerations) come from the dump; every expected number comes from Pinocchio, and is

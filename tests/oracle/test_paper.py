@@ -24,7 +24,7 @@ SPEED = 1e-8
 def cases(tmp_path_factory: pytest.TempPathFactory) -> dict:
     build()
     file = tmp_path_factory.mktemp("paper") / "paper.json"
-    subprocess.run([target() / "examples" / "dump_paper", file, "40"], check=True)
+    subprocess.run([target() / "dump_paper", file, "40"], check=True)
     return json.loads(file.read_text())
 
 

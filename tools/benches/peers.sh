@@ -2,12 +2,12 @@
 # Our kernels and ticks against Pinocchio's and MuJoCo's, alternately on one core, three rounds, medians of each round:
 # a table of ratios.
 #
-# Usage: benches/peers.sh [SCRATCH]            SCRATCH: where the peers are built, default target/peers
+# Usage: tools/benches/peers.sh [SCRATCH]            SCRATCH: where the peers are built, default target/peers
 #   SINEW_PEERS_DIR   sources of the peer benches, default ../shared/peers
 #   SINEW_CORE        core to pin to, default 1
 # Needs python3 with venv, g++ (about 3 GB for the Pinocchio headers), and taskset. Set-up takes some minutes, once.
 set -eu
-root=$(cd "$(dirname "$0")/.." && pwd)
+root=$(cd "$(dirname "$0")/../.." && pwd)
 peers=${SINEW_PEERS_DIR:-$root/../shared/peers}
 scratch=${1:-$root/target/peers}
 core=${SINEW_CORE:-1}
@@ -34,9 +34,9 @@ fi
 
 cd "$root"
 target=${CARGO_TARGET_DIR:-$root/target}
-cargo bench --no-default-features --bench dynamics --bench control --bench world_step --no-run
+cargo bench -p tools --bench dynamics --bench control --bench world_step --no-run
 run_ours() {
-    taskset -c "$core" cargo bench --quiet --no-default-features --bench "$1" -- \
+    taskset -c "$core" cargo bench --quiet -p tools --bench "$1" -- \
         --noplot --warm-up-time 0.5 --measurement-time 2 "$2"
 }
 round=1

@@ -36,6 +36,7 @@ def test_there_are_examples() -> None:
     assert NAMES == ["audit_with_pinocchio", "lift_the_same_crate", "own_mocap", "push_recovery_map"]
 
 
+@pytest.mark.nightly
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("name", NAMES)
 def test_notebook(name: str, small: None, tmp_path: Path) -> None:
@@ -71,7 +72,7 @@ def test_the_ten_lines_of_the_readme(small: None, tmp_path: Path) -> None:
 
 def test_the_small_clients_say_the_same(server: sinew.Client) -> None:
     rust = binary().parent / "examples" / "client"
-    assert rust.is_file(), "run `cargo build --example client`"
+    assert rust.is_file(), "run `cargo build -p sinew-client --example client`"
     python = [sys.executable, ROOT / "clients" / "examples" / "python" / "client.py"]
     said = [
         subprocess.run(
