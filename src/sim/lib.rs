@@ -2,6 +2,33 @@
 //!
 //! `world` ─► `rehearsal` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `retarget` ─► `plan` ─►
 //! `motion`, `support` ─► `setup` ─► `strength` ─► `dynamics` ─► `report` ─► `touch` ─► `body` ─► `math` ─► `saved`.
+//!
+//! # Example
+//!
+//! The types convert to and from those of `nalgebra`, so that results can be computed with. The mass matrix of a
+//! standing man, the inertia that a push on the pelvis meets, and where the left foot is:
+//!
+//! ```
+//! use nalgebra::{DMatrix, DVector, Vector3};
+//! use sinew_physics::body::topology::L_FOOT;
+//! use sinew_physics::body::{Body, Links, NV, State};
+//! use sinew_physics::dynamics::Dynamics;
+//!
+//! let body = Body::adult_man();
+//! let mut dynamics = Dynamics::default();
+//! dynamics.compute(&Links::new(&body), &State::default(), &[], 9.81);
+//!
+//! let m = DMatrix::from(&dynamics.mass_matrix);
+//! let mut push = DVector::zeros(NV);
+//! push[3] = 1.0; // forwards, at the pelvis
+//! let acceleration = m.cholesky().expect("inertia is positive").solve(&push);
+//! let felt = 1.0 / acceleration[3];
+//! assert!(10.0 < felt && felt < body.profile.mass); // the joints are free, so the trunk and limbs lag behind
+//!
+//! let foot = dynamics.segment_pose(L_FOOT.index());
+//! assert!(foot.translation.vector.y > 0.0); // y points to the left
+//! assert!((foot.rotation * Vector3::z() - Vector3::z()).norm() < 0.2);
+//! ```
 
 pub mod body;
 pub mod collide;

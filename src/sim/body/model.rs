@@ -188,8 +188,7 @@ impl Body {
                     mass: s.mass,
                 });
             }
-            let j = s.inertia;
-            let m = nalgebra::Matrix3::new(j.xx, j.xy, j.xz, j.xy, j.yy, j.yz, j.xz, j.yz, j.zz);
+            let m = nalgebra::Matrix3::from(s.inertia);
             finite(m.iter().all(|x| x.is_finite()), "inertia")?;
             let e = m.symmetric_eigenvalues();
             let mut moments = [e[0], e[1], e[2]];

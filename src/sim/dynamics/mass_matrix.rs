@@ -89,6 +89,12 @@ impl<L: Lane> MassMatrix<L> {
     }
 }
 
+impl From<&MassMatrix<f64>> for nalgebra::DMatrix<f64> {
+    fn from(m: &MassMatrix<f64>) -> Self {
+        Self::from_fn(NV, NV, |i, j| m.get(i, j))
+    }
+}
+
 impl MassMatrix<f64> {
     /// Writes the full symmetric matrix. What the tree makes zero, and the padding of columns 45…47, is not written: it
     /// must be zero already.

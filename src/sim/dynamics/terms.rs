@@ -8,7 +8,7 @@ use super::mass_matrix::MassMatrix;
 use super::rnea::{External, ExternalForces, RneaWorkspace, rnea};
 use crate::body::topology::{NV, SEGMENT_COUNT, SegmentId};
 use crate::body::{Links, State};
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Quat, Vec3};
 use std::ops::{Deref, DerefMut};
 
 pub use crate::math::dense::WIDTH;
@@ -93,6 +93,14 @@ impl Placement {
     /// `world_from_segment`.
     pub fn segment_rotation(&self, s: usize) -> Mat3 {
         self.kin.rotation[s]
+    }
+    /// Pose of a segment in the world, for `nalgebra`.
+    pub fn segment_pose(&self, s: usize) -> nalgebra::Isometry3<f64> {
+        let rotation = Quat::from_mat3(&self.segment_rotation(s));
+        nalgebra::Isometry3::from_parts(
+            nalgebra::Vector3::from(self.segment_position(s)).into(),
+            rotation.into(),
+        )
     }
     /// World position of a point given in the segment frame, m.
     pub fn point_world(&self, s: usize, local: Vec3) -> Vec3 {

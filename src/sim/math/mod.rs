@@ -11,6 +11,7 @@ pub mod exp;
 pub mod hash;
 pub mod lane;
 pub mod mat3;
+mod nalgebra;
 pub mod nnls;
 pub mod polygon;
 pub mod quat;
