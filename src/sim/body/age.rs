@@ -1,6 +1,6 @@
-//! What age does to a body: size, proportions, mass fractions and ranges of motion from 6 to 90 years.
+//! Effects of age on a body: size, proportions, mass fractions and ranges of motion from 6 to 90 years.
 //!
-//! Every quantity is a continuous function of age: values stand at nodes and are interpolated between them, nothing
+//! Every quantity is a continuous function of age: values are given at nodes and interpolated between them, so nothing
 //! jumps at a birthday. From 20 to 44 years all of them are those of the adult tables, to the last bit.
 
 use super::model::{Profile, Sex};
@@ -14,7 +14,7 @@ pub struct Origin {
     /// S1 read in data that cite the publication; S2 read in the publication or an excerpt; S3 cross-check only; D
     /// derived; R estimate.
     pub tag: &'static str,
-    /// What was done with it.
+    /// How the value was processed.
     pub note: &'static str,
 }
 
@@ -22,7 +22,7 @@ pub struct Origin {
 pub const AGE_RANGE: [f64; 2] = [6.0, 90.0];
 /// From this age on proportions are an adult's, years.
 pub const GROWN: f64 = 20.0;
-/// Sexes do not differ below the first age and differ as adults do from the second on, years.
+/// The sexes do not differ below the first age, and differ as adults do from the second on, years.
 const SEXES_PART: [f64; 2] = [10.0, 18.0];
 
 /// Value at `x` of the polyline through `nodes`, constant beyond its ends.
@@ -211,7 +211,7 @@ impl MassFractions {
         }
     }
 
-    /// A published row, whose trunk is one number, with the trunk divided as `adult` divides it.
+    /// A published row that gives the trunk as one number; the trunk is divided here as in `adult`.
     fn whole_trunk(row: &'static str, head: f64, trunk: f64, limb: [f64; 6], adult: &Self) -> Self {
         let parts = &adult.percent;
         let share = trunk / (parts[0] + parts[1] + parts[2]);
@@ -326,11 +326,11 @@ const OLDER_RANGE: [f64; 2] = [44.0, 67.0];
 pub struct LimitChange {
     /// DOF within the limb.
     pub dof: usize,
-    /// True for the upper limit.
+    /// Whether this is the upper limit.
     pub upper: bool,
-    /// What a child of up to 8 years has more, degrees.
+    /// How much further a child of up to 8 years can move, degrees.
     pub child: f64,
-    /// What a person of 67 or more has more, degrees.
+    /// How much further a person of 67 or more can move, degrees.
     pub older: f64,
 }
 
