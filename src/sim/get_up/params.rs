@@ -2,7 +2,7 @@
 
 use crate::params::Param;
 
-/// Where things are on the floor. Lengths are those of the reference body of the built-in motions.
+/// Layout on the floor. Lengths refer to the reference body of the built-in motions.
 pub mod layout {
     crate::params::params! {
         /// Time constant with which what is on the floor counts as where it really is.
