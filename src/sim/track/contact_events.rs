@@ -1,8 +1,8 @@
 //! Contact by events: a foot is down when it touches the floor, not when the clock says so.
 //!
-//! The plan's time goes on at a rate between 0 and [`FASTEST_RATE`]. It waits for a foot that is to be down and finds
-//! no floor, it catches up after a foot that landed early, and in the air it adapts to the time of fall. A stream
-//! cannot wait for its figure, nor run ahead of what has come: its rate is at least 1, and more only while the figure
+//! The plan's time advances at a rate between 0 and [`FASTEST_RATE`]. It waits for a foot that should be down but finds
+//! no floor, catches up after a foot that landed early, and adapts to the time of fall in the air. A stream cannot wait
+//! for its figure, nor run ahead of the frames received, so its rate is at least 1, and exceeds 1 only while the figure
 //! is behind.
 
 use super::params::contact::{

@@ -358,7 +358,7 @@ impl StepTracker {
         self.capture.off() < SETTLED_OFFSET
     }
 
-    /// Whether it is making planned steps and is so far off the plan that they have to change.
+    /// Whether it is making planned steps and is far enough off the plan that they have to change.
     pub fn is_far_off_plan(&self) -> bool {
         let moves = self.clock.last_speed > REST_SPEED && !self.is_airborne();
         self.is_stepping() && moves && self.capture.off() > params::step_timing::ERROR

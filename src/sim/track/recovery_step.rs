@@ -1,7 +1,7 @@
-//! Recovery steps: steps that no plan has, to catch a body that its feet can no longer stop (the paper's future work),
-//! and to bring the feet back to their places.
+//! Recovery steps: unplanned steps that catch a body which its feet can no longer stop (the paper's future work), or
+//! bring the feet back to their places.
 //!
-//! The foot goes where the capture point will be when it lands, `ξ(t) = p + (ξ − p) e^{ωt}` about the best zero-moment
+//! The foot goes where the capture point will be at the landing, `ξ(t) = p + (ξ − p) e^{ωt}` about the best zero-moment
 //! point `p` of the stance foot. The unloaded foot swings, and crosses the other one if the body falls to that side. A
 //! step is a function of the state and of a few numbers of memory; nothing allocates.
 

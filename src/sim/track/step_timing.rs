@@ -1,7 +1,7 @@
 //! Step timing: steps that come sooner than in the clip, with time and place chosen together.
 //!
 //! An error of the capture point grows nearly threefold in a third of a second, and a clip's own step takes half a
-//! second. People who are pushed hard put the swinging foot down at once, and take the next step quickly too (Hof,
+//! second. After a hard push, people put the swinging foot down at once, and take the next step quickly too (Hof,
 //! Vermerris & Gjaltema 2010; Vlutters et al. 2016). So the plan is played faster until the foot lands.
 //!
 //! For each rate `ρ` the landing comes after `t = t₀/ρ`. The zero-moment point `p`, within the sole, is chosen such
