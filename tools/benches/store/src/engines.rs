@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
-/// What is written.
+/// One record of the log.
 pub struct Record<'a> {
     pub key: u64,
     pub world: u32,
@@ -145,7 +145,7 @@ mod redb_log {
     impl Engine for Redb {
         fn commit(&mut self, records: &[Record<'_>], cut: Option<u64>) {
             let mut tx = self.0.begin_write().expect("a transaction");
-            // The state of the allocator is written with each commit: opening after a kill repairs nothing then.
+            // Write the state of the allocator with each commit, so that opening after a kill needs no repair.
             tx.set_quick_repair(std::env::var("REDB_QUICK_REPAIR").is_ok());
             {
                 let mut log = tx.open_table(LOG).expect("a table");
@@ -194,7 +194,7 @@ mod fjall_log {
                 .expect("fjall opens");
             let mut options = KeyspaceCreateOptions::default();
             match std::env::var("FJALL_LAYOUT").as_deref() {
-                // Tables are dropped whole once they are old: for a log, the least that this engine can write.
+                // Drop old tables as a whole, which for a log is the least that this engine can write.
                 Ok("fifo") => {
                     let keep = Fifo::new(1 << 40, Some(super::super::KEEP_S as u64));
                     options = options.compaction_strategy(Arc::new(keep));
@@ -241,8 +241,8 @@ mod fjall_log {
     }
 }
 
-/// What the disk itself costs: files that are appended to and deleted, and nothing else. Not a store: it is the
-/// yardstick for the others.
+/// Cost of the disk itself: files that are only appended to and deleted. This is not a store, but the yardstick for the
+/// others.
 struct Plain {
     dir: PathBuf,
     file: Option<(File, u64)>,

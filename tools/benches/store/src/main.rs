@@ -1,8 +1,9 @@
-//! What an embedded store costs under the load of a log of inputs and checkpoints.
+//! Cost of an embedded store under the load of a log of inputs and checkpoints.
 //!
 //! `sinew-store-bench run ENGINE FORM WORLDS SECONDS DIR` writes at 60 Hz and prints one row; `recover ENGINE WORLDS
-//! DIR` opens what a killed `run` left and reads what a restart needs; `table SECONDS DIR` does all of it and prints
-//! the table. Every engine holds the same thing: a log of records by a key that grows, cut off at its old end.
+//! DIR` opens the files of a killed `run` and reads the data that a restart needs; `table SECONDS DIR` does all of it
+//! and prints the table. Every engine holds the same thing: a log of records by a key that grows, cut off at its old
+//! end.
 
 mod engines;
 
@@ -25,14 +26,14 @@ const CHECKPOINT_BYTES: usize = 40_000;
 const CHECKPOINT_S: f64 = 5.0;
 /// History that is kept, s.
 const KEEP_S: f64 = 60.0;
-/// How often old history is cut off, s.
+/// Interval at which old history is cut off, s.
 const CUT_S: f64 = 1.0;
 
-/// Bytes of one figure and tick: every frame, or what is left when a driver sends 15 frames a second.
+/// Bytes of one figure and tick: every frame, or only the changes if a driver sends 15 frames a second.
 const FORMS: [(&str, usize); 2] = [("full", 350), ("changed", 90)];
 const ENGINES: [&str; 4] = ["sqlite", "redb", "fjall", "plain"];
 
-/// Bytes that no compressor makes smaller, as joint angles are.
+/// Incompressible bytes, like joint angles.
 fn noise() -> Vec<u8> {
     let mut x = 0x9e37_79b9_7f4a_7c15_u64;
     let mut out = Vec::with_capacity(8 << 20);
@@ -45,7 +46,7 @@ fn noise() -> Vec<u8> {
     out
 }
 
-/// Processor time of this process so far, s.
+/// Processor time used by this process, s.
 fn cpu_s() -> f64 {
     let text = std::fs::read_to_string("/proc/self/stat").expect("procfs");
     let fields: Vec<&str> = text
@@ -177,7 +178,7 @@ fn run(engine: &str, form: &str, worlds: usize, seconds: f64, dir: &Path) {
     drop(store);
 }
 
-/// Opens what is there, finds the latest checkpoint of each world and reads its inputs behind it.
+/// Opens the existing store, finds the latest checkpoint of each world and reads the inputs after it.
 fn recover(engine: &str, worlds: usize, dir: &Path) {
     let start = Instant::now();
     let mut store = open(engine, dir);
