@@ -1,5 +1,5 @@
 //! The offline commands as a user sees them: `sinew run` on built-in motions writes all promised output, and wrong
-//! arguments are named. Method: the real binary, files in a directory of its own per test.
+//! arguments are named. Method: the real binary, files in a separate directory per test.
 
 use serde_json::Value;
 use std::path::PathBuf;

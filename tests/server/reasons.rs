@@ -13,7 +13,7 @@ use tonic::codegen::http::Uri;
 use tonic::metadata::{MetadataMap, MetadataValue};
 use tonic::{Code, Request, Status};
 
-/// A connection without deadlines of its own: tonic's channel ends calls by `grpc-timeout` like the server does.
+/// A connection without its own deadlines: tonic's channel ends calls by `grpc-timeout` like the server does.
 #[derive(Clone)]
 struct Connection {
     http: Client<HttpConnector, tonic::body::Body>,

@@ -148,7 +148,7 @@ impl FromIterator<Role> for Roles {
 /// The requirement of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// Open to everyone: health, and the schema.
+    /// Open to all callers: health, and the schema.
     Open,
     /// This role.
     Needs(Role),

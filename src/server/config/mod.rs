@@ -38,7 +38,7 @@ pub enum ConfigError {
         /// The setting that may have been meant.
         hint: String,
     },
-    /// A value is not what the setting needs.
+    /// A value does not have the form that the setting needs.
     #[error("{source_name}: {name} must be {expected}, got {value}")]
     Value {
         /// File, environment or flag.
@@ -398,7 +398,7 @@ fn without_secrets(value: &str) -> String {
     format!("{scheme}://{host}{path}")
 }
 
-/// Which settings are not the defaults, and what gave them their values.
+/// The settings that are not the defaults, and the sources of their values.
 pub type Sources = BTreeMap<&'static str, String>;
 
 impl Config {
@@ -477,7 +477,7 @@ impl Config {
         Ok((config, sources))
     }
 
-    /// As [`Config::table`], without what may be a secret: addresses with names, passwords or parameters in them.
+    /// As [`Config::table`], without possible secrets: addresses with names, passwords or parameters in them.
     pub fn shown(&self) -> Vec<(&'static str, &'static str, String)> {
         let mut table = self.table();
         for (_, _, value) in &mut table {
@@ -486,7 +486,7 @@ impl Config {
         table
     }
 
-    /// Checks that what strangers can reach is protected.
+    /// Checks that everything within reach of strangers is protected.
     fn check_access(&self) -> Result<(), ConfigError> {
         let needs = |given: &'static str, other: &'static str, missing: bool| {
             if missing {
@@ -535,8 +535,8 @@ impl Config {
 /// Prefix of the names of settings in the environment.
 const PREFIX: &str = "SINEW_";
 
-/// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
-/// read.
+/// Variables `SINEW_…` that are not settings: the name of the file, and the variables of tests, examples and tools of
+/// this project.
 const OTHER_VARIABLES: [&str; 25] = [
     "config",
     "token",

@@ -38,7 +38,7 @@ fn slot(world: WorldKey, tick: u64) -> [u8; SLOT] {
 }
 
 impl Marks {
-    /// Opens the file, reads what is noted in it, and clears it.
+    /// Opens the file, reads its notes, and clears it.
     ///
     /// # Errors
     /// It cannot be opened or written.

@@ -22,7 +22,7 @@ pub struct Recovered {
 }
 
 /// Reads everything that a start needs. A world that was being stepped when the process ended twice in a row is put
-/// into quarantine; those named in `release` are let out.
+/// into quarantine; those named in `release` are released.
 ///
 /// # Errors
 /// The directory cannot be read, or a decision could not be written down.

@@ -45,7 +45,7 @@ static UNARY: LazyLock<HashSet<String>> = LazyLock::new(|| {
 #[derive(Clone, Copy)]
 pub(super) struct Counted;
 
-/// Makes answers whole, and refuses those that there is no room for.
+/// Completes answers, and refuses those for which there is no room.
 pub(crate) async fn answers(
     State(edge): State<Arc<Edge>>,
     request: Request,

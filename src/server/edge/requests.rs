@@ -80,7 +80,7 @@ impl Uploads {
     }
 }
 
-/// Bounds what the messages of a call may take.
+/// Bounds the memory of the messages of a call.
 pub(crate) async fn sizes(State(edge): State<Arc<Edge>>, request: Request, next: Next) -> Response {
     let path = request.uri().path();
     let uploads = &edge.uploads;

@@ -68,7 +68,7 @@ struct Past {
     bytes: usize,
 }
 
-/// A viewer that resumes: keeps what it may need until it has caught up.
+/// A resuming viewer: keeps the data that it may need until it has caught up.
 #[derive(Debug)]
 pub struct Resuming {
     ticks: VecDeque<Weak<Snapshot>>,

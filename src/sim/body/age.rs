@@ -71,7 +71,7 @@ const ORDINARY_MAN: [(f64, [f64; 2]); 11] = [
     (60.0, [1.75, 82.0]),
     (72.0, [1.72, 78.0]),
 ];
-/// The same of an ordinary woman.
+/// Stature (m) and mass (kg) of an ordinary woman, by age.
 const ORDINARY_WOMAN: [(f64, [f64; 2]); 11] = [
     (6.0, [1.16, 21.0]),
     (8.0, [1.28, 26.0]),
@@ -89,8 +89,8 @@ const ORDINARY_WOMAN: [(f64, [f64; 2]); 11] = [
 impl Profile {
     /// An ordinary person of this sex and age: stature and mass from tables, rounded to centimetres and half kilograms.
     ///
-    /// The man and the woman of 30 years are those that the strength levels refer to: 1.75 m, 75 kg and 1.63 m, 62 kg.
-    /// Ages outside 6…90 years count as the nearest.
+    /// The strength levels refer to the man and the woman of 30 years: 1.75 m, 75 kg and 1.63 m, 62 kg. Ages outside
+    /// 6…90 years count as the nearest.
     pub fn ordinary(sex: Sex, age: f64) -> Self {
         let [height, mass] = match sex {
             Sex::Male => polyline(&ORDINARY_MAN, age),
@@ -130,7 +130,7 @@ pub struct Proportions {
     pub foot: f64,
     /// Distances of the shoulders and of the hips.
     pub width: f64,
-    /// Cross-section of the head; its height is what the rest leaves of the stature.
+    /// Cross-section of the head; its height is the remainder of the stature.
     pub head_width: f64,
 }
 

@@ -125,7 +125,7 @@ fn along(mesh: &Mesh, axis: usize) -> Capsule {
     let end = |share: f64| {
         let c = slice(mesh, axis, low + share * length, 0.14 * length);
         let flat = c[0].1.min(c[1].1);
-        // A flat part (hand, foot) gets a radius of a little more than its half thickness.
+        // The radius of a flat part (hand, foot) is at most 1.5 times its half thickness.
         let radius = (0.5 * (c[0].1 + c[1].1)).min(1.5 * flat).min(0.45 * length);
         (c[0].0, c[1].0, radius)
     };

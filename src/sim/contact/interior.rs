@@ -136,7 +136,7 @@ pub(crate) struct Wall {
 }
 
 impl Wall {
-    /// Force `widest`, multiplier `size` beyond the rate `v` (what is allowed included).
+    /// Force `widest`, multiplier `size` beyond the rate `v` (the allowed rate included).
     #[inline(always)]
     pub(crate) fn begin(v: f64, size: f64, widest: f64) -> Self {
         Self {

@@ -131,7 +131,7 @@ impl Goals {
         }
     }
 
-    /// Sets the turn of the trunk and the joint angles to those of the body at the start.
+    /// Sets the values of `turn` and `pose` to those of the body, from which the motion starts; their weights stay.
     pub fn begin(&mut self, turn: [f64; 3], angles: &[f64; DOF_COUNT]) {
         for (aim, at) in self.turn.iter_mut().zip(turn) {
             aim.at = at;

@@ -1,4 +1,4 @@
-//! Every tunable number of getting up. Reference poses and goals of the stages are tables of their own.
+//! Every tunable number of getting up. Reference poses and goals of the stages have their own tables.
 
 use crate::params::Param;
 

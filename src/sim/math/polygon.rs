@@ -113,7 +113,7 @@ fn no_left_turn(a: Point, b: Point, c: Point) -> bool {
 /// Leaves in `inner` the part of a convex polygon that is at least `distance` (m) inside: it is cut with the half-plane
 /// of each edge, moved inwards.
 ///
-/// * `crosses`: whether the border passes between corners of these two depths; decides what becomes of corners on it.
+/// * `crosses`: whether the border passes between corners of these two depths; decides the fate of corners on it.
 /// * `length`: of an edge; [`length`] or [`hypot`], which round differently.
 fn cut_edges<C: Corners>(
     of: &[Point],

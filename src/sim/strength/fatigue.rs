@@ -172,8 +172,8 @@ impl Fatigue {
             .map(|sides| sides.map(|c| (1.0 - c.fatigued).max(LEAST_REMAINING)))
     }
 
-    /// Advances by `dt` s in which muscles gave `torque` (N·m); `lower` < 0 < `upper` is what they could have given
-    /// when rested. About 5 µs; no allocation.
+    /// Advances by `dt` s in which muscles gave `torque` (N·m); `lower` < 0 < `upper` are the limits of rested muscles.
+    /// About 5 µs; no allocation.
     pub fn step(
         &mut self,
         torque: &[f64; DOF_COUNT],

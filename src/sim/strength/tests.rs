@@ -667,7 +667,7 @@ fn sides_are_equal() {
     }
 }
 
-/// The constant bounds of exported actuators are what the muscles give at their best angle, at rest.
+/// The constant bounds of exported actuators are the torques of the muscles at their best angle, at rest.
 #[test]
 fn actuation_is_the_largest_isometric_torque_over_the_range_of_angles() {
     for body in [

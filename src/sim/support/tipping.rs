@@ -59,7 +59,7 @@ impl Pivot {
 /// does not move.
 ///
 /// Outside the polygon the pivot is its closest point (minimum-moment point). On an edge or a vertex the figure is
-/// already tilted and pivots on what touches, on whichever side the zero-moment point lies.
+/// already tilted, and pivots on the touching edge or vertex, on whichever side the zero-moment point lies.
 ///
 /// Repair S1.
 pub fn pivot(polygon: &Polygon, zmp: Vec3) -> Option<Pivot> {

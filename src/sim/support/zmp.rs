@@ -41,7 +41,7 @@ pub struct FootLoad {
 
 /// Force and moment about `point` that the ground must exert on one foot, Eq. (3).
 ///
-/// n₀ = n₁ + l₀₁×f₁ + l_g×f_g is the moment that presses on the ground; what the ground returns is −n₀ plus the foot's
+/// n₀ = n₁ + l₀₁×f₁ + l_g×f_g is the moment that presses on the ground; the ground's reaction is −n₀ plus the foot's
 /// own inertial terms, which the paper leaves out because its foot holds still.
 ///
 /// * `gravity`: magnitude, m/s².

@@ -60,7 +60,7 @@ impl StepTracker {
     }
 
     /// Breaks off a stepping motion at `last`, its present posture (world). None of its later steps is made, and the
-    /// figure comes to a stand where it is. Returns the posture of that stand (world).
+    /// figure comes to a stand in place. Returns the posture of that stand (world).
     pub fn break_off(&mut self, terms: &Terms, last: &Posture) -> Posture {
         let mut planned = *last;
         self.anchor

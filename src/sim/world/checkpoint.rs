@@ -7,7 +7,7 @@
 //!
 //! ```text
 //!   magic 8 │ format u16 │ kind u16 │ numerics u64 │ tick u64 │ length u64 │ checksum u64 │ content
-//!   content: definitions (kind, hash, bytes), state, what the caller has beside it; by `postcard`, little-endian
+//!   content: definitions (kind, hash, bytes), state, the caller's data beside it; by `postcard`, little-endian
 //! ```
 //!
 //! The state refers to definitions by their place in the list, which has a hash of the content of each. A store
@@ -136,7 +136,7 @@ struct Content {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Bytes(#[serde(with = "crate::saved::bytes")] Vec<u8>);
 
-/// The state of a world at one tick, not yet a value of its own, because it still shares the bodies and clips.
+/// The state of a world at one tick, not yet an independent value, because it still shares the bodies and clips.
 pub struct Capture {
     tick: u64,
     hash: u64,
@@ -516,7 +516,7 @@ impl Checkpoint {
     /// A world in this state. `find` gives the bodies and clips that are kept elsewhere.
     ///
     /// # Errors
-    /// A definition is missing or not what it should be; the state cannot have been written.
+    /// A definition is missing or of the wrong content; the state cannot have been written.
     pub fn restore(
         &self,
         find: impl Fn(&DefinitionHash) -> Option<Vec<u8>>,

@@ -92,7 +92,7 @@ impl Server {
         self.child.try_wait().unwrap().is_none()
     }
 
-    /// Ends it and returns what it wrote to its log.
+    /// Ends it and returns its log.
     pub fn end(mut self) -> String {
         use std::io::Read as _;
         self.child.kill().unwrap();

@@ -14,7 +14,7 @@ use sinew_physics::motion::leg_ik::{center_of_mass, forward};
 use sinew_physics::motion::target::Target;
 use std::sync::Arc;
 
-/// The same posture but for rounding, m and rad.
+/// Difference of equal postures, caused by rounding, m and rad.
 const SAME: f64 = 1e-6;
 /// A body slower than this is at rest, m/s and rad/s: it moves by less than 1 mm in a tick.
 const REST: f64 = 0.05;

@@ -192,7 +192,7 @@ pub fn turned(postures: &[Posture], turn: Quat) -> Vec<Posture> {
     postures.iter().map(of).collect()
 }
 
-/// Only what the recording shows: no steps before or after it.
+/// Options that keep only the recording itself: no steps before or after it.
 pub fn bare() -> RetargetOptions {
     RetargetOptions {
         preparation: Preparation {

@@ -22,7 +22,7 @@ fn with_frames(name: &str, of: impl Fn(Vec<&str>, f64) -> Vec<&str>) -> Bvh {
     Bvh::parse(file.as_bytes()).unwrap()
 }
 
-/// Played backwards, a recording is a motion of its own: toes land first, heels leave last, and a stop becomes a start.
+/// Played backwards, a recording is a different motion: toes land first, heels leave last, and a stop becomes a start.
 #[test]
 fn recordings_are_followed_backwards_too() {
     let body = man();

@@ -628,7 +628,7 @@ async fn hand_over(offered: f64, phase: f64) -> f64 {
     let mut second = Walker {
         header: window(scene.header("bob", &[])),
         posture: &ahead,
-        // On a stage of its own, seven metres away and turned by a third of a circle.
+        // On a separate stage, seven metres away and turned by a third of a circle.
         place: PlanarTransform {
             x: 7.0,
             y: -2.0,

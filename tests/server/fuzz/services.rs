@@ -235,8 +235,8 @@ fn calls_are_carried_out_or_refused_with_a_reason() {
     assert!(seen.borrow().contains_key("Ok") && seen.borrow().contains_key("InvalidArgument"));
 }
 
-/// The server's part of a checkpoint, with a correct checksum, as a stranger may send it. The part of the physics has a
-/// test of its own (`tests/checkpoints.rs`).
+/// The server's part of a checkpoint, with a correct checksum, as a stranger may send it. The part of the physics has
+/// its own test (`tests/checkpoints.rs`).
 #[test]
 fn forged_checkpoints_of_worlds_are_refused_or_make_one() {
     use xxhash_rust::xxh3::xxh3_64;

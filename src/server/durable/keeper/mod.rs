@@ -1,9 +1,9 @@
-//! The writing thread. Worlds leave what is to be written in a queue that is bounded by its bytes and go on; the thread
-//! commits what has come within 10 ms as one group.
+//! The writing thread.
 //!
-//! Nothing waits for the disk but this thread. When it cannot keep up or the disk accepts no more, entries are dropped
-//! and counted, their worlds are told to hand in a whole checkpoint, and the store counts as degraded until one is on
-//! disk again.
+//! Worlds put their entries into a queue bounded by its bytes and continue; the thread commits the entries of 10 ms as
+//! one group. Only this thread waits for the disk. When it cannot keep up or the disk accepts no more, entries are
+//! dropped and counted, their worlds are told to hand in a whole checkpoint, and the store counts as degraded until one
+//! is on disk again.
 //!
 //! Worlds hand in entries through a [`recorder`]; [`queue`] holds the waiting entries, and [`writer`] is the thread.
 

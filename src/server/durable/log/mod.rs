@@ -1,7 +1,7 @@
 //! The log of all worlds in one SQLite file: checkpoints, inputs and hashes in the order in which they were committed.
 //!
 //! A row holds the part of one group commit that belongs to one world. Rows are only appended at one end and deleted at
-//! the other, so a commit writes few pages besides those of its own bytes. SQLite has no checksums of pages; each row
+//! the other, so a commit writes few pages besides those of its own data. SQLite has no checksums of pages; each row
 //! has its own, and the rows of a world are numbered, so that damage shows as a wrong checksum or as a hole, and never
 //! as other input.
 //!

@@ -147,8 +147,8 @@ impl Island {
                         .add_transposed(&p.newton.force, -1.0, &mut b.grad);
                 }
                 Kind::Free(_) => {
-                    // All of it: what an interior point that has left its cone wrote behind the sixth entry would stay
-                    // there.
+                    // Clear all entries: values that an interior point outside its cone wrote behind the sixth entry
+                    // would stay there.
                     b.grad = [0.0; NV];
                     for k in 0..6 {
                         b.grad[k] = b.ax[k] - b.b[k];
