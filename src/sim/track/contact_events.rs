@@ -122,7 +122,7 @@ impl StepTracker {
     }
 
     /// Whether the plan has foot `side`, which landed early, down so soon that catching up would only jolt the body.
-    /// False if another flight follows, for which no time can be lost.
+    /// Not before another flight, for which no time can be lost.
     fn is_due(&self, side: usize) -> bool {
         let flies_on = |p: &StepPlan, f: &Footfall| p.next_flight(f.on).is_some();
         self.next(side).is_some_and(|f| {

@@ -29,8 +29,8 @@ fn what_is_held_of_deleted_worlds_is_nothing() {
 
 #[test]
 fn each_file_of_a_store_is_needed() {
-    // Shows that the test above can fail: here every file is overwritten, and the damage to all but the notes is
-    // noticed.
+    // Shows that the test above can fail: here every file is overwritten, and the damage is noticed in all but
+    // auxiliary files.
     let left = killed(true);
     let mut missed = 0;
     for path in files(left) {
