@@ -1,4 +1,4 @@
-//! Figures that meet figures and things: runs each scene, draws it as a strip and says what happened.
+//! Figures that collide with figures and obstacles: runs each scene, draws it as a strip and reports the result.
 //!
 //! ```sh
 //! cargo run --release --example collisions -- out
@@ -19,7 +19,7 @@ fn at(x: f64, y: f64, z: f64) -> Vec3 {
     Vec3 { x, y, z }
 }
 
-/// Someone who stands at x, y and looks along `yaw`.
+/// Adds a figure that stands at x, y and faces along `yaw`.
 fn stander(world: &mut World, x: f64, y: f64, yaw: f64) -> FigureKey {
     let body = Arc::new(Body::adult_man());
     let idle = builtin(&body, "idle").expect("a built-in motion");

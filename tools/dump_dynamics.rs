@@ -1,4 +1,4 @@
-//! Writes random states of several bodies with what our dynamics says about them, for comparison with other engines:
+//! Writes random states of several bodies with the results of Sinew's dynamics, for comparison with other engines:
 //! `cargo run --example dump_dynamics -- OUT_DIR [STATES_PER_MODEL]`.
 //!
 //! For each model `OUT_DIR/<name>.mjcf`, `OUT_DIR/<name>.urdf` and `OUT_DIR/<name>.f64`: one record per state of
@@ -77,7 +77,7 @@ struct Model {
     name: String,
     body: Body,
     loads: Vec<Load>,
-    /// How far joints turn, rad.
+    /// Range of joint rotations, rad.
     reach: f64,
 }
 

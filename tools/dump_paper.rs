@@ -1,5 +1,5 @@
-//! Writes what `tests/oracle/test_paper.py` checks: support ratios (2) on planes of any slope, and impacts of §3 of the
-//! paper: `cargo run --example dump_paper -- FILE.json [CASES]`.
+//! Writes the data that `tests/oracle/test_paper.py` checks: support ratios (2) on planes of any slope, and impacts of
+//! §3 of the paper: `cargo run --example dump_paper -- FILE.json [CASES]`.
 
 #[allow(dead_code)] // loads are for the other example
 #[path = "../tests/physics/oracle/bodies.rs"]

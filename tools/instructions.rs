@@ -25,7 +25,7 @@ fn sample() -> (State, [f64; NV]) {
     (state, wave(10.0))
 }
 
-/// A world with one man who squats without end.
+/// A world with one man, squatting endlessly.
 fn squatting(controller: ControllerKind) -> World {
     let body = Arc::new(Body::adult_man());
     let clip = Arc::new(builtin(&body, "squat").expect("a built-in motion"));

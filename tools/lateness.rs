@@ -5,8 +5,9 @@
 //! ```
 //!
 //! 1,000 empty worlds, then 120 worlds with one figure each, all at 60 Hz. Lateness is the time from the deadline of a
-//! tick to its beginning: of each world the median and p99 of its last 600 ticks, then the mean over the worlds and the
-//! worst of them. Both are plain threads, and then the shared ones in real time, if the system allows it.
+//! tick to its start. The output is the median and p99 of the last 600 ticks of each world, as the mean over the worlds
+//! and the worst world. Both variants use plain threads; afterwards the shared threads run in real time, if the system
+//! allows it.
 use sinew_physics::body::Body;
 use sinew_server::tick::budget::Budget;
 use sinew_server::tick::command::Queue;
@@ -20,7 +21,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// What all worlds share.
+/// State shared by all worlds.
 struct Common {
     planners: Arc<Planners>,
     budget: Arc<Budget>,
@@ -81,7 +82,7 @@ fn pass(time: Duration) {
 }
 
 fn measure(outlets: &[Arc<Outlet>], seconds: f64) -> Measured {
-    pass(Duration::from_secs(2)); // until all go
+    pass(Duration::from_secs(2)); // until all are running
     let ticks = || -> u64 {
         outlets
             .iter()

@@ -1,10 +1,10 @@
-//! Getting up from the floor, for any body, from where it lies: planned tick by tick.
+//! Getting up from the floor, for any body and from any place: planned tick by tick.
 //!
-//! A sequence of [`stages`], each a handful of [`goals`]: where pelvis, knees, feet and hands are, over what the centre
-//! of mass is, what the joints look like. From one stage to the next goals and weights pass over smoothly, and in each
-//! tick one step of [`solver`] moves the posture towards them: nothing is planned ahead, and nothing allocates. What is
-//! on the floor counts where it really is, so nothing has to be where a plan made beforehand would have it; and the way
-//! can be gone at any pace.
+//! A sequence of [`stages`], each a handful of [`goals`]: the places of pelvis, knees, feet and hands, the place of the
+//! centre of mass, and the joint angles. Goals and weights change smoothly from one stage to the next, and in each tick
+//! one step of [`solver`] moves the posture towards them. Nothing is planned ahead, and nothing allocates. Goals refer
+//! to the real places of the parts on the floor, so no part has to be where an earlier plan would put it, and the
+//! motion can run at any pace.
 
 mod goals;
 pub mod params;
@@ -32,10 +32,10 @@ use solver::{BALL, KNEE, Solver};
 use stages::{FloorContacts, Layout, Stage};
 use std::f64::consts::FRAC_PI_2;
 
-/// The stage in which a body that lies on its side begins.
+/// The stage at which a body that lies on its side begins.
 const SIDE: usize = 2;
 
-/// What getting up needs of a body, with the buffers of its inverse kinematics.
+/// The properties of a body that getting up needs, with the buffers of its inverse kinematics.
 #[derive(Clone, Debug)]
 pub struct GetUpSolver {
     solver: Solver,
@@ -43,7 +43,7 @@ pub struct GetUpSolver {
 }
 
 impl GetUpSolver {
-    /// Of a body that stands like `at_ease` in the end. Allocates.
+    /// A solver for a body that ends standing in the posture `at_ease`. Allocates.
     pub fn new(body: &Body, at_ease: &Posture) -> Self {
         Self {
             solver: Solver::new(body),
@@ -56,18 +56,18 @@ impl GetUpSolver {
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct GetUpMotion {
     layout: Layout,
-    /// Where the way lies in the world.
+    /// Map from the motion's coordinates to the world.
     place: PlanarTransform,
-    /// They lead over onto the belly, not up.
+    /// Whether the stages roll the body onto its belly, rather than up.
     turns_over: bool,
     stage: usize,
-    /// Over the left side instead of the right.
+    /// Whether it rolls over the left side instead of the right.
     mirrored: bool,
     /// Time since the stage began, s.
     since: f64,
-    /// How long it has waited for what should be on the floor, s.
+    /// Time spent waiting for the parts that should be on the floor, s.
     waits: f64,
-    /// Goals as it began, and now.
+    /// Goals at the start of the stage, and now.
     from: Goals,
     now: Goals,
     posture: Posture,
@@ -75,17 +75,18 @@ pub struct GetUpMotion {
     velocity: [f64; NV],
 }
 
-/// How far a body that faces `front` is turned from lying on its belly, rad: π on the back, π/2 on the right side.
+/// Angle by which a body that faces `front` is turned from lying on its belly, rad: π on the back, π/2 on the right
+/// side.
 fn roll(front: Vec3) -> f64 {
     trig::atan2(front.y, -front.z)
 }
 
-/// True if a body lies on its belly.
+/// Whether a body lies on its belly.
 fn is_prone(p: &Posture) -> bool {
     p.root_rotation.rotate(Vec3::X).z < -PRONE
 }
 
-/// Turns a point of the world into one of the way.
+/// Maps a point of the world into the motion's coordinates.
 fn inverse(place: PlanarTransform, p: Vec3) -> Vec3 {
     let back = Quat::exp(Vec3::Z * -place.yaw);
     back.rotate(Vec3 {
@@ -96,7 +97,7 @@ fn inverse(place: PlanarTransform, p: Vec3) -> Vec3 {
 }
 
 impl GetUpMotion {
-    /// Of a body that has not begun yet.
+    /// The motion of a body that has not yet begun to get up.
     pub fn new(body: &Body) -> Self {
         Self {
             layout: Layout {
@@ -116,12 +117,12 @@ impl GetUpMotion {
         }
     }
 
-    /// True if the body of `terms` is as low as one that lies.
+    /// Whether the body of `terms` is low enough to be lying.
     pub fn is_low(&self, terms: &Terms) -> bool {
         terms.com.z < LYING_HEIGHT * self.layout.scale
     }
 
-    /// Begins where the body of `terms` lies: on its belly, or else by rolling onto it.
+    /// Begins at the place of the body of `terms`: from its belly, or otherwise by rolling onto it.
     pub fn begin(&mut self, with: &GetUpSolver, terms: &Terms) {
         let p = &terms.state.posture;
         let knees = SHANKS.map(|s| terms.point_world(s.index(), with.solver.contact(s, KNEE)));
@@ -157,7 +158,7 @@ impl GetUpMotion {
         self.mirrored = !prone && self.layout.roll < 0.0;
         let first = match self.layout.roll.abs() {
             _ if prone => 0,
-            // It faces down already: weight does the rest.
+            // It already faces down, so its weight does the rest.
             roll if roll < FRAC_PI_2 => stages::OVER.len() - 1,
             roll if roll < ON_SIDE => SIDE,
             _ => 0,
@@ -172,7 +173,7 @@ impl GetUpMotion {
         self.enter(first);
     }
 
-    /// What it goes through.
+    /// The stages of the present part of the motion.
     fn stages(&self) -> &'static [Stage] {
         if self.turns_over {
             stages::OVER
@@ -181,12 +182,12 @@ impl GetUpMotion {
         }
     }
 
-    /// What is on the floor.
+    /// The parts that are on the floor.
     fn down(&self) -> FloorContacts {
         self.stages()[self.stage].down
     }
 
-    /// True if it is in one of its stages: what was read from a checkpoint may be anything.
+    /// Whether it is in one of its stages; a value read from a checkpoint may not be.
     pub fn is_valid(&self) -> bool {
         self.stage < self.stages().len()
     }
@@ -201,7 +202,7 @@ impl GetUpMotion {
         }
     }
 
-    /// Where a contact point really is.
+    /// Real place of a contact point.
     fn real(&self, with: &GetUpSolver, terms: &Terms, (s, point): (SegmentId, usize)) -> Vec3 {
         let p = with.solver.contact(s, point);
         inverse(self.place, terms.point_world(s.index(), p))
@@ -219,14 +220,14 @@ impl GetUpMotion {
         self.from = self.now;
     }
 
-    /// True once the last stage is over.
+    /// Whether the last stage is over.
     pub fn is_over(&self) -> bool {
         !self.turns_over
             && self.stage + 1 == self.stages().len()
             && self.since >= self.stages()[self.stage].seconds
     }
 
-    /// True if a segment that touches the floor carries: arms and feet on their way elsewhere slide.
+    /// Whether a segment that touches the floor carries weight. Arms and feet that are moving elsewhere slide instead.
     pub fn carries(&self, s: SegmentId) -> bool {
         let down = self.down();
         match s {
@@ -240,13 +241,13 @@ impl GetUpMotion {
         }
     }
 
-    /// True while the trunk lies on the floor.
+    /// Whether the trunk lies on the floor.
     pub fn lies(&self) -> bool {
         let down = self.down();
         down.whole || !down.balls
     }
 
-    /// True while it rolls over.
+    /// Whether it is rolling over.
     pub fn rolls(&self) -> bool {
         self.down().whole
     }
@@ -272,17 +273,17 @@ impl GetUpMotion {
         }
     }
 
-    /// How long it has waited for what should be on the floor by now, s.
+    /// Time spent waiting for the parts that should be on the floor by now, s.
     pub fn waits(&self) -> f64 {
         self.waits
     }
 
-    /// What it is about.
+    /// Name of the present stage.
     pub fn stage(&self) -> &'static str {
         self.stages()[self.stage].name
     }
 
-    /// Desired motion of a tick of `dt` seconds at a share `pace` of its own pace, for the body of `terms`. No
+    /// Desired motion of a tick of `dt` seconds at the fraction `pace` of full speed, for the body of `terms`. No
     /// allocation.
     pub fn advance(
         &mut self,
@@ -294,7 +295,7 @@ impl GetUpMotion {
     ) -> TargetPair {
         let before = self.target();
         if !self.turns_over && self.lies() && !is_prone(&terms.state.posture) {
-            // It has rolled off its belly.
+            // It has rolled off its belly, so begin again.
             self.begin(with, terms);
         }
         self.since += dt * pace;
@@ -328,7 +329,7 @@ impl GetUpMotion {
         }
     }
 
-    /// What is on the floor counts where it is.
+    /// Updates the layout from the real places of the parts on the floor.
     fn update_layout(&mut self, with: &GetUpSolver, terms: &Terms, dt: f64) {
         let share = 1.0 - exp(-dt / UPDATE_TIME);
         let real = &terms.state.posture;
@@ -376,7 +377,7 @@ impl GetUpMotion {
     }
 }
 
-/// True if all that a stage leans on is on the floor.
+/// Whether all parts that a stage leans on are on the floor.
 fn is_down(solver: &Solver, terms: &Terms, down: FloorContacts) -> bool {
     (0..2).all(|side| {
         let low = |s: SegmentId| solver.lowest(terms, s) < NEAR_HEIGHT;

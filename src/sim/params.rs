@@ -2,12 +2,12 @@
 //!
 //! A parameter is a constant, so it costs nothing in a tick. The list of all of them makes `docs/parameters.md`.
 
-/// A tunable number and what is known about it.
+/// A tunable number with its documentation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Param {
     /// Name of the constant.
     pub name: &'static str,
-    /// What it is, as its documentation says.
+    /// Its description, from its doc comment.
     pub what: &'static str,
     /// Its value, in its unit.
     pub value: f64,
@@ -34,7 +34,7 @@ macro_rules! params {
     )+) => {
         $($(#[doc = $doc])+ pub(crate) const $name: $type = $value;)+
 
-        /// Everything that is declared here, in order.
+        /// All parameters declared here, in order.
         pub const ALL: &[$crate::params::Param] = &[$($crate::params::Param {
             name: stringify!($name),
             what: concat!($($doc),+),
@@ -72,7 +72,7 @@ mod tests {
         );
     }
 
-    /// What is not in a list is not in docs/parameters.md, and nothing checks its range.
+    /// A parameter that is in no list is missing from docs/parameters.md, and nothing checks its range.
     #[test]
     fn every_module_of_parameters_is_in_the_list_of_its_part() {
         use crate::{figure, get_up, plan, retarget, track};

@@ -1,13 +1,13 @@
-//! What one tick of one figure did: enough to check it from outside.
+//! Report on one tick of one figure, with enough data to check it from outside.
 
 use crate::body::{DOF_COUNT, NV, SEGMENT_COUNT, SegmentId, State};
 use crate::math::Vec3;
 use crate::touch::{MAX_TOUCHES, Touch};
 use serde::{Deserialize, Serialize};
 
-/// Most contact points of one segment.
+/// Largest number of contact points on one segment.
 pub const POINTS_PER_SEGMENT: usize = 8;
-/// Most contact points one figure can have at once.
+/// Largest number of contact points that one figure can have at once.
 pub const MAX_CONTACTS: usize = POINTS_PER_SEGMENT * SEGMENT_COUNT;
 
 /// One touching point.
@@ -23,7 +23,7 @@ pub struct ContactPoint {
     pub force: Vec3,
 }
 
-/// Which safeguards acted and what state the figure is in; a set of flags.
+/// The safeguards that acted and the state of the figure, as a set of flags.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Flags(pub u32);
 
@@ -47,10 +47,10 @@ impl Flags {
     pub const QUARANTINED: Self = Self(1 << 7);
     /// Balance is lost: the controller handed over to motors alone.
     pub const BALANCE_LOST: Self = Self(1 << 8);
-    /// Prescribed accelerations could not go on (saturated joints on a tilting support, overload, a part other than a
-    /// foot touching): a figure with the kinematic stepper is moved by its torques for the time being.
+    /// Prescribed accelerations could not continue (saturated joints on a tilting support, overload, a part other than
+    /// a foot touching), so a figure with the kinematic stepper is moved by its torques for the time being.
     pub const HANDED_OVER: Self = Self(1 << 9);
-    /// The state was faster than anything a body does and was braked.
+    /// The state was faster than any body can move and was braked.
     pub const SPEED_BOUND: Self = Self(1 << 10);
     /// Names of the flags, by bit.
     pub const NAMES: [&'static str; 11] = [
@@ -66,7 +66,7 @@ impl Flags {
         "HANDED_OVER",
         "SPEED_BOUND",
     ];
-    /// True if every flag of `f` is set.
+    /// Whether every flag of `f` is set.
     pub const fn has(self, f: Self) -> bool {
         self.0 & f.0 == f.0
     }
@@ -82,14 +82,14 @@ impl Flags {
 pub struct Audit {
     /// State at the start of the substep.
     pub state: State,
-    /// Acceleration over the substep `(v⁺ − v)/h`, layout of `State::velocity`; with the kinematic stepper the one that
-    /// was applied, to which impacts and the return of the support to its place come on top.
+    /// Acceleration over the substep `(v⁺ − v)/h`, layout of `State::velocity`; with the kinematic stepper, the applied
+    /// acceleration, without impacts and the return of the support to its place.
     #[serde(with = "crate::saved::array")]
     pub acceleration: [f64; NV],
     /// Joint torques of muscles, N·m.
     #[serde(with = "crate::saved::array")]
     pub torque: [f64; DOF_COUNT],
-    /// Joint torques that no muscle gives: joint limits and stretched tissue, N·m.
+    /// Passive joint torques, from joint limits and stretched tissue, N·m.
     #[serde(with = "crate::saved::array")]
     pub ligament_torque: [f64; DOF_COUNT],
     /// Ground and object contacts, at the start of the substep.
@@ -101,7 +101,7 @@ pub struct Audit {
 }
 
 impl Audit {
-    /// An empty one with room for every contact and so many applied forces.
+    /// An empty audit with room for every contact and for `applied` forces.
     pub fn with_capacity(applied: usize) -> Self {
         Self {
             state: State::default(),
@@ -128,7 +128,7 @@ impl Clone for Audit {
         }
     }
 
-    /// Keeps the lists' memory: the derived one would allocate every tick.
+    /// Reuses the lists' memory; the derived implementation would allocate in every tick.
     fn clone_from(&mut self, other: &Self) {
         let Self {
             state,
@@ -149,7 +149,7 @@ impl Clone for Audit {
     }
 }
 
-/// Joints in one tick: torques are means over it.
+/// Joints in one tick; torques are means over the tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointReport {
     /// Muscle torque, N·m.
@@ -164,8 +164,8 @@ pub struct JointReport {
     /// Largest available torque at the start of the tick, N·m.
     #[serde(with = "crate::saved::array")]
     pub torque_upper: [f64; DOF_COUNT],
-    /// What fatigue has left of the strength at the end of the tick, positive and negative direction of each DOF; 1
-    /// when it is off.
+    /// Strength that fatigue leaves at the end of the tick, in the positive and negative direction of each DOF; 1 when
+    /// fatigue is off.
     #[serde(with = "crate::saved::array")]
     pub remaining: [[f64; 2]; DOF_COUNT],
     /// Largest violation of the strength of any substep relative to that limit (0 when none).
@@ -179,7 +179,7 @@ pub struct JointReport {
     pub joint_error: [f64; DOF_COUNT],
 }
 
-/// What carried the body in one tick, and where its centre of mass was.
+/// Supports of the body in one tick, and its centre of mass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BalanceReport {
     /// Main supporting segment, if any.
@@ -200,7 +200,7 @@ pub struct BalanceReport {
     pub com_desired: Vec3,
 }
 
-/// What one tick of one figure did. Torques and forces are means over the tick.
+/// Report on one tick of one figure. Torques and forces are means over the tick.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TickReport {
     /// Torques, limits and errors of the joints.
@@ -214,11 +214,10 @@ pub struct TickReport {
     pub acceleration: [f64; NV],
     /// Touching points with their mean force.
     pub contacts: Vec<ContactPoint>,
-    /// Parts that touch other figures and obstacles, by segment, then by what is touched; at most
-    /// [`MAX_TOUCHES`].
+    /// Parts that touch other figures and obstacles, by segment, then by the touched object; at most [`MAX_TOUCHES`].
     pub touches: Vec<Touch>,
-    /// What is missing of each constraint that a client gave, at the start of the tick: distance along the axes that
-    /// count (m), angle (rad).
+    /// Error of each constraint set by a client, at the start of the tick: distance along the constrained axes (m),
+    /// angle (rad).
     pub constraint_error: Vec<[f64; 2]>,
     /// Largest depth of any contact point below the surface at the start of any substep, m.
     pub penetration: f64,
@@ -233,8 +232,8 @@ pub struct TickReport {
 }
 
 impl TickReport {
-    /// An empty one of a figure in `state`, with room for every contact and touch, and for so many constraints and
-    /// applied forces.
+    /// An empty report of a figure in `state`, with room for every contact and touch, and for the given numbers of
+    /// constraints and applied forces.
     pub fn empty(state: &State, constraints: usize, applied: usize) -> Self {
         let z = [0.0; DOF_COUNT];
         Self {

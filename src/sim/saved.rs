@@ -1,10 +1,10 @@
-//! Helpers of the derives with which a world is written into a checkpoint and read from one.
+//! Serde helpers for writing a world into a checkpoint and reading it back.
 //!
 //! * [`array`]: arrays of any length.
 //! * [`bytes`]: bytes in one piece.
-//! * [`definition`]: what many figures share, as bodies and clips. The value that is written refers to it by number;
-//!   what it consists of is written once beside it ([`collecting`], [`with_definitions`]).
-//! * [`nested`]: boxes of a type that holds itself, to a bounded depth.
+//! * [`definition`]: values that many figures share, such as bodies and clips. The written value refers to them by
+//!   number; their content is written once beside it ([`collecting`], [`with_definitions`]).
+//! * [`nested`]: boxes of recursive types, to a bounded depth.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -22,13 +22,14 @@ struct Table {
 }
 
 thread_local! {
-    /// What values refer to that this thread writes or reads now: derives have no argument for it.
+    /// Definitions of the values that this thread is writing or reading. A thread-local, because derived code takes no
+    /// further argument.
     static TABLE: RefCell<Option<Table>> = const { RefCell::new(None) };
-    /// Boxes around the one that is read now.
+    /// Number of boxes around the one being read.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Puts the table of the caller back, also if `work` panics.
+/// Restores the caller's table, even if `work` panics.
 struct Before(Option<Table>);
 
 impl Drop for Before {
@@ -45,13 +46,13 @@ fn within<T>(table: Table, work: impl FnOnce() -> T) -> (T, Table) {
     (out, table)
 }
 
-/// Calls `write`, and returns the definitions that the values refer to which it has written.
+/// Calls `write`, and also returns the definitions to which the written values refer.
 pub fn collecting<T>(write: impl FnOnce() -> T) -> (T, Vec<Definition>) {
     let (out, table) = within(Table::default(), write);
     (out, table.all)
 }
 
-/// Calls `read`; the values that it reads refer to these definitions.
+/// Calls `read`, which resolves references to these definitions.
 pub fn with_definitions<T>(all: Vec<Definition>, read: impl FnOnce() -> T) -> T {
     let table = Table {
         all,
@@ -68,7 +69,7 @@ pub mod array {
     use std::fmt;
     use std::marker::PhantomData;
 
-    /// Writes one element after the other, without their number.
+    /// Writes the elements in order, without their number.
     ///
     /// # Errors
     /// Those of the serializer.
@@ -103,7 +104,7 @@ pub mod array {
         }
     }
 
-    /// Reads what [`serialize`] has written.
+    /// Reads the output of [`serialize`].
     ///
     /// # Errors
     /// Those of the deserializer.
@@ -142,7 +143,7 @@ pub mod bytes {
         }
     }
 
-    /// Reads what [`serialize`] has written.
+    /// Reads the output of [`serialize`].
     ///
     /// # Errors
     /// Those of the deserializer.
@@ -158,7 +159,7 @@ pub mod definition {
     use serde::ser::Error as _;
     use serde::{Deserialize, Deserializer, Serializer};
 
-    /// Writes the number of the definition; notes it if it has none yet.
+    /// Writes the number of the definition, and registers the definition if it is new.
     ///
     /// # Errors
     /// Those of the serializer; nothing collects definitions.
@@ -173,7 +174,7 @@ pub mod definition {
             let at = Arc::as_ptr(shared).cast::<()>() as usize;
             let number = *table.numbers.entry(at).or_insert(next);
             if number == next {
-                // Kept, so that nothing else comes to lie at its address meanwhile.
+                // Keep it alive, so that its address is not reused in the meantime.
                 table.all.push(Arc::clone(shared) as Definition);
             }
             Some(number)
@@ -182,7 +183,7 @@ pub mod definition {
         to.serialize_u32(number)
     }
 
-    /// The definition of that number.
+    /// The definition with that number.
     ///
     /// # Errors
     /// Those of the deserializer; there is none of that number, or it is something else.
@@ -200,7 +201,7 @@ pub mod definition {
         })
     }
 
-    /// The same of something that may be missing.
+    /// The same for an optional definition.
     pub mod option {
         use super::{Any, Arc};
         use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -213,7 +214,7 @@ pub mod definition {
         #[derive(Deserialize)]
         struct Read<T: Any + Send + Sync>(#[serde(with = "super")] Arc<T>);
 
-        /// Writes its number, if it is there.
+        /// Writes its number, if it is present.
         ///
         /// # Errors
         /// Those of the serializer; nothing collects definitions.
@@ -224,7 +225,7 @@ pub mod definition {
             shared.as_ref().map(Written).serialize(to)
         }
 
-        /// The definition of that number, if there is one.
+        /// The definition with that number, if there is one.
         ///
         /// # Errors
         /// Those of the deserializer; there is none of that number, or it is something else.
@@ -236,16 +237,16 @@ pub mod definition {
     }
 }
 
-/// A box in a type that holds itself: `#[serde(with = "crate::saved::nested")]`.
+/// A box in a recursive type: `#[serde(with = "crate::saved::nested")]`.
 pub mod nested {
     use super::DEPTH;
     use serde::de::Error;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-    /// Most boxes within each other. Plans hold each other twice at most.
+    /// Largest nesting of boxes. Plans are nested at most twice.
     const MOST: usize = 8;
 
-    /// Writes what is in the box.
+    /// Writes the content of the box.
     ///
     /// # Errors
     /// Those of the serializer.
@@ -256,10 +257,10 @@ pub mod nested {
         inner.serialize(to)
     }
 
-    /// Reads what is in the box.
+    /// Reads the content of the box.
     ///
     /// # Errors
-    /// Those of the deserializer; too many boxes within each other.
+    /// Those of the deserializer; too deeply nested boxes.
     pub fn deserialize<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
         from: D,
     ) -> Result<Option<Box<T>>, D::Error> {

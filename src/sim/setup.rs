@@ -1,4 +1,4 @@
-//! What a figure is made of and how it is controlled: set at creation, changeable between ticks.
+//! Properties and control of a figure: set at creation, changeable between ticks.
 
 use crate::body::topology::{L_HAND, R_HAND};
 use crate::body::{Body, SegmentId, State};
@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 pub use crate::strength::StrengthScale;
 
-/// Everything a figure is made of.
+/// All properties of a figure at its creation.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FigureSetup {
     /// Name, for people.
@@ -18,15 +18,15 @@ pub struct FigureSetup {
     pub body: Arc<Body>,
     /// Scale of its strength.
     pub strength: StrengthScale,
-    /// What computes accelerations and torques.
+    /// The method that computes accelerations and torques.
     pub controller: ControllerKind,
-    /// What moves the body.
+    /// The method that moves the body.
     pub stepper: StepperKind,
     /// Choices and gains.
     pub params: ControlParams,
     /// Fatigue and assist.
     pub options: FigureOptions,
-    /// Where it starts.
+    /// Its state at the start.
     pub state: State,
 }
 
@@ -46,36 +46,36 @@ impl FigureSetup {
     }
 }
 
-/// What computes accelerations and torques.
+/// The method that computes accelerations and torques.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum ControllerKind {
     /// The paper's controller, equations (4)–(17), with safeguards (docs/equations.md).
     Paper,
     /// Whole-body quadratic program solved through its dual (docs/equations.md).
     Modern,
-    /// Strength-limited motors alone (docs/equations.md); what is left after balance is lost.
+    /// Strength-limited motors alone (docs/equations.md); the fallback after balance is lost.
     Motors,
 }
 
 impl StepperKind {
-    /// True if accelerations are applied as they are.
+    /// Whether accelerations are applied directly.
     pub fn prescribes(self) -> bool {
         self != Self::Torque
     }
 }
 
-/// What moves the body.
+/// The method that moves the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StepperKind {
     /// Torques drive full rigid-body dynamics with contact (docs/equations.md).
     Torque,
-    /// The controller's accelerations are applied as they are; the support holds, tips about an edge or a vertex, or
-    /// flies. For the paper's controller. Motors alone need torques: with them this is `Torque`. Near something that
-    /// can be met torques take over.
+    /// The controller's accelerations are applied directly; the support holds, tips about an edge or a vertex, or
+    /// flies. For the paper's controller. Motors alone need torques, so with them this is `Torque`. Near an object that
+    /// can be hit, torques take over.
     Kinematic,
-    /// The same, but collisions are those of §3 of the paper: an impact changes velocities, then angles are corrected
-    /// until nothing overlaps, and the reaction counts in the inverse dynamics of the next tick. Between figures that
-    /// are all moved so, and with things that do not move freely.
+    /// Like `Kinematic`, but collisions are those of §3 of the paper: an impact changes velocities, then angles are
+    /// corrected until nothing overlaps, and the reaction enters the inverse dynamics of the next tick. This applies
+    /// between figures that all use it, and with obstacles that do not move freely.
     Staged,
 }
 
@@ -121,7 +121,7 @@ pub struct ControlParams {
     pub priority: Priority,
     /// Sharing rule.
     pub share: Share,
-    /// Let members of L go to their limit instead of staying where (7)–(11) left them.
+    /// Move members of L to their limit instead of leaving them where (7)–(11) put them.
     pub to_limit: bool,
     /// Tilting support (S1).
     pub tilt: bool,
@@ -131,8 +131,8 @@ pub struct ControlParams {
     pub track_hands: bool,
     /// Control the centre of mass.
     pub track_com: bool,
-    /// Hand over what cannot go on: to torques, while the kinematic stepper's prescribed accelerations cannot
-    /// go on; to motors alone, while balance is lost.
+    /// Hand over when the present mode cannot continue: to torques, while the kinematic stepper cannot prescribe
+    /// accelerations; to motors alone, while balance is lost.
     pub hand_over: bool,
     /// Step when the capture point has left the feet (modern controller).
     pub protective_steps: bool,
@@ -158,9 +158,9 @@ impl Default for ControlParams {
 }
 
 impl ControlParams {
-    /// The paper to the letter, all safeguards off: dead-beat demand, W = I, (12) as printed, sharing by ratios (2), a
-    /// support that tips but whose torques do not know it. Meant for [`StepperKind::Kinematic`], 30 ticks a second and
-    /// a body without armature; for comparison only.
+    /// The paper to the letter, all safeguards off: dead-beat demand, W = I, (12) as printed, sharing by ratios (2),
+    /// and a support that tips although the torques do not account for it. Meant for [`StepperKind::Kinematic`], 30
+    /// ticks a second and a body without armature; for comparison only.
     pub fn paper2000() -> Self {
         Self {
             horizon: None,
@@ -175,7 +175,7 @@ impl ControlParams {
     }
 }
 
-/// What a figure can have beyond its controller; everything is off by default.
+/// Options of a figure beyond its controller; all are off by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FigureOptions {
     /// Seconds of muscle fatigue per simulated second, 0…1000; 0: muscles never tire.
@@ -185,8 +185,9 @@ pub struct FigureOptions {
     /// Largest force over the weight of the help while a motion is being lost, 0…2:
     /// [`Help`](crate::figure::help::Help). 0: none. It needs the modern controller, and no `assist`.
     pub max_help: f64,
-    /// The body does not pass through itself: [`self_contact`](crate::figure::self_contact). Not within a
-    /// rehearsed motion. Off by default: controllers do not know of it, and catch themselves a little worse with it.
+    /// Keeps the body from passing through itself: [`self_contact`](crate::figure::self_contact). It does not act
+    /// within a rehearsed motion. Off by default, because controllers do not account for it, and recover balance
+    /// slightly worse with it.
     pub self_contact: bool,
 }
 
@@ -197,7 +198,7 @@ pub enum Perturbation {
     Load {
         /// Carrying segment.
         segment: SegmentId,
-        /// Where, segment frame, m.
+        /// Point of application, segment frame, m.
         point: Vec3,
         /// Mass, kg, 0…500.
         mass: f64,
@@ -210,7 +211,7 @@ pub enum Perturbation {
     Force {
         /// Pushed segment.
         segment: SegmentId,
-        /// Where, segment frame, m.
+        /// Point of application, segment frame, m.
         point: Vec3,
         /// World axes, N.
         force: Vec3,
@@ -219,13 +220,13 @@ pub enum Perturbation {
         /// Ends at, s.
         to: f64,
     },
-    /// A load with all that can matter: see [`HeldLoad`].
+    /// A load with all its properties; see [`HeldLoad`].
     Held(HeldLoad),
     /// A load in one hand that the other hand reaches for.
     Helped {
         /// The load; its `second` is `None`.
         load: HeldLoad,
-        /// When it does.
+        /// When the other hand helps.
         when: SecondHand,
     },
 }
@@ -233,18 +234,18 @@ pub enum Perturbation {
 /// When the other hand helps to hold a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SecondHand {
-    /// As long as one arm is too weak for the load in the desired motion, and the other is free.
+    /// While one arm is too weak for the load in the desired motion, and the other is free.
     Auto,
-    /// As long as it is free.
+    /// While it is free.
     Always,
 }
 
-/// A load that may come flying, be held in two hands, and slip.
+/// A load that may arrive in flight, be held in two hands, and slip.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeldLoad {
     /// Carrying segment.
     pub segment: SegmentId,
-    /// Where, segment frame, m.
+    /// Point of application, segment frame, m.
     pub point: Vec3,
     /// Mass, kg, 0…500. In two hands each carries half of it.
     pub mass: f64,
@@ -262,7 +263,7 @@ pub struct HeldLoad {
 }
 
 impl HeldLoad {
-    /// What each point carries: segment, point (segment frame, m), mass (kg).
+    /// The load on each point: segment, point (segment frame, m), mass (kg).
     pub fn shares(&self) -> impl Iterator<Item = (SegmentId, Vec3, f64)> + use<> {
         let each = if self.second.is_some() { 0.5 } else { 1.0 } * self.mass;
         [Some((self.segment, self.point)), self.second]
@@ -273,7 +274,7 @@ impl HeldLoad {
 }
 
 impl Perturbation {
-    /// The load, if it is one.
+    /// The load, if this is a load.
     pub fn load(&self) -> Option<HeldLoad> {
         match *self {
             Self::Load {
@@ -297,7 +298,7 @@ impl Perturbation {
         }
     }
 
-    /// True if the other hand is to help with this load while that hand holds another one.
+    /// Whether the other hand should help with this load while it holds `other`.
     pub fn wants_hand_of(&self, other: &Self) -> bool {
         let (Self::Helped { load, .. }, Some(held)) = (self, other.load()) else {
             return false;
@@ -318,7 +319,7 @@ impl Perturbation {
         }
     }
 
-    /// When it ends, s.
+    /// Time at which it ends, s.
     pub fn ends(&self) -> f64 {
         match self {
             Self::Load { to, .. } | Self::Force { to, .. } => *to,
@@ -326,7 +327,7 @@ impl Perturbation {
         }
     }
 
-    /// Lets it end at `time`, s.
+    /// Makes it end at `time`, s.
     pub fn end_at(&mut self, time: f64) {
         *self.end() = time;
     }

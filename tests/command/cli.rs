@@ -1,6 +1,6 @@
-//! The `sinew` command as a shell and a terminal meet it: exit codes, pipes that end early, output without escape
-//! codes, names and numbers. Method: the real binary with real pipes; motions are built in or tiny BVH texts that are
-//! written here.
+//! The `sinew` command as seen from a shell and a terminal: exit codes, pipes that end early, output without escape
+//! codes, names and numbers. Method: the real binary with real pipes; motions are built in, or tiny BVH texts written
+//! here.
 
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -99,7 +99,7 @@ const BONES: [(&str, Option<usize>, [f64; 3], Option<[f64; 3]>); 18] = [
     ("RightUpLeg", Some(0), [-0.09, -0.02, 0.0], None),
     ("RightLeg", Some(16), [0.0, -0.42, 0.0], None),
 ];
-/// The right foot: as the left one.
+/// The right foot, the same as the left one.
 const RIGHT_FOOT: (&str, [f64; 3], [f64; 3]) = ("RightFoot", [0.0, -0.41, 0.0], [0.0, -0.07, 0.14]);
 
 /// A recording of a second of standing in that pose: `unit` metres per file unit, the y or the z axis up.
@@ -153,7 +153,7 @@ fn write_bone(
     out.push_str("}\n");
 }
 
-/// A pipe that nobody reads any more.
+/// A pipe without a reader.
 fn closed_pipe() -> std::io::PipeWriter {
     let (reader, writer) = std::io::pipe().expect("a pipe");
     drop(reader);
@@ -413,7 +413,7 @@ fn a_secret_that_is_not_there_can_be_made() {
 fn a_survey_of_one_clip_that_cannot_be_read_says_so_once() {
     let dir = Scratch::new("unreadable");
     let out = dir.path("survey.json");
-    // There is nothing at the beginning of the memory of a process.
+    // Reading the beginning of a process's memory fails.
     let text = succeed(&["survey", "/proc/self/mem", "--out", &out]);
     assert!(
         text.contains("1 clip, 1 of them could not be read"),
@@ -534,7 +534,7 @@ fn a_reader_that_ends_early_ends_the_command_quietly() {
             "sinew {args:?}: {errors}"
         );
     }
-    // An error that nobody reads is an error all the same, not a panic.
+    // An unread error message is still an error, not a panic.
     let out = command(&["run", "no/such.bvh"])
         .stderr(closed_pipe())
         .status();
@@ -649,7 +649,7 @@ fn settings_are_checked_and_shown_with_where_they_come_from() {
     assert_eq!(misspelt.status.code(), Some(USAGE));
     let said = stderr(&misspelt);
     assert!(said.contains("did you mean SINEW_MAX_WORLDS?"), "{said}");
-    // Everything that is wrong is named at once.
+    // All faults are named at once.
     let no_key = scratch.file("empty.json", "{\"keys\": []}");
     let secret = scratch.file("secret", "password1");
     let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
@@ -844,7 +844,7 @@ fn help_texts_name_things_by_their_terms() {
     }
 }
 
-/// A bench of two worlds that takes longer than any test waits, with its data directory below `parent`.
+/// A bench of two worlds that outlasts every wait of a test, with its data directory below `parent`.
 #[cfg(unix)]
 fn bench_below(parent: &Path) -> std::process::Child {
     Command::new(env!("CARGO_BIN_EXE_sinew"))
@@ -892,7 +892,7 @@ fn a_bench_that_is_interrupted_takes_its_directory_away_and_no_other() {
         assert_eq!(bench.wait().expect("it ends").code(), Some(1), "{signal}");
         assert_eq!(here(), ["sinew-bench-1"], "{signal}");
     }
-    // Nor does anything stay of a server that does not start.
+    // A server that does not start leaves nothing behind either.
     let broken = sinew(&[
         "bench",
         "--durability",

@@ -1,4 +1,4 @@
-//! The real binary: as a shell meets it, under attack, killed, and over hours in short.
+//! The real binary: from a shell, under attack, killed, and in a shortened run of hours.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
 #[cfg(target_os = "linux")] // limits of a process and its memory as Linux tells them

@@ -1,16 +1,16 @@
 //! Goal: `docs/paper` is a page of this build. Method: `sinew paper` writes it again into a folder of the test, and
 //! every line is compared with the one that is committed: its words exactly, its numbers within a tolerance. Times of
-//! the machine that wrote the page are left out. When this test fails after a change that is meant, `sinew paper`
-//! writes the page anew; look at its strips.
+//! the machine that wrote the page are left out. When this test fails after an intended change, `sinew paper` writes
+//! the page again; check its strips.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Numbers agree within this share of the larger one …
 const SHARE: f64 = 0.02;
-/// … or within so many units of their last printed digit.
+/// … or within this many units of their last printed digit.
 const DIGITS: f64 = 2.0;
-/// Columns with one of these in their heading hold times of the machine, or what rounding leaves.
+/// Columns with one of these in their heading hold times of the machine, or rounding errors.
 const NOT_COMPARED: [&str; 4] = ["µs", "speed", "computing time", "relative difference"];
 
 /// A line without its numbers, and the numbers with the unit of their last digit.
@@ -49,7 +49,7 @@ impl Line {
         out
     }
 
-    /// True if the words are the same and the numbers agree.
+    /// Whether the words are the same and the numbers agree.
     fn agrees(&self, other: &Self) -> bool {
         self.words == other.words
             && self.numbers.len() == other.numbers.len()
@@ -88,7 +88,7 @@ fn lines(page: &str) -> Vec<String> {
         .collect()
 }
 
-/// What differs, line by line; empty if the pages agree.
+/// The differences, line by line; empty if the pages agree.
 fn differences(committed: &str, written: &str) -> Vec<String> {
     let (a, b) = (lines(committed), lines(written));
     let mut out = Vec::new();
@@ -148,7 +148,7 @@ fn the_page_about_the_paper_is_written_by_this_build() {
             found.join("\n")
         );
     }
-    // Pictures are not compared, but there are as many: `recorded.md` comes from `sinew paper --recordings`.
+    // Pictures are not compared, but their number is: `recorded.md` comes from `sinew paper --recordings`.
     let kept = std::fs::read_dir(&committed).expect("the folder").count();
     assert_eq!(made.expect("a folder was written") + 1, kept);
 }

@@ -1,5 +1,5 @@
-//! The offline commands as a user meets them: `sinew run` on built-in motions writes what it promises, and wrong
-//! arguments are answered with what is wrong. Method: the real binary, files in a directory of its own per test.
+//! The offline commands as a user sees them: `sinew run` on built-in motions writes all promised output, and wrong
+//! arguments are named. Method: the real binary, files in a separate directory per test.
 
 use serde_json::Value;
 use std::path::PathBuf;
@@ -65,7 +65,7 @@ fn succeed(args: &[&str]) -> String {
     String::from_utf8(out.stdout).expect("UTF-8")
 }
 
-/// Runs with arguments that must be refused; returns what it says.
+/// Runs with arguments that must be refused; returns the message.
 fn fail(args: &[&str]) -> String {
     let out = sinew(args);
     assert!(!out.status.success(), "sinew {args:?} should be refused");
@@ -278,7 +278,7 @@ fn files_have_the_promised_content() {
             .expect("a picture")
             .starts_with(b"\x89PNG\r\n\x1a\n")
     );
-    // What was written can be read again, by the same program.
+    // The same program can read its output.
     let text = std::fs::read(&bvh).expect("a motion");
     let motion = sinew_physics::motion::Bvh::parse(&text).expect("our own BVH");
     assert_eq!(motion.frame_count, 30);
@@ -574,7 +574,7 @@ fn a_clip_that_is_tracked_is_not_rehearsed() {
 fn who_did_a_motion_does_it_again_by_the_strength_that_it_took() {
     let scratch = Scratch::new("strength");
     let (file, cells) = (scratch.file("person.json"), scratch.file("cells.json"));
-    // A weak old woman, seen lifting 5 kg.
+    // A weak old woman, lifting 5 kg.
     let person = ["--body", "female-75y-1600mm-67000g", "--load", "5@r_hand"];
     let mut args = vec!["strength", "builtin:lift", "--percentile", "5"];
     args.extend(person);
@@ -600,7 +600,7 @@ fn who_did_a_motion_does_it_again_by_the_strength_that_it_took() {
     let motion = run(&["--strength-file", &file], "motion.json");
     println!("by the tables {tables:.2}°, by the motion {motion:.2}°");
     assert!(motion < 0.5 && tables > 3.0 * motion);
-    // Recordings: a weak old man, seen walking, lifting and jumping.
+    // Recordings: a weak old man, walking, lifting and jumping.
     for clip in ["walk-normal.cmu", "lift.vrm", "jump.vrm"] {
         let clip = format!(
             "{}/tests/corpus/{clip}.bvh",

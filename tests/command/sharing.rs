@@ -1,4 +1,4 @@
-//! The commands of `docs/sharing.md`, run as they stand there.
+//! The commands of `docs/sharing.md`, run exactly as printed.
 
 use crate::operations::support::Temporary;
 use std::path::Path;

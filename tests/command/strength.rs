@@ -1,4 +1,4 @@
-//! A strength file of `sinew strength` is what a request takes: as JSON, with the same effect to the last bit.
+//! A request accepts a strength file of `sinew strength` as JSON, with the same effect to the last bit.
 
 use crate::support::TestServer;
 use prost::Message;
@@ -26,7 +26,7 @@ fn json(path: &Path) -> serde_json::Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// The message that a client makes of proto3 JSON.
+/// The message that a client makes from proto3 JSON.
 fn strength(file: &serde_json::Value) -> pb::StrengthScale {
     let pool = DescriptorPool::decode(DESCRIPTOR_SET).unwrap();
     let kind = pool.get_message_by_name("sinew.v1.StrengthScale").unwrap();
@@ -66,7 +66,7 @@ async fn a_strength_file_is_taken_by_requests_and_does_what_the_command_does() {
         strength: Some(strength.clone()),
         ..Default::default()
     };
-    // A figure of a world has it.
+    // A figure in a world has this strength.
     let world = server.paused_world("w").await;
     let made = server
         .client
@@ -82,7 +82,7 @@ async fn a_strength_file_is_taken_by_requests_and_does_what_the_command_does() {
         .into_inner();
     let has = made.figure.unwrap().strength.unwrap();
     assert_eq!((has.percentile, &has.dofs), (5.0, &strength.dofs));
-    // And it moves as the command says, to the last bit; with the strength of the tables it does not.
+    // It also moves as in the command, to the last bit; with the strength of the tables it does not.
     let report = json(&report);
     let simulate = |figure: pb::Figure| pb::SimulateClipRequest {
         source: Some(pb::simulate_clip_request::Source::Clip("clips/lift".into())),

@@ -1,4 +1,4 @@
-//! Goal: a survey is the same on any number of threads, goes on where it was interrupted, sees wrong physics and
+//! Goal: a survey is the same on any number of threads, resumes where it was interrupted, detects wrong physics and
 //! wrong labels, and is clean when nothing has changed. Method: built-in motions and a recording written from one of
 //! them, through the `sinew` binary and through the library.
 
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::Arc;
 
-/// What time steps of 1/120 s leave of an impulse balance that is 0.
+/// Error of time steps of 1/120 s in an impulse balance of 0.
 const BALANCE: f64 = 1e-3;
 
 struct Folder(PathBuf);
@@ -138,7 +138,7 @@ fn a_survey_is_the_same_on_any_number_of_threads_and_goes_on_where_it_stopped() 
         "there is no file that could have noise"
     );
 
-    // Unknown keys and a line that was cut short count for nothing.
+    // Unknown keys and a truncated line are ignored.
     let line = "{\"key\":\"0\",\"done\":{\"Failed\":\"no\"}}\n{\"key\": \"cut sho";
     std::fs::write(f.0.join("again.json.partial"), line).unwrap();
     of("again.json", "2");
@@ -311,12 +311,12 @@ fn labels_of_one_foot_that_are_wrong_are_seen() {
     let body = Body::adult_man();
     let right = Reference::authored(Arc::new(builtin(&body, "walk").unwrap()));
     let good = row(&right);
-    // What the left foot does is said of the right one, too.
+    // Labels of the left foot are given to the right one, too.
     let mut mirrored = right.clone();
     for phase in &mut mirrored.phases {
         phase.planted[1] = phase.planted[0];
     }
-    // The left foot does everything 0.15 s too soon. (The figure lands up to 0.15 s after the label of this motion.)
+    // The left foot is labelled 0.15 s too early. (The figure lands up to 0.15 s after the label of this motion.)
     let mut early = right.clone();
     let mut cuts: Vec<f64> = (right.phases.iter())
         .flat_map(|p| [p.end - 0.15, p.end])

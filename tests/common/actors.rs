@@ -1,4 +1,4 @@
-//! People who do something, for tests that compare the bits of whole worlds. No platform mathematics.
+//! Figures in action, for tests that compare the bits of whole worlds. No platform mathematics.
 
 use super::{authored, bent, figure, man, people, play, still};
 use sinew_physics::body::angles::{anatomical_angles, set_anatomical_angles};
@@ -93,7 +93,7 @@ pub fn swing(body: &Body) -> Arc<Clip> {
     Arc::new(Clip::from_postures("swing", 60.0, postures, planted).unwrap())
 }
 
-/// A figure, its drive and what happens to it.
+/// A figure, its drive and its disturbances.
 pub struct Actor {
     pub setup: FigureSetup,
     pub drive: Drive,
@@ -101,7 +101,7 @@ pub struct Actor {
 }
 
 impl Actor {
-    /// Puts figure and motion elsewhere.
+    /// Moves figure and motion to another place.
     pub fn shift(&mut self, by: Vec3) {
         let p = &mut self.setup.state.posture.root_position;
         *p += by;
@@ -110,7 +110,7 @@ impl Actor {
         }
     }
 
-    /// Goes into a world.
+    /// Adds the figure to a world.
     pub fn enter(&self, world: &mut World) -> FigureKey {
         let key = world.add_figure(self.setup.clone()).unwrap();
         world.figure_mut(key).unwrap().set_drive(self.drive.clone());
@@ -132,7 +132,7 @@ pub fn subject(kind: ControllerKind, newtons: f64) -> Actor {
     }
 }
 
-/// Different people who do different things, some of them falling.
+/// Different people performing different motions, some of them falling.
 pub fn crowd(count: usize) -> Vec<Actor> {
     let bodies = people(&[
         (Sex::Male, 25.0, 1.88, 92.0),
@@ -165,7 +165,7 @@ pub fn crowd(count: usize) -> Vec<Actor> {
         .collect()
 }
 
-/// An empty world that is stepped by so many threads.
+/// An empty world stepped by `threads` threads.
 pub fn world(threads: usize) -> World {
     World::new(WorldParams {
         threads,

@@ -1,5 +1,5 @@
-//! Scenes with obstacles: an obstacle at rest, and the books of momentum, work and overlap of a world in which bodies
-//! collide.
+//! Scenes with obstacles: an obstacle at rest, and the balances of momentum, work and overlap of a world in which
+//! bodies collide.
 
 use sinew_evaluate::audit;
 use sinew_physics::collide::{Mobility, ObstacleSetup, Other, Shape};
@@ -21,7 +21,7 @@ pub fn obstacle(shape: Shape, mobility: Mobility, position: Vec3) -> ObstacleSet
     }
 }
 
-/// What a run of a world with collisions showed.
+/// Measurements of a run of a world with collisions.
 #[derive(Debug, Default)]
 pub struct Meter {
     ticks: u64,
@@ -32,7 +32,7 @@ pub struct Meter {
     /// Largest overlap, and the largest later than 0.2 s after the first touch, m.
     depth: f64,
     late_depth: f64,
-    /// Work of contacts, J, and the largest of one tick that they drove a motion with instead of stopping it.
+    /// Work of contacts, J, and the largest work in one tick by which they drove a motion instead of stopping it.
     work: f64,
     gain: f64,
     unfinished: u64,
@@ -43,11 +43,11 @@ pub struct Meter {
     first: Option<u64>,
 }
 
-/// Largest work that the return from overlaps of a fraction of a millimetre may add in a tick, J.
+/// Largest work that the correction of overlaps of a fraction of a millimetre may add in a tick, J.
 const RETURN_WORK: f64 = 0.02;
 
 impl Meter {
-    /// What every scene must keep, and what it came to, on one line.
+    /// Checks the bounds of every scene, and prints the measurements on one line.
     pub fn judge(&self, what: &str, rate: f64) {
         let text = format!(
             "{what}: touched {} ticks, {:.1} switches/s, unbalanced {:.1e}, equations {:.1e}, overlap {:.2} mm, after \

@@ -9,7 +9,7 @@ pub fn read(name: &str) -> Vec<u8> {
     std::fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
-/// The same, cut to the frames between two times, s: such a recording begins and ends in motion.
+/// [`read`], cut to the frames between two times, s. Such a recording begins and ends in motion.
 pub fn piece(name: &str, from: f64, until: f64) -> Vec<u8> {
     let text = String::from_utf8(read(name)).expect("the corpus is text");
     let (hierarchy, motion) = text.split_once("MOTION").expect("a BVH file has motion");

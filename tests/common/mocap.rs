@@ -24,13 +24,13 @@ pub const CLIPS: [&str; 18] = [
     "wave",
 ];
 
-/// The recordings of people who stay on their feet: all but of those who lie down and of one who sits.
+/// The recordings in which people stay on their feet: all except those with lying and sitting.
 pub fn on_feet() -> impl Iterator<Item = &'static str> {
     let others = ["fall-rise", "get-up", "sit-stand"];
     CLIPS.into_iter().filter(move |name| !others.contains(name))
 }
 
-/// Bytes of a file of the data set. Panics with what to do if the file is not there.
+/// Bytes of a file of the data set. Panics with instructions if the file is missing.
 pub fn read(file: &str) -> Vec<u8> {
     let folders = std::env::var_os("SINEW_MOCAP_DIR").unwrap_or_default();
     let folders: Vec<PathBuf> = std::env::split_paths(&folders).collect();

@@ -47,7 +47,7 @@ pub fn recorded(body: &Body, name: &str) -> Arc<Clip> {
     recorded_with(body, name, &RetargetOptions::default())
 }
 
-/// The same, fitted as `options` say.
+/// [`recorded`], fitted with `options`.
 pub fn recorded_with(body: &Body, name: &str, options: &RetargetOptions) -> Arc<Clip> {
     let bvh =
         Bvh::parse(&mocap::read(&format!("{name}.bvh"))).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -76,7 +76,7 @@ pub fn authored(body: &Body, name: &str) -> Arc<Clip> {
     Arc::new(builtin(body, name).unwrap_or_else(|| panic!("no built-in motion {name}")))
 }
 
-/// At rest in `posture`.
+/// A state at rest in `posture`.
 pub fn still(posture: Posture) -> State {
     State::at_rest(posture)
 }
@@ -108,7 +108,7 @@ impl Scene {
         Self::with(WorldParams::default(), setup)
     }
 
-    /// The same in a world of other parameters.
+    /// [`Self::of`] in a world with other parameters.
     pub fn with(params: WorldParams, setup: FigureSetup) -> Self {
         let mut world = World::new(params).unwrap();
         let key = world.add_figure(setup).unwrap();
@@ -157,7 +157,7 @@ impl Scene {
         metrics.finish(self.world.state_hash())
     }
 
-    /// What the last tick shows of the figure.
+    /// The figure's report of the last tick.
     pub fn tick(&self) -> Tick<'_> {
         let figure = self.figure();
         Tick::of(figure, self.world.params().gravity)

@@ -1,4 +1,4 @@
-//! gRPC messages as bytes, for what no generated client sends.
+//! gRPC messages as bytes, for content that no generated client sends.
 
 use tonic::Status;
 use tonic::codec::{Codec, DecodeBuf, Decoder, EncodeBuf, Encoder};

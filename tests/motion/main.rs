@@ -1,4 +1,4 @@
-//! Motion files and what is made of them: reading, fitting, preparation.
+//! Reading, fitting and preparing motion files.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
 #[path = "../common/mod.rs"]

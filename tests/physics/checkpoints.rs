@@ -1,8 +1,8 @@
-//! Goal: a world that is restored from a checkpoint goes on bit for bit, whatever its figures are doing, on any number
-//! of threads; and bytes that are not a checkpoint are refused. Method: scenes of everything that figures do are run
-//! once. From the checkpoints on the way new worlds are made, which are stepped on with the same commands: the hash of
-//! each tick is compared, and at later checkpoints every byte of the state with its reports. What is not in a
-//! checkpoint is fresh in the new world, so a state that was left out shows as soon as it matters.
+//! Goal: a world restored from a checkpoint continues bit for bit, whatever its figures are doing, on any number of
+//! threads; and bytes that are not a checkpoint are refused. Method: scenes of everything that figures do are run once.
+//! New worlds are made from the checkpoints along the way and stepped with the same commands. The hash of each tick is
+//! compared, and at later checkpoints every byte of the state with its reports. Values missing from a checkpoint are
+//! fresh in the new world, so a state that was left out shows as soon as it matters.
 
 mod forged;
 
@@ -34,7 +34,7 @@ use sinew_physics::world::{
 };
 use std::sync::Arc;
 
-/// A world, what is done to it before each tick, and when to look.
+/// A world, its commands before each tick, and the ticks to check.
 struct Scenario {
     name: &'static str,
     world: World,
@@ -190,7 +190,8 @@ fn the_golden_scenes() {
     ));
 }
 
-/// Reaches for a load that is too heavy for one arm, holds it with both, is needed elsewhere, goes back.
+/// The second hand reaches for a load that is too heavy for one arm, helps to hold it, is needed elsewhere, and
+/// returns.
 #[test]
 fn a_second_hand() {
     for kind in KINDS {
@@ -226,14 +227,14 @@ fn a_second_hand() {
 fn people_who_touch_each_other() {
     let mut world = world(2);
     for (i, mut actor) in crowd(9).into_iter().enumerate() {
-        // Some begin inside each other, some come to touch.
+        // Some begin inside each other, and some touch later.
         actor.shift(vec3(0.45 * (i / 2) as f64, 0.35 * (i % 3) as f64, 0.0));
         actor.enter(&mut world);
     }
     goes_on_bit_for_bit(Scenario::new("crowd", world, 90, 11));
 }
 
-/// Those who pass through each other are pairs of figures that there are, also before the next tick.
+/// Pairs of figures that pass through each other contain only existing figures, even before the next tick.
 #[test]
 fn a_figure_that_is_gone_passes_through_nobody() {
     let mut world = world(1);
@@ -263,7 +264,7 @@ fn prescribed_accelerations() {
     }
 }
 
-/// Walks, stops, lifts, walks again, goes over to another walk, and is put elsewhere.
+/// Walks, stops, lifts, walks again, switches to another walk, and is moved elsewhere.
 fn transitions() -> Scenario {
     let body = man();
     let (walk, lift) = (authored(&body, "walk"), authored(&body, "lift"));
@@ -376,7 +377,7 @@ fn a_live_stream_that_breaks_off() {
     goes_on_bit_for_bit(streamed());
 }
 
-/// Lies down, and rises by the same way.
+/// Lies down, and rises by the reversed motion.
 fn lying_down_and_up(body: &Body) -> Arc<Clip> {
     let bvh = Bvh::parse(&corpus::read("lie-down.vrm")).unwrap();
     let clip = retarget(&bvh, body, &RetargetOptions::default())
@@ -427,7 +428,7 @@ fn a_figure_is_carried() {
     goes_on_bit_for_bit(Scenario::new("carried", helped(), 240, 13));
 }
 
-/// The impulse between the hands is found anew from the last one, and hardly changes.
+/// The impulse between the hands is computed again, starting from the last one, and hardly changes.
 #[test]
 fn a_load_in_both_hands_is_held_at_rest() {
     let body = man();
@@ -491,7 +492,7 @@ fn things() -> Scenario {
     };
     Scenario::new("things", world, 200, 11).with(&[30, 33, 36, 60], move |world, tick| {
         match tick {
-            // A place that is given again and again, then taken off.
+            // A constraint that is set again and again, then removed.
             20..60 if tick % 3 == 0 => {
                 let com = Constraint {
                     on: Constrained::CenterOfMass,
@@ -537,7 +538,7 @@ fn targets_that_the_caller_sets() {
 
 #[test]
 fn what_threads_decided_about_plans_is_an_input() {
-    // Plans that nobody works out are late in every tick until they are.
+    // Plans that no thread computes are late in every tick until they are computed.
     let mut s = transitions();
     s.world.set_planning(Planning::Aside);
     let start = bytes(&s.world);
@@ -611,7 +612,7 @@ fn definitions_are_written_once_and_kept_elsewhere_by_hash() {
         again.step();
         assert_eq!(world.state_hash(), again.state_hash());
     }
-    // Those of a world that is gone are forgotten.
+    // The definitions of a dropped world are forgotten.
     let held = known.bytes();
     drop(world);
     known.prune();

@@ -1,8 +1,8 @@
-//! Goal: a figure's motion is a function of its input alone: the same on every run, on any number of threads, and
-//! whoever else is in the world. Method: hashes over all bits of the state after a run. Golden hashes are committed in
-//! `tests/golden/hashes.txt`; their scenes are built with the arithmetic of the simulation alone (no platform
-//! mathematics), so they hold on every machine. After an intended change of the physics:
-//! `SINEW_MINT_GOLDEN=1 cargo test --no-default-features --test determinism golden`.
+//! Goal: a figure's motion is a function of its input alone: the same in every run, on any number of threads, and with
+//! any other figures in the world. Method: hashes over all bits of the state after a run. Golden hashes are committed
+//! in `tests/golden/hashes.txt`; their scenes are built with the arithmetic of the simulation alone (no platform
+//! mathematics), so they hold on every machine. After an intended change of the physics: `SINEW_MINT_GOLDEN=1 cargo
+//! test --no-default-features --test determinism golden`.
 
 use crate::common::actors::{KINDS, crowd, in_both_hands, subject, world};
 use crate::common::{Scene, bent, figure, still};
@@ -76,7 +76,7 @@ fn threads_do_not_matter() {
 #[test]
 fn neighbours_do_not_matter() {
     let mut neighbours = crowd(50);
-    // Out of reach: whoever is touched does notice.
+    // Out of reach, because contact does have an effect.
     for (i, actor) in neighbours.iter_mut().enumerate() {
         actor.shift(Vec3 {
             x: 100.0,
@@ -89,7 +89,7 @@ fn neighbours_do_not_matter() {
         let mut alone = world(1);
         let key = actor.enter(&mut alone);
         let want = trace(&mut alone, key, 90);
-        // In the middle of the crowd, so that any split over threads or lanes puts others beside it; one leaves
+        // In the middle of the crowd, so that any split over threads or lanes changes its neighbours; one figure leaves
         // half-way.
         let mut full = world(2);
         let mut keys: Vec<_> = neighbours[..23]
@@ -123,7 +123,7 @@ fn worlds_that_a_thread_steps_in_turns_do_not_matter() {
                 out.push((world, key));
             }
         }
-        // Two who meet need a workspace each.
+        // Two figures that meet need a workspace each.
         let mut meet = world(1);
         let key = subject(ControllerKind::Modern, 800.0).enter(&mut meet);
         let mut other = subject(ControllerKind::Modern, 0.0);
@@ -134,7 +134,7 @@ fn worlds_that_a_thread_steps_in_turns_do_not_matter() {
         });
         other.enter(&mut meet);
         out.push((meet, key));
-        // A load in both hands is one more unknown, and begins with what the last substep found.
+        // A load in both hands is one more unknown, and starts from the solution of the last substep.
         let mut carries = world(1);
         let mut carrier = subject(ControllerKind::Modern, 20.0);
         carrier.perturbations[0] = Perturbation::Held(in_both_hands(0.1));
@@ -145,7 +145,7 @@ fn worlds_that_a_thread_steps_in_turns_do_not_matter() {
     let alone: Vec<Vec<u64>> = scenes()
         .into_iter()
         .map(|(mut world, key)| {
-            // On a thread that has never stepped another.
+            // Run it on a thread that has never stepped another world.
             let run = move || trace(&mut world, key, 90);
             std::thread::spawn(run).join().unwrap()
         })
@@ -164,7 +164,7 @@ fn worlds_that_a_thread_steps_in_turns_do_not_matter() {
         }
     }
     assert_eq!(alone, got);
-    // They did different things, and two met.
+    // The figures moved differently, and two met.
     assert!(touched > 0);
     let mut ends: Vec<u64> = got.iter().map(|g| g[8]).collect();
     ends.sort_unstable();

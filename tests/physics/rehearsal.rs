@@ -1,6 +1,6 @@
-//! Goal: a rehearsal finds the same on any number of threads and can be stopped; a figure does in a world what was
-//! rehearsed, bit for bit; the hold gives nothing on its path, leads back to it, and lets go of what is out of reach;
-//! help keeps its bound. Method: short parts of built-in motions, searched with few samples.
+//! Goal: a rehearsal has the same result on any number of threads and can be stopped; a figure in a world repeats its
+//! rehearsal bit for bit; the hold exerts no force on its path, leads back to it, and lets go when the path is out of
+//! reach; help keeps its bound. Method: short parts of built-in motions, searched with few samples.
 
 use sinew_physics::body::topology::CHEST;
 use sinew_physics::body::{Body, NV, State};
@@ -16,8 +16,8 @@ use sinew_physics::world::{
 };
 use std::sync::{Arc, OnceLock};
 
-/// What the solver's tolerance of 1e-4 N·m·s per substep leaves of a path when a spring is solved along with it, m and
-/// rad: hands turn with 1e-2 kg·m².
+/// Deviation from a path that the solver's tolerance of 1e-4 N·m·s per substep causes when a spring is solved along
+/// with it, m and rad: hands turn with 1e-2 kg·m².
 const SOLVED: f64 = 1e-3;
 /// Help that this costs, N and N·m: a thousandth of the weight.
 const SLIGHT: f64 = 0.75;
@@ -44,7 +44,7 @@ fn problem() -> Problem {
     Problem::new(body, &StrengthScale::default(), world.friction, stage)
 }
 
-/// Half a second of a squat, on its way down.
+/// Half a second of the downward phase of a squat.
 fn squat(body: &Body) -> Clip {
     let whole = builtin(body, "squat").unwrap();
     let at = |i: usize| whole.sample(0.8 + i as f64 / 60.0);
@@ -335,7 +335,7 @@ fn taking_help_away_can_be_stopped() {
     assert!(r.help.impulse > 0.0 && r.motion.is_valid());
 }
 
-/// A body that slides on its soles, faster than it could walk: strength cannot do that.
+/// A body that slides on its soles, faster than it could walk: which no strength can do.
 fn slide(body: &Body) -> Clip {
     let stand = builtin(body, "idle").unwrap().sample(0.0).posture;
     let postures = (0..=40).map(|i| {

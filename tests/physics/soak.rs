@@ -1,8 +1,8 @@
-//! Goal: nothing that a client can ask for makes the simulation say a number that is not finite, give more torque than
-//! strength, panic, hang, or take unbounded time. Method: worlds at random: people, strengths, controllers, loads,
-//! pushes up to the largest that is taken, obstacles of every shape and mobility on top of figures, desired postures
-//! that jump by half a turn from tick to tick. Seeded; `SINEW_SOAK_TICKS` figure-ticks (default 20 000, `make soak`: a
-//! million), `SINEW_SOAK_SEED` for another run. What is refused must be refused by name and change nothing.
+//! Goal: no request of a client makes the simulation report a number that is not finite, exceed its strength, panic,
+//! hang, or take unbounded time. Method: random worlds: people, strengths, controllers, loads, pushes up to the largest
+//! that is accepted, obstacles of every shape and mobility on top of figures, desired postures that jump by half a turn
+//! from tick to tick. Seeded; `SINEW_SOAK_TICKS` figure-ticks (default 20 000, `make soak`: a million),
+//! `SINEW_SOAK_SEED` for another run. Refused input must be named and must change nothing.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -15,13 +15,13 @@ use sinew_physics::world::{Drive, FigureKey, World, WorldError, WorldParams};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Figures of one world, and ticks it lives.
+/// Figures in one world, and its lifetime in ticks.
 const FIGURES: usize = 3;
 const TICKS: u64 = 120;
 /// Longest time of one tick of three figures in the development profile on a busy machine; a median tick takes a
 /// thousandth of it.
 const LONGEST_TICK: Duration = Duration::from_secs(3);
-/// What CI may take.
+/// Time allowed in CI.
 const ENOUGH: Duration = Duration::from_secs(60);
 
 fn number(name: &str, default: u64) -> u64 {
@@ -52,7 +52,7 @@ impl Chaos {
             z: self.within(most),
         }
     }
-    /// Anything from a thousandth of `most` to `most`, evenly by order of magnitude.
+    /// A number from a thousandth of `most` to `most`, distributed evenly on a logarithmic scale.
     fn size(&mut self, most: f64) -> f64 {
         most * 10f64.powf(self.rng.random_range(-3.0..=0.0))
     }
@@ -178,11 +178,11 @@ impl Chaos {
         }
     }
 
-    /// Something new for one figure, now and then.
+    /// Occasionally disturbs one figure.
     fn disturb(&mut self, world: &mut World, key: FigureKey) {
         let body = Arc::clone(world.figure(key).unwrap().body());
         if self.often(0.2) {
-            // Now and next have nothing to do with each other: half a turn within one tick.
+            // The present and the next target are unrelated: up to half a turn within one tick.
             let target = |chaos: &mut Self| {
                 let posture = chaos.posture(&body, 3.0);
                 Target {
@@ -234,7 +234,7 @@ struct Seen {
     slowest: Duration,
 }
 
-/// One world from birth to end.
+/// Runs one world from start to end.
 fn live(seed: u64, people: &[Arc<Body>], seen: &mut Seen) {
     let mut chaos = Chaos {
         rng: Pcg64Mcg::seed_from_u64(seed),
@@ -261,7 +261,7 @@ fn live(seed: u64, people: &[Arc<Body>], seen: &mut Seen) {
             chaos.disturb(&mut world, *key);
         }
         if chaos.often(0.02) && !things.is_empty() {
-            // Out of the blue, in the middle of a figure.
+            // Appears suddenly, in the middle of a figure.
             let (i, setup) = (chaos.rng.random_range(0..things.len()), chaos.obstacle(0.3));
             world.update_obstacle(things[i], setup).unwrap();
         }
@@ -349,7 +349,7 @@ fn nothing_that_can_be_asked_for_breaks_a_world() {
         }
     }
     println!("{seen:?}, {:?}", start.elapsed());
-    // None in the short run; few in the million, of 8 million contacts' islands.
+    // None in the short run, and few in the million ticks, out of 8 million islands of contacts.
     let most = if bounded {
         0
     } else {

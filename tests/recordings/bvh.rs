@@ -1,5 +1,5 @@
-//! Goal: the BVH reader places every joint of all 18 real clips where an independent reader put it.
-//! Method: `expected.json` beside the clips holds joint positions of four frames each, rounded to five decimals.
+//! Goal: the BVH reader places every joint of all 18 real clips where an independent reader places it. Method:
+//! `expected.json` beside the clips holds joint positions of four frames each, rounded to five decimals.
 
 use crate::common::mocap::read;
 use sinew_physics::motion::bvh::Bvh;

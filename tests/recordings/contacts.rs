@@ -1,5 +1,5 @@
-//! Goal: recorded people who touch each other and what they sit on follow their motion, and the books of contact forces
-//! are closed. Method: a couple that dances, and a person who sits down on stools of several sizes at several places.
+//! Goal: figures that touch each other or their seat follow their recorded motion, and contact forces balance. Method:
+//! a dancing couple, and a person sitting down on stools of several sizes at several places.
 
 use crate::common::collisions::{Meter, obstacle};
 use crate::common::{figure, man, play, recorded_with};
@@ -15,7 +15,7 @@ use sinew_physics::retarget::RetargetOptions;
 use sinew_physics::world::{World, WorldParams};
 use std::sync::Arc;
 
-/// A recording where and as it was taken, so that partners stay partners.
+/// A recording at its original place and size, so that partners stay together.
 fn dancing(body: &Body, name: &str) -> Arc<Clip> {
     let options = RetargetOptions {
         keep_origin: true,
@@ -45,14 +45,14 @@ fn a_couple_dances_salsa() {
     m.judge(&format!("salsa, fell {fell:?}"), 60.0);
 }
 
-/// Sits down on a stool, moves about on it, gets up, turns and walks away: wherever the stool is, within what the
-/// motion can mean. While it sits, its feet stay where they are.
+/// Sits down on a stool, moves about on it, gets up, turns and walks away: wherever the stool is, within reason. While
+/// it sits, its feet stay in place.
 #[test]
 fn a_figure_sits_down_and_gets_up() {
     let body = man();
     let clip = recorded_with(&body, "sit-stand", &RetargetOptions::default());
-    // Side, height and place of the stool, m, and joint error that is allowed, degrees. The first is where the motion
-    // sits: under the pelvis, and as high as a rigid pelvis can be there. On one that is too high or low the legs
+    // Side, height and place of the stool, m, and joint error that is allowed, degrees. The first is at the seat of the
+    // motion: under the pelvis, and as high as a rigid pelvis can be there. On one that is too high or low the legs
     // cannot be as recorded, and a small one ends under the thighs.
     for (side, height, x, most) in [
         (0.44, 0.35, 0.41, 1.0),

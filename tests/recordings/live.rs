@@ -1,7 +1,7 @@
-//! Goal: streams that come while they are followed are prepared behind a window well enough to be walked, and figures
+//! Goal: streams that arrive while they are followed are prepared behind a window well enough to be walked, and figures
 //! whose driver falls silent, or whose clip is stopped, finish their step and stand. Method: recordings as a capture
-//! system would send them (fitted to the body, nothing else), sample by sample, into a figure in torque simulation.
-//! How well each is followed is in the survey (`sinew survey --live-window`).
+//! system would send them (fitted to the body, nothing else), sample by sample, into a figure in torque simulation. The
+//! survey reports how well each is followed (`sinew survey --live-window`).
 
 use crate::common::{figure, man, mocap, recorded, recorded_with};
 use sinew_physics::body::topology::{CHEST, L_FOOT, R_FOOT};
@@ -25,7 +25,7 @@ fn bare(body: &Body, name: &str) -> Arc<Clip> {
     recorded_with(body, name, &options)
 }
 
-/// Everything that comes out of a stream, and when its feet stand.
+/// The whole output of a stream, and the stance of its feet.
 fn prepared(
     body: &Arc<Body>,
     posture: impl Fn(f64) -> Posture,
@@ -48,9 +48,9 @@ fn prepared(
     out
 }
 
-/// How a figure followed.
+/// Measurements of a figure that follows.
 struct Followed {
-    /// When it fell, s.
+    /// Time of its fall, s.
     fell: Option<f64>,
     /// Errors of the joints, degrees rms.
     joints: f64,
@@ -80,7 +80,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
         let f = world.figure(key).unwrap();
         let r = f.report().unwrap();
         assert!(r.joints.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
-        // Nobody is ahead of what has come, or knows for good where he is going to land.
+        // No figure is ahead of the frames received, or knows its footholds in advance.
         if matches!(f.drive(), Drive::Live(_)) {
             assert!(f.tracker().lag() > -1e-9 && !f.tracker().has_planned_footholds());
         }
@@ -115,7 +115,7 @@ fn beginning(body: &Arc<Body>, drive: Drive) -> World {
     world
 }
 
-/// Streams `posture` into a figure, which stops where there is none.
+/// Streams `posture` into a figure; the stream stops when it returns `None`.
 fn follow(
     body: &Arc<Body>,
     posture: impl Fn(f64) -> Option<Posture>,
@@ -125,7 +125,7 @@ fn follow(
     follow_pushed(body, posture, seconds, window, None)
 }
 
-/// The same of a figure that is pushed.
+/// [`follow`] for a figure that is pushed.
 fn follow_pushed(
     body: &Arc<Body>,
     posture: impl Fn(f64) -> Option<Posture>,
@@ -161,7 +161,7 @@ fn follow_pushed(
     })
 }
 
-/// Pitch of feet with the toes up, degrees: of those that have stood for a quarter of a second, and of those that land.
+/// Pitch of feet with the toes up, degrees: for feet that have stood for a quarter of a second, and for landing feet.
 fn toes_up(body: &Body, postures: &[Posture], planted: &[[bool; 2]]) -> [f64; 2] {
     let feet = [L_FOOT, R_FOOT];
     let (mut stood, mut stands, mut lands) = ([0; 2], 0.0f64, 0.0f64);
@@ -180,7 +180,7 @@ fn toes_up(body: &Body, postures: &[Posture], planted: &[[bool; 2]]) -> [f64; 2]
     [stands, lands].map(f64::to_degrees)
 }
 
-/// A recording with a foot pitched up by some degrees while it carries everything would have its figure balance on a
+/// A recording with a foot pitched up by some degrees while it carries everything would make its figure balance on a
 /// heel. A window of a second sees enough to put the toes down; with less a dancer may turn on its heel.
 #[test]
 fn nobody_is_left_on_his_heel() {
@@ -266,7 +266,7 @@ fn a_driver_that_goes_silent_leaves_its_figure_standing() {
     assert!(all >= 18, "{all} of 24");
 }
 
-/// The recording breaks off in motion; a driver that goes on sending its last posture asks for what no body can do.
+/// The recording breaks off in motion; a driver that keeps sending its last posture demands the impossible of a body.
 #[test]
 fn a_recording_whose_last_posture_is_held_ends_in_a_stand() {
     let body = man();
@@ -288,7 +288,7 @@ fn a_recording_whose_last_posture_is_held_ends_in_a_stand() {
             standing += i32::from(f.fell.is_none() && f.speed < 0.1 && f.apart < 0.5);
         }
     }
-    // What is off by half a metre before its end does not get there.
+    // A figure that is off by half a metre before the end does not get there.
     assert!(10 * standing > 8 * all, "{standing} of {all}");
 }
 
@@ -349,8 +349,8 @@ fn a_clip_that_is_stopped_ends_in_a_stand() {
     assert!(standing >= 6, "{standing} of 8");
 }
 
-/// The way to a stand is worked out aside and takes over four ticks later, whether it has been done for long by then,
-/// has just begun, or has found nobody to work it out.
+/// The transition to a stand is computed on another thread and takes over four ticks later, whether it has long been
+/// finished, has just begun, or has found no thread to compute it.
 #[test]
 fn a_stop_takes_over_at_its_tick_however_fast_it_is_worked_out() {
     let body = man();
@@ -367,7 +367,7 @@ fn a_stop_takes_over_at_its_tick_however_fast_it_is_worked_out() {
     };
     let stopped = |wait: u64, others: usize| {
         let (mut world, key) = walking();
-        // Plans of figures that are gone before they are needed.
+        // Plans of figures that are removed before the plans are needed.
         for _ in 0..others {
             let (mut other, key) = walking();
             let time = other.time();

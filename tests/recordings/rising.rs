@@ -16,17 +16,17 @@ use std::sync::Arc;
 /// Feet and toes.
 const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 
-/// What came of `get-up`, played from its first frame for `seconds`.
+/// Result of `get-up`, played from its first frame for `seconds`.
 struct Outcome {
     scene: Scene,
-    /// When it stood, s.
+    /// Time at which it stood, s.
     up: Option<f64>,
     /// Largest relative violation of strength, and deepest point in the floor, m.
     over: f64,
     depth: f64,
 }
 
-/// Runs on and looks at everything that must hold at all times.
+/// Continues the run and checks everything that must always hold.
 fn watch(mut scene: Scene, seconds: f64) -> Outcome {
     let (mut up, mut over, mut depth) = (None, 0.0f64, 0.0f64);
     scene.run(seconds, |s| {
@@ -64,7 +64,7 @@ fn get_up_in(params: WorldParams, body: &Arc<Body>, strength: f64, seconds: f64)
     watch(scene, seconds)
 }
 
-/// Standing under `idle`, pushed at the chest for 0.2 s, and six seconds later.
+/// The figure stands playing `idle`, is pushed at the chest for 0.2 s, and runs for six more seconds.
 fn felled(body: &Arc<Body>, force: Vec3) -> Outcome {
     let clip = authored(body, "idle");
     let mut scene = Scene::playing(body, ControllerKind::Modern, &clip);
@@ -79,7 +79,7 @@ fn felled(body: &Arc<Body>, force: Vec3) -> Outcome {
     watch(scene, 6.0)
 }
 
-/// Plays `get-up` to who lies, for `seconds`.
+/// Plays `get-up` on a lying figure, for `seconds`.
 fn command(mut scene: Scene, seconds: f64) -> Outcome {
     let now = scene.world.time();
     let clip = recorded(scene.figure().body(), "get-up");
@@ -117,7 +117,7 @@ fn who_is_too_weak_stays_down() {
     assert!(out.over < 1e-9, "{}", out.over);
 }
 
-/// Average strength suffices, and so does everything around it.
+/// Average strength suffices for all these people.
 #[test]
 fn average_strength_suffices_for_men_and_women_of_all_sizes() {
     for strength in [0.8, 0.9, 1.1, 1.2, 1.5, 2.0, 3.0] {
@@ -152,7 +152,7 @@ fn neither_friction_nor_the_rate_decides_who_gets_up() {
     }
 }
 
-/// The clip ends on its back or side: it rolls over first. Rolling takes as many tries as it takes.
+/// The clip ends on its back or side: it rolls over first. Rolling may take any number of tries.
 #[test]
 fn who_lies_on_the_back_rolls_over_and_gets_up() {
     let clip = recorded(&man(), "fall-rise");
@@ -204,7 +204,7 @@ fn a_queued_clip_that_lies_and_rises_commands_getting_up() {
     let clip = ClipPlayback::new(recorded(&body, "get-up"), now);
     scene.figure_mut().play(clip, false, now);
     assert!(scene.figure().next_clip().is_some(), "it waits");
-    // Told to lie down from one moment to the next, it falls; whether it gets to its feet from there is another matter.
+    // Told to lie down at once, it falls; whether it gets up from there is not tested here.
     let (mut fell, mut rises) = (false, false);
     scene.run(10.0, |s| {
         fell |= s.figure().events().contains(&FigureEvent::Fell);
@@ -214,7 +214,7 @@ fn a_queued_clip_that_lies_and_rises_commands_getting_up() {
     assert!(fell && rises, "fell: {fell}, gets up: {rises}");
 }
 
-/// A stream says when to get up as a clip does.
+/// A stream commands getting up as a clip does.
 #[test]
 fn who_lies_under_a_stream_gets_up_when_it_does() {
     let body = man();
@@ -258,7 +258,7 @@ fn who_lies_under_a_stream_gets_up_when_it_does() {
 fn a_fall_is_no_command_to_get_up() {
     let out = felled(&man(), vec3(1500.0, 0.0, 0.0));
     assert!(out.scene.figure().is_fallen() && out.up.is_none());
-    // Limp: nothing moves any more, though the motion stands.
+    // Limp: nothing moves any more, although the motion stands.
     let mut scene = out.scene;
     let mut fastest = 0.0f64;
     scene.run(2.0, |s| {
@@ -268,7 +268,7 @@ fn a_fall_is_no_command_to_get_up() {
     assert!(fastest < 0.5, "{fastest}");
 }
 
-/// Felled on its face under a clip that stands, it stays down until another one is played that lies there and rises.
+/// A figure felled on its face while its clip stands stays down until another clip, which lies and rises, is played.
 #[test]
 fn who_was_felled_gets_up_when_a_clip_that_does_is_played() {
     let out = felled(&man(), vec3(500.0, 0.0, 0.0));

@@ -1,6 +1,6 @@
-//! Goal: a run that is kept as a run is prepared as what it is, a row of flights, and followed to its last sample.
-//! Method: clips from the motion capture folder, in torque simulation, 60 Hz with two substeps, the modern controller.
-//! They begin and end in full stride: the figure begins in the state of the first sample.
+//! Goal: a run that is kept as a run is prepared as a series of flights, and followed to its last sample. Method: clips
+//! from the motion capture folder, in torque simulation, 60 Hz with two substeps, the modern controller. They begin and
+//! end in full stride: the figure begins in the state of the first sample.
 
 use crate::common::{man, mocap, recorded_with};
 use sinew_evaluate::experiments::walk::{Walk, Walker, walk};
@@ -16,7 +16,7 @@ const GRAVITY: f64 = 9.81;
 #[test]
 fn the_feet_of_a_run_stand_as_long_as_they_carry() {
     let body = man();
-    // How long each of them runs, s.
+    // Duration of the run in each clip, s.
     for (name, until) in [("run", 1.0), ("quick-stop", 0.7)] {
         let bvh = Bvh::parse(&mocap::read(&format!("{name}.bvh"))).unwrap();
         let r = retarget(&bvh, &body, &RetargetOptions::default()).unwrap();
@@ -29,7 +29,7 @@ fn the_feet_of_a_run_stand_as_long_as_they_carry() {
         for p in phases.iter().filter(|p| p.start > 0.0 && p.start < until) {
             let lasts = p.end - p.start;
             match p.planted {
-                // Nobody runs with both feet on the floor, nor floats.
+                // A runner neither has both feet on the floor, nor floats.
                 [true, true] => panic!("{name}: {text:?}"),
                 [false, false] => {
                     assert!((0.02..0.17).contains(&lasts), "{name}: {text:?}");
@@ -60,7 +60,7 @@ fn who_runs_falls_freely_in_flight_and_the_step_plan_knows() {
     let (mut air, mut off_plan) = (0, 0);
     let mut most = [0.0f64; 2];
     for i in 6..clip.len() - 6 {
-        // A foot that comes and goes is felt three samples away by second differences.
+        // Second differences feel a landing or leaving foot up to three samples away.
         if (i - 3..=i + 3).all(off) {
             air += 1;
             let level = track.wrench[i].0.x.hypot(track.wrench[i].0.y) / weight;

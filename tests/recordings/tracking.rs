@@ -1,7 +1,7 @@
-//! Goal: figures of human strength follow built-in standing motions closely, and whatever they are asked to do, their
-//! torques stay within their strength, no force holds them up that nothing explains, and no number is ever not finite.
-//! Method: recordings and built-in motions through whole worlds; every tick is audited by [`sinew_evaluate`], which
-//! rebuilds the equations of motion from the body alone.
+//! Goal: figures of human strength follow built-in standing motions closely, and whatever the command, their torques
+//! stay within their strength, no unexplained force holds them up, and every number is finite. Method: recordings and
+//! built-in motions through whole worlds; every tick is audited by [`sinew_evaluate`], which rebuilds the equations of
+//! motion from the body alone.
 
 use crate::common::mocap::CLIPS;
 use crate::common::{Scene, authored, man, recorded};
@@ -11,7 +11,7 @@ use sinew_physics::figure::ControllerKind;
 use sinew_physics::motion::Clip;
 use std::sync::Arc;
 
-/// A torque may exceed its limit by rounding only, relative.
+/// A torque may exceed its limit only by rounding, relative.
 const OVER_LIMIT: f64 = 1e-9;
 /// Equations of motion, relative.
 const RESIDUAL: f64 = 1e-9;
@@ -43,7 +43,7 @@ fn line(name: &str, r: &RunReport) -> String {
     )
 }
 
-/// What no figure may ever do, however it is driven.
+/// Faults that no figure may ever show, however it is driven.
 fn faults(body: &Body, r: &RunReport) -> Vec<String> {
     let weight = body.profile.mass * 9.81;
     let mut out = Vec::new();
@@ -113,7 +113,7 @@ fn modern_follows_built_in_standing_motions() {
     follows(ControllerKind::Modern, &motions, &body);
 }
 
-/// Every recording to its end, through falls if need be: walking and jumping may fail, physics may not.
+/// Plays every recording to its end, through falls if necessary: walking and jumping may fail, but physics may not.
 fn stays_physical(controller: ControllerKind) {
     let body = man();
     let mut wrong = Vec::new();

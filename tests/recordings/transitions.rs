@@ -1,6 +1,6 @@
-//! Goal: a figure goes over from one clip to another from step to step where the two are alike, and by a stand where
-//! they are not; what it was told last counts. Method: clips from the motion capture folder, asked for at moments
-//! spread over the first one, in torque simulation, 60 Hz with two substeps, the modern controller.
+//! Goal: a figure switches from one clip to another directly, at a matching step, where the two are similar, and
+//! through a stand where they are not; the latest command counts. Method: clips from the motion capture folder, asked
+//! for at moments spread over the first one, in torque simulation, 60 Hz with two substeps, the modern controller.
 
 use crate::common::{authored, figure, man, recorded, recorded_with};
 use sinew_evaluate::experiments::walk::Stance;
@@ -14,10 +14,10 @@ use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::sync::Arc;
 
 const RATE: f64 = 60.0;
-/// Time after the other clip has begun in which the seam is looked at, s: a stride.
+/// Time after the start of the other clip in which the seam is checked, s: a stride.
 const SEAM: f64 = 1.2;
 
-/// How a clip is played.
+/// A clip and its mode of playback.
 #[derive(Clone)]
 struct Played {
     clip: Arc<Clip>,
@@ -41,7 +41,7 @@ fn over_and_over(clip: &Arc<Clip>) -> Played {
 }
 
 impl Played {
-    /// From standing, at world time `time`.
+    /// Playback from standing, at world time `time`.
     fn playback(&self, time: f64) -> ClipPlayback {
         ClipPlayback {
             looped: self.looped,
@@ -53,7 +53,7 @@ impl Played {
         }
     }
 
-    /// Its length with the way out of it, s.
+    /// Its length with its lead-out, s.
     fn length(&self) -> f64 {
         (self.clip.duration() + self.clip.lead_out()) / self.speed
     }
@@ -100,18 +100,19 @@ fn playing(world: &World, key: FigureKey) -> &ClipPlayback {
     }
 }
 
-/// From one clip to another, or to a stand, asked for at some moment.
+/// Measurements of a switch from one clip to another, or to a stand, requested at some moment.
 struct Passed {
-    /// When it fell, s after that.
+    /// Time of its fall, s after the request.
     fell: Option<f64>,
-    /// When the other clip began, s after that; whether from step to step, or by a way from a stand that is not like
-    /// its beginning.
+    /// Start of the other clip, s after the request; whether directly at a step, or by a transition from a stand that
+    /// differs from its beginning.
     began: f64,
     over: bool,
     led: bool,
     /// Speed of the pelvis in the end, m/s.
     speed: f64,
-    /// Farthest that the capture point was off, and that a foot slid in a stance, m, at the seam; and joints, rms, rad.
+    /// Largest error of the capture point, and largest slide of a foot in a stance, m, at the seam; and joint error,
+    /// rms, rad.
     capture: f64,
     slip: f64,
     joints: f64,
@@ -149,7 +150,7 @@ fn passes(body: &Arc<Body>, first: &Played, second: Option<&Played>, at: f64) ->
                 let way = play.way_in.as_ref();
                 out.over = way.is_some_and(|w| w.leads_over());
                 out.led = way.is_some() && !out.over;
-                // What is told of a way over is what comes, unless another moment is taken.
+                // The predicted transition is the one that happens, unless another moment is chosen.
                 assert!(!out.over || (play.start - expected).abs() < 1.5);
             }
         }
@@ -230,7 +231,7 @@ fn clips_follow_each_other_from_step_to_step() {
         (all, asked) = (all + over, asked + 8);
         assert!(longest < 1.7 && capture < 110.0 && slip < 3.0, "{what}");
     }
-    // Who dances sideways is seldom like one who walks; between walks nearly all go over from step to step.
+    // A sideways dance seldom matches a walk; between walks, nearly all switches are direct.
     assert!(10 * all > 8 * asked, "{all} of {asked} from step to step");
 }
 
@@ -275,7 +276,7 @@ fn what_begins_standing_waits_for_a_stand() {
 }
 
 /// Recordings that begin neither at ease nor with steps: with the feet elsewhere, in another posture, or in motion.
-/// Begun at once they fell or were thrown about.
+/// When these were begun at once, the figures fell or were thrown about.
 #[test]
 fn what_does_not_begin_as_the_figure_stands_is_led_into() {
     let body = man();
@@ -301,10 +302,11 @@ fn what_does_not_begin_as_the_figure_stands_is_led_into() {
                 let what = format!("{what} to {name} at {at:.2} s");
                 assert!(p.fell.is_none(), "{what}: fell {:?}", p.fell);
                 assert!(p.began < 5.0, "{what}: {} s", p.began);
-                // Who hardly moves ends in the posture in which a clip begins at rest.
+                // A figure that hardly moves ends in the posture in which a clip begins at rest.
                 let slow = ["a stand", "squat"].iter().any(|s| what.starts_with(s));
                 assert!(p.led || slow, "{what}");
-                // Begun at once joints are off by 14 to 40 degrees; `jump` takes off by 5.
+                // When these are begun at once, joints are off by 14 to 40 degrees; `jump` takes off with an error of
+                // 5.
                 let off = [1e3 * p.capture, p.joints.to_degrees()];
                 assert!(off[0] < 110.0 && off[1] < 8.0, "{what}: off by {off:?}");
                 assert!(p.speed < 0.1, "{what}: {} m/s", p.speed);
@@ -323,7 +325,7 @@ fn what_waits_can_be_taken_back_and_what_stands_begins_at_once() {
     let figure = world.figure_mut(key).unwrap();
     let expected = figure.play(idle.playback(time), false, time);
     assert!(expected > time + 1.0);
-    // Once more: it is on its way to a stand already, and only what comes then is replaced.
+    // Once more: it is already coming to a stand, and only the clip after that is replaced.
     assert_eq!(figure.play(idle.playback(time), false, time), expected);
     assert!(figure.next_clip().is_some());
     figure.stop(time);
@@ -337,8 +339,8 @@ fn what_waits_can_be_taken_back_and_what_stands_begins_at_once() {
     assert!(figure.next_clip().is_none());
 }
 
-/// Told to turn, and told something else before it has begun to: in the same tick, when the way is decided, and on that
-/// way.
+/// Told to turn, and told something else before it has begun: in the same tick, when the transition is decided, and
+/// during the transition.
 #[test]
 fn who_goes_over_does_what_it_was_told_last() {
     let body = man();
@@ -375,8 +377,9 @@ fn who_goes_over_does_what_it_was_told_last() {
     }
 }
 
-/// The way over is worked out aside and taken four ticks later, whether it has been done for long by then, has just
-/// begun, or has found nobody to work it out; until the one clip turns into the other, the other one is the next.
+/// The transition is computed on another thread and taken four ticks later, whether it has long been finished, has just
+/// begun, or has found no thread to compute it. Until the one clip turns into the other, the other counts as the next
+/// clip.
 #[test]
 fn a_way_over_is_taken_at_its_tick_however_fast_it_is_worked_out() {
     let body = man();
@@ -384,7 +387,7 @@ fn a_way_over_is_taken_at_its_tick_however_fast_it_is_worked_out() {
     let walks = over_and_over(&Arc::new(cycle(&body, &walk).unwrap()));
     let goes_over = |wait: u64, others: usize| {
         let (mut world, key) = begun(&body, &walks, 5.3);
-        // Plans of figures that are gone before they are needed.
+        // Plans of figures that are removed before the plans are needed.
         for _ in 0..others {
             let (mut other, key) = begun(&body, &walks, 2.0);
             let time = other.time();

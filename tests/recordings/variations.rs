@@ -1,7 +1,7 @@
 //! Goal: recordings are followed mirrored, and slower and faster than they were recorded, because their steps and their
 //! balance are prepared for the pace. Method: clips from the motion capture folder, mirrored, and at 0.8 to 1.2 times
-//! their speed, 60 Hz with two substeps, the modern controller; the same clips played faster and slower as they were
-//! prepared, for comparison.
+//! their speed, 60 Hz with two substeps, the modern controller; for comparison, the same clips prepared at their own
+//! pace and played faster and slower.
 
 use crate::common::{man, mocap, recorded_with};
 use sinew_evaluate::experiments::walk::{Walk, Walker, walk};
@@ -85,11 +85,11 @@ fn the_pace_changes_the_rate_and_not_the_samples_of_the_recording() {
     assert_eq!(slow.len(), fast.len());
     assert!((fast.rate_hz() / slow.rate_hz() - 4.0).abs() < 1e-12);
     assert!((slow.duration() / fast.duration() - 4.0).abs() < 1e-12);
-    // The middle of the motion is the same posture; what is planned for the feet depends on the pace a little.
+    // The middle of the motion is the same posture; the plan for the feet depends slightly on the pace.
     let middle = |clip: &sinew_physics::motion::Clip| clip.sample(0.5 * clip.duration()).posture;
     let (a, b) = (middle(&slow), middle(&fast));
     assert!((a.root_position - b.root_position).norm() < 0.03);
-    // Balance asks more of the faster one.
+    // Balance demands more of the faster one.
     let sway = |tempo| {
         let clip = recorded_with(&body, "turn", &at(tempo));
         let way = |t: f64| clip.sample(t).posture.root_position.y;
@@ -117,8 +117,8 @@ fn soles(body: &Body, posture: &Posture) -> [f64; 2] {
     })
 }
 
-/// The last long step of a run leaves the other foot 0.7 m behind. It waited there until the body had come to rest over
-/// the front one, out of its leg's reach, and was dragged 0.3 m below the floor.
+/// The last long step of a run leaves the other foot 0.7 m behind. It used to wait there until the body had come to
+/// rest over the front foot, out of reach, and was dragged 0.3 m below the floor.
 #[test]
 fn a_foot_that_is_left_behind_steps_before_its_leg_is_stretched() {
     let body = man();

@@ -1,4 +1,4 @@
-//! Checkpoints over the wire: kept, read, restored and forked, and what viewers and drivers see of it.
+//! Checkpoints over the wire: kept, read, restored and forked, and the effect on viewers and drivers.
 
 use crate::support::{TestServer, header, refusal, view};
 use sinew_wire::pb;
@@ -97,7 +97,7 @@ async fn a_world_goes_back_and_two_futures_part_by_what_is_done_to_them() {
     assert_eq!(told.state_hash, now.state_hash);
     let future = server.hashes(&world, 30).await;
 
-    // Other things happen; then it is put back, and goes on as it did.
+    // Let other things happen; then the world is restored and continues as before.
     server.figure(&world, "b").await;
     server.step(&world, 5).await;
     let back = server
@@ -111,7 +111,7 @@ async fn a_world_goes_back_and_two_futures_part_by_what_is_done_to_them() {
     );
     assert_eq!(server.hashes(&world, 30).await, future);
 
-    // A new world from bytes does the same; another that is pushed does not.
+    // A new world from bytes does the same; another one that is pushed does not.
     let same = server
         .fork("same", From::Data(kept.data.clone().into()))
         .await
@@ -140,7 +140,7 @@ async fn a_world_goes_back_and_two_futures_part_by_what_is_done_to_them() {
     server.stop().await;
 }
 
-/// A figure with the paper's collisions walks into a box; a fork in the middle of that goes on bit for bit.
+/// A figure with the paper's collisions walks into a box; a fork in the middle of that continues bit for bit.
 #[tokio::test(flavor = "multi_thread")]
 async fn collisions_in_stages_are_forked_as_well() {
     let server = TestServer::start().await;
@@ -254,7 +254,7 @@ async fn viewers_see_the_jump_and_drivers_are_told() {
         }
     };
     assert_eq!((restored.tick, restored.detail.as_str()), (20, "20"));
-    // Who drove the figure still does.
+    // The figure keeps its driver.
     let told = drive.feedback().await.unwrap().expect("the drive goes on");
     assert_eq!(told.driver_id, "me");
     let figure = server.look(&format!("{world}/figures/a")).await;
@@ -324,7 +324,7 @@ async fn checkpoints_are_resources_with_names() {
         .unwrap()
         .into_inner();
     assert_eq!(got.data.len() as i64, got.checkpoint.unwrap().size_bytes);
-    // They go with their world.
+    // They are deleted with their world.
     let request = pb::DeleteWorldRequest {
         name: world,
         ..Default::default()

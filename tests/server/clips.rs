@@ -93,7 +93,8 @@ async fn a_recording_is_uploaded_played_and_deleted() {
     server.stop().await;
 }
 
-/// A recording is prepared for the speed it is played at, up to twice its own; played faster it is played so.
+/// A recording is prepared for its playing speed, up to twice its own speed; at higher speeds that preparation is
+/// played faster.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_recording_is_played_faster_and_slower() {
     let server = TestServer::start().await;
@@ -150,7 +151,7 @@ async fn a_recording_is_played_faster_and_slower() {
             .await
             .unwrap();
         let start = played.into_inner().start_time_s;
-        // Where the recording is at its end, and half of it before that.
+        // Places at the end of the recording, and at half of it before that.
         let place = |f: &pb::WorldFrame| {
             let d = f.figures[0].desired.as_ref().unwrap();
             values(d.root_pose.as_ref().unwrap())
@@ -174,7 +175,7 @@ async fn a_recording_is_played_faster_and_slower() {
     server.stop().await;
 }
 
-/// A run is reported, and walked unless it is to stay as it is.
+/// A run is reported, and walked unless it should be kept.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_run_is_walked_unless_it_is_to_be_kept() {
     let server = TestServer::start().await;
@@ -249,8 +250,8 @@ async fn a_recording_is_simulated_without_a_world() {
     server.stop().await;
 }
 
-/// Asked for in mid-walk: the figure stands first. Until then the clip is seen as the next one; it can be replaced and
-/// taken back.
+/// Requested in mid-walk, a clip waits until the figure stands. Until then it is shown as the next clip, and can be
+/// replaced and withdrawn.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_clip_waits_until_a_walking_figure_stands() {
     let server = TestServer::start().await;
@@ -311,8 +312,8 @@ async fn a_clip_waits_until_a_walking_figure_stands() {
     server.stop().await;
 }
 
-/// Who walks and is told to turn does so from step to step, at the time that the answer tells; until then the turn is
-/// seen as the next clip.
+/// A walking figure that is told to turn does so directly, at a step, at the time given in the answer; until then the
+/// turn is shown as the next clip.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_walking_figure_goes_over_to_a_turn_without_a_stand() {
     let server = TestServer::start().await;

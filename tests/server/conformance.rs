@@ -11,7 +11,7 @@ use tonic::transport::{Channel, Endpoint};
 use tonic::{Code, Request, Status};
 use tonic_types::StatusExt;
 
-/// Messages as bytes: what is sent is exactly what the vector says.
+/// Messages as bytes, so that exactly the bytes of the vector are sent.
 #[derive(Default)]
 struct Raw;
 
@@ -88,7 +88,7 @@ async fn send(
     }
 }
 
-/// What stands for a member that is absent.
+/// Whether a value stands for an absent member.
 fn is_default(v: &Value) -> bool {
     match v {
         Value::Null => true,
@@ -146,7 +146,7 @@ fn code_name(code: Code) -> String {
     out
 }
 
-/// What came of a request, in the form of `outcome`.
+/// Result of a request, in the form of `outcome`.
 fn outcome(answer: &Result<Vec<u8>, Status>) -> Map<String, Value> {
     let mut out = Map::new();
     let mut set = |name: &str, value: String| {

@@ -1,5 +1,5 @@
-//! Constraints over the wire: a client holds a hand, sees what is missing, replaces, takes off; what is wrong changes
-//! nothing.
+//! Constraints over the wire: a client holds a hand, sees the error, replaces and removes constraints; bad input
+//! changes nothing.
 
 use crate::support::{TestServer, refusal};
 use sinew_wire::pb;

@@ -1,4 +1,4 @@
-//! What docs/api.md promises of every resource: repeats, etags, masks, pages, trying out, idle worlds.
+//! The promises of docs/api.md for every resource: repeats, etags, masks, pages, trying out, idle worlds.
 
 use crate::support::{TestServer, arm_frame, header, refusal};
 use sinew_wire::pb;
@@ -99,7 +99,7 @@ async fn a_request_under_one_name_is_done_once() {
     assert_eq!(server.worlds().await, names);
     let world = &names[0];
 
-    // What is done twice would be seen.
+    // A request carried out twice would be visible.
     let step = pb::StepWorldRequest {
         name: world.clone(),
         tick_count: 5,
@@ -119,7 +119,7 @@ async fn a_request_under_one_name_is_done_once() {
         (code, reason.as_str()),
         (Code::FailedPrecondition, "REQUEST_ID_REUSED")
     );
-    // The name counts within its call, and a new name is a new request.
+    // The name counts only within its call, and a new name is a new request.
     let resume = pb::ResetFigureRequest {
         name: format!("{world}/figures/none"),
         request_id: "step-1".into(),
@@ -134,7 +134,7 @@ async fn a_request_under_one_name_is_done_once() {
     worlds.step_world(new).await.unwrap();
     assert_eq!(server.get_world(world).await.tick, 10);
 
-    // What was refused is tried again under its name.
+    // A refused request is tried again under its name.
     let delete = pb::DeleteWorldRequest {
         name: "worlds/later".into(),
         request_id: "delete-1".into(),
@@ -163,7 +163,7 @@ async fn an_etag_keeps_one_from_overwriting_what_somebody_else_has_set() {
     let before = server.get_world(&world).await;
     assert!(!before.etag.is_empty() && !figure.etag.is_empty() && !ball.etag.is_empty());
 
-    // That time passes, things fall and clips play changes no setting.
+    // Passing time, falling obstacles and playing clips change no setting.
     server.play(&figure.name, "clips/walk", true).await;
     server.step(&world, 20).await;
     let now = server.get_world(&world).await;
@@ -335,7 +335,7 @@ async fn a_mask_says_what_an_update_takes() {
         assert_eq!(code, Code::InvalidArgument);
         assert_eq!(field, format!("update_mask.paths[{at}]"));
     }
-    // All: what is not given gets its default.
+    // All fields: those not given get their default.
     let all = pb::UpdateWorldRequest {
         world: Some(pb::World {
             name: world.clone(),
@@ -597,12 +597,12 @@ async fn a_world_that_nobody_uses_ends_and_says_so() {
     while left.contains(&idle) || begun.elapsed() < Duration::from_secs(3) {
         assert!(begun.elapsed() < Duration::from_secs(30), "{left:?}");
         tokio::time::sleep(Duration::from_millis(100)).await;
-        server.get_world(&asked).await; // lists do not count, questions do
+        server.get_world(&asked).await; // lists do not count as use, single requests do
         left = server.worlds().await;
     }
     assert_eq!(left, [asked, driven.clone(), lasting, watched.clone()]);
 
-    // The streams end, and their worlds after them. Who deletes one is told.
+    // The streams end, and their worlds after them. The deleter of a world is told.
     let delete = pb::DeleteWorldRequest {
         name: watched.clone(),
         ..Default::default()

@@ -1,4 +1,4 @@
-//! Live desired motion: the stream, its unary twin, who may drive, what silence does.
+//! Live desired motion: the stream, its unary twin, permission to drive, the effect of silence.
 
 use crate::support::{TestServer, arm_frame, header, refusal};
 use sinew_wire::pb;
@@ -92,13 +92,13 @@ async fn one_figure_has_one_driver_and_can_be_handed_on() {
         .await
         .unwrap_err();
     assert_eq!(refusal(&e).1, "FIGURE_CONTROLLED");
-    // Another figure is free.
+    // Another figure is still free.
     server
         .client
         .drive(header(&world, "b", "second"))
         .await
         .unwrap();
-    // Given back, it is free at once.
+    // Once released, it is free at once.
     first.finish().await.unwrap();
     let second = server
         .client
@@ -135,7 +135,7 @@ async fn the_same_driver_comes_back_and_the_old_stream_is_fenced() {
         }
     };
     assert_eq!(refusal(&e).1, "CONTROL_FENCED");
-    // Its motion goes on where it was.
+    // Its motion continues where it was.
     new.send((30..60).map(|i| arm_frame("a", i)).collect())
         .await;
     taken(&mut new, 59).await;
@@ -209,7 +209,7 @@ async fn a_bad_batch_ends_the_stream_with_its_field() {
     server.stop().await;
 }
 
-/// Whether a text stands in a file below a directory.
+/// Whether a file below a directory contains a text.
 fn is_in(dir: &std::path::Path, text: &str) -> bool {
     std::fs::read_dir(dir).unwrap().any(|entry| {
         let path = entry.unwrap().path();
@@ -279,7 +279,7 @@ async fn a_lease_outlives_the_server_and_its_secret_is_not_on_disk() {
         .await
         .unwrap();
     assert_eq!(renewed.lease.unwrap().control_epoch, epoch);
-    // One that nobody comes back for ends.
+    // A lease whose holder does not return ends.
     let get = pb::GetControlRequest {
         figure: "worlds/w/figures/b".into(),
     };

@@ -1,4 +1,4 @@
-//! What strangers send: bytes that are no message, messages that are too large, calls for somebody else.
+//! Input from strangers: bytes that are not a message, messages that are too large, calls meant for another host.
 
 use crate::raw::Raw;
 use crate::support::{TestServer, refusal, view};
@@ -54,7 +54,7 @@ fn field(number: u8, inner: &[u8]) -> Vec<u8> {
     out
 }
 
-/// A batch with so many empty figures in its only frame.
+/// A batch with `count` empty figures in its only frame.
 fn empty_figures(count: usize) -> Vec<u8> {
     field(2, &field(1, &[3 << 3 | 2, 0].repeat(count)))
 }
@@ -283,7 +283,7 @@ async fn health_is_answered_when_all_connections_are_at_work() {
     ])
     .await;
     let world = server.paused_world("w").await;
-    // The only place is at work as long as this watch goes on.
+    // The only place is in use as long as this watch continues.
     let mut frames = server
         .client
         .watch(&world, view(&["root_pose"]), None)

@@ -1,4 +1,4 @@
-//! The end: of the server, which is seen before it comes and is told to everybody, and of figures that are driven.
+//! The end of the server, which is announced in advance and told to all clients, and the end of driven figures.
 
 use crate::support::{TestServer, arm_frame, header, refusal};
 use sinew_client::Client;
@@ -67,7 +67,7 @@ async fn the_end_of_the_server_is_seen_before_it_comes() {
     while health(&server).await == ServingStatus::Serving {
         tokio::task::yield_now().await;
     }
-    // New connections see it, and what is there goes on; but nothing new begins.
+    // New connections see it, and existing work continues; but nothing new begins.
     assert_eq!(ready(&server).await, "HTTP/1.1 503 Service Unavailable");
     assert_eq!(page(&server, "/livez").await, "HTTP/1.1 200 OK");
     for (service, status) in [
@@ -154,7 +154,7 @@ async fn what_runs_may_end_and_what_comes_meanwhile_is_refused() {
         tokio::time::sleep(Duration::from_millis(1)).await;
     }
     server.begin_stop();
-    // The steps go on; whoever else comes is sent away, also over a new connection.
+    // The steps continue; other requests are refused, over new connections too.
     let client = Client::connect(&server.address.to_string()).await.unwrap();
     let get = || {
         let name = world.clone();
@@ -198,7 +198,7 @@ async fn connections_grow_only_so_old() {
     let mut ages = futures_util::future::join_all(idle).await;
     ages.sort_by(f64::total_cmp);
     assert!(ages[0] > 0.85 && ages[7] > ages[0] + 0.1, "{ages:?}");
-    // A stream goes on until the grace time is over, and a client that is asked to close comes again by itself.
+    // A stream continues until the grace time is over, and a client that is asked to close reconnects by itself.
     let world = server.world("w", false, pb::World::default()).await;
     let began = std::time::Instant::now();
     let mut frames = server
@@ -275,7 +275,7 @@ async fn a_driver_whose_figure_is_removed_is_told_so() {
                 .unwrap();
         }
     };
-    // One of two: the drive goes on with the other.
+    // One of two figures is removed: the drive continues with the other.
     remove("a").await;
     let told = events.message().await.unwrap().unwrap().events.remove(0);
     assert_eq!(told.figure_id, "a");
@@ -301,7 +301,7 @@ async fn a_driver_whose_figure_is_removed_is_told_so() {
     let resource = details.resource_info().unwrap();
     assert_eq!(refusal(&e).0, Code::NotFound);
     assert_eq!(resource.resource_name, format!("{world}/figures/c"));
-    // Who pushes is told the same.
+    // Pushes are refused in the same way.
     server.figure(&world, "d").await;
     let push = || pb::PushMotionRequest {
         header: Some(header(&world, "d", "pusher")),
@@ -350,7 +350,7 @@ async fn a_world_whose_tick_does_not_end_is_given_up_and_no_other_notices() {
             .failure
             .contains("did not end")
     );
-    // Who wants something of it learns so, the server is not ready, and says that it lives.
+    // Requests for this world are refused with the reason; the server is not ready, but reports that it is alive.
     let pause = pb::PauseWorldRequest {
         name: world.clone(),
     };
@@ -362,7 +362,7 @@ async fn a_world_whose_tick_does_not_end_is_given_up_and_no_other_notices() {
     );
     assert_eq!(ready(&server).await, "HTTP/1.1 503 Service Unavailable");
     assert_eq!(page(&server, "/livez").await, "HTTP/1.1 200 OK");
-    // The other world goes on, takes commands, and new ones come.
+    // The other world continues and takes commands, and new worlds can be created.
     let before = server.get_world(&other).await.tick;
     let ticks = async {
         while server.get_world(&other).await.tick < before + 20 {
@@ -375,7 +375,7 @@ async fn a_world_whose_tick_does_not_end_is_given_up_and_no_other_notices() {
     server.figure(&other, "b").await;
     let new = server.paused_world("new").await;
     server.step(&new, 3).await;
-    // Once the tick has ended after all, the server is ready again. The world stays as it was given up.
+    // Once the tick has ended after all, the server is ready again. The world stays abandoned.
     go.send(()).unwrap();
     let again = async {
         while ready(&server).await != "HTTP/1.1 200 OK" {

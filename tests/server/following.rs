@@ -1,5 +1,6 @@
-//! Goal: clients see in which way a figure follows its motion, and what help that takes. Method: a figure that waves is
-//! pushed so that it loses its motion, with and without help that is allowed. What rehearsals show is in `rehearsals`.
+//! Goal: clients see in which way a figure follows its motion, and how much help it needs. Method: a waving figure is
+//! pushed so that it loses its motion, with and without permission to be helped. Rehearsed motions are tested in
+//! `rehearsals`.
 
 use crate::support::{TestServer, header};
 use sinew_physics::body::Body;
@@ -115,7 +116,7 @@ async fn clients_see_in_which_way_a_figure_follows_its_clip() {
     server.stop().await;
 }
 
-/// What the figure says while a stream asks it to stand, and it is pushed after a second.
+/// Status of the figure while a stream commands it to stand, and it is pushed after a second.
 async fn streamed(most_help: f64) -> Vec<pb::FigureStatus> {
     let server = TestServer::start().await;
     server.paused_world("w").await;
@@ -164,7 +165,7 @@ async fn streamed(most_help: f64) -> Vec<pb::FigureStatus> {
                 frames: (3 * step..3 * (step + 1)).map(frame).collect(),
             }),
         };
-        // The test runs faster than real time, the allowance of batches does not.
+        // The test runs faster than real time, but the allowance of batches does not.
         while let Err(e) = client.push_motion(request.clone()).await {
             assert_eq!(e.code(), Code::ResourceExhausted, "{e:?}");
             tokio::time::sleep(Duration::from_millis(20)).await;

@@ -1,4 +1,4 @@
-//! Clips that are stored say what will come of them.
+//! Stored clips come with a forecast.
 
 use crate::support::TestServer;
 use sinew_physics::body::{Body, Posture};

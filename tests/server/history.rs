@@ -1,4 +1,4 @@
-//! The past of a world over the wire: going back, forking, doing it again, recording it.
+//! The past of a world over the wire: going back, forking, replaying and recording it.
 
 use crate::support::{TestServer, arm_frame, header, refusal, view};
 use sinew_client::Driver;
@@ -107,7 +107,7 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// What a process leaves that is killed now.
+/// The files that a process would leave if it were killed now.
 fn killed(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).unwrap();
     for entry in std::fs::read_dir(from).unwrap() {
@@ -165,7 +165,7 @@ async fn a_world_is_done_again_and_goes_back_to_any_tick_of_its_past() {
         assert_eq!(ticks, (0, 60, 60));
         assert_eq!(done.difference, None);
     }
-    // What was, bit for bit; and from there on what was done to it is not done again.
+    // The past, bit for bit; later commands are not repeated from there on.
     let fork = server.fork_at("then", &world, 23).await.unwrap();
     assert_eq!((fork.tick, fork.figure_count), (23, 2));
     let then = server.frame("worlds/then", &["root_pose"]).await;
@@ -189,7 +189,7 @@ async fn a_world_is_done_again_and_goes_back_to_any_tick_of_its_past() {
         }
     };
     assert_eq!((shown.tick, shown.state_hash), (41, hashes[41]));
-    // Its driver goes on, and its new future is part of its past.
+    // Its driver continues, and its new future becomes part of its past.
     let frames: Vec<_> = (60..120).map(|i| arm_frame("b", i)).collect();
     assert!(driver.send(frames).await);
     while driver.feedback().await.unwrap().unwrap().received_sequence < 119 {}
@@ -198,7 +198,7 @@ async fn a_world_is_done_again_and_goes_back_to_any_tick_of_its_past() {
     assert!(frame.figures[1].applied_sequence >= 60, "it is driven");
     let done = server.replay(&world, 2).await;
     assert_eq!((done.compared_tick_count, done.difference), (81, None));
-    // Farther back is still there.
+    // Earlier times are still held.
     let back = server.seek(&world, 5).await.unwrap();
     assert_eq!(back.tick, 5);
     let shown = server.frame(&world, &["root_pose"]).await;
@@ -225,14 +225,14 @@ async fn frames_of_the_past_are_those_that_were_and_the_world_is_not_changed() {
             .iter()
             .all(|f| f.figures.len() == 2 && f.roster_version == roster.version)
     );
-    // All that is held, every tenth tick; the last frame is the present one.
+    // Read the whole history at every tenth tick; the last frame is the present one.
     let (frames, _) = server.past(&world, (None, None), 10).await.unwrap();
     let ticks: Vec<_> = frames.iter().map(|f| f.tick).collect();
     assert_eq!(ticks, [0, 10, 20, 30, 40, 50, 60]);
     assert_eq!(frames[6].figures, before.figures);
     let after = server.frame(&world, &["root_pose", "torque"]).await;
     assert_eq!(after, before, "the world is not changed");
-    // A figure that is gone is in the past as long as that is held.
+    // A removed figure stays in the past as long as that is held.
     let request = pb::DeleteFigureRequest {
         name: format!("{world}/figures/a"),
         ..Default::default()
@@ -249,7 +249,7 @@ async fn frames_of_the_past_are_those_that_were_and_the_world_is_not_changed() {
     assert_eq!(figures, [2, 2, 2, 1, 1, 1, 1, 1]);
     assert_eq!(rosters.len(), 2);
     assert_eq!(rosters[1].figures[0].figure_id, "b");
-    // What is not held, and what makes no sense, is refused.
+    // Spans that are not held, or that make no sense, are refused.
     for (span, code, reason) in [
         ((Some(3), Some(70)), Code::OutOfRange, "RESUME_EXPIRED"),
         ((Some(9), Some(8)), Code::InvalidArgument, "INVALID_FIELD"),
@@ -371,7 +371,7 @@ async fn a_recording_outlives_its_past_and_becomes_files() {
         (ended.last_tick, ended.end_reason.as_str()),
         (75, "STOPPED")
     );
-    // The world has another past: the recording stays.
+    // Even when the world has another past, the recording stays.
     server.seek(&world, 10).await.unwrap();
     server.step(&world, 3).await;
 
@@ -431,7 +431,7 @@ async fn a_fork_goes_on_as_the_world_would_to_which_nothing_more_comes() {
         let settings = [("live_window_ms", window.as_str()), ("memory_s", "3600")];
         let server = TestServer::with(&settings).await;
         let (world, _, mut driver) = driven(&server).await;
-        // In the middle of what was sent, and of a clip.
+        // In the middle of the sent frames, and of a clip.
         let frames: Vec<_> = (60..80).map(|i| arm_frame("b", i)).collect();
         assert!(driver.send(frames).await);
         while driver.feedback().await.unwrap().unwrap().received_sequence < 79 {}
@@ -446,7 +446,7 @@ async fn a_fork_goes_on_as_the_world_would_to_which_nothing_more_comes() {
         // The same from its past.
         server.fork_at("then", &world, then.tick).await.unwrap();
         assert_eq!(server.hashes("worlds/then", 120).await, alone);
-        // Nobody drives the figure there: who asks for it gets it, and it does what it is told.
+        // In the fork the figure has no driver: any driver may take it, and it obeys.
         let driving = |f: &pb::Figure| f.status.as_ref().unwrap().driver_id.clone();
         let figure = server.look("worlds/then/figures/b").await;
         assert_eq!(driving(&figure), "");
@@ -554,7 +554,7 @@ async fn recordings_outlive_the_server_as_far_as_its_log_reaches() {
         .unwrap();
     hashes.extend(server.hashes(&world, 5).await);
     let begun = get(&server, "whole").await.create_time;
-    // As it is killed now, and as it ends in good order. What was done is handed over every 10 ms.
+    // The files after a kill at this moment, and after an orderly end. Inputs are handed over every 10 ms.
     tokio::time::sleep(std::time::Duration::from_millis(500)).await;
     killed(&live, &left);
     drop(driver);
@@ -582,7 +582,7 @@ async fn recordings_outlive_the_server_as_far_as_its_log_reaches() {
             .get_recording(recording("gone"))
             .await;
         assert_eq!(refusal(&gone.unwrap_err()).0, Code::NotFound);
-        // It goes on with the world.
+        // The recording continues with the world.
         hashes.extend(server.hashes(&world, 20).await);
         let mcap = pb::RecordingFormat::Mcap;
         for (name, first, last) in [("whole", 30, 95), ("ended", 10, 70)] {
@@ -596,7 +596,7 @@ async fn recordings_outlive_the_server_as_far_as_its_log_reaches() {
         server.stop().await;
     }
 
-    // Without the log there is no content, and that is said.
+    // Without the log there is no content, and the error says so.
     killed(&live, &lost);
     for file in ["log.sqlite", "log.sqlite-wal", "log.sqlite-shm", "log.end"] {
         let _ = std::fs::remove_file(lost.join(file));

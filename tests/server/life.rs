@@ -1,4 +1,4 @@
-//! Worlds that end while somebody still waits for something of theirs, or reads of them.
+//! Worlds that end while clients still wait for their results, or read from them.
 
 use crate::support::{TestServer, refusal};
 use sinew_wire::pb;
@@ -10,7 +10,7 @@ use tonic::Code;
 /// Longest time for something that takes milliseconds.
 const SOON: Duration = Duration::from_secs(20);
 
-/// Keeps a worker of a pool busy until what this gives is dropped.
+/// Keeps a worker of a pool busy until the returned value is dropped.
 macro_rules! hold {
     ($server:expr, $pool:ident) => {{
         let (held, wait) = sync_channel::<()>(1);
@@ -121,7 +121,7 @@ async fn who_waits_for_a_worker_is_told_when_the_world_is_deleted() {
         );
     }
     until(|| left.strong_count() == 0).await;
-    // What was to be kept of it is nothing to the next one of its name.
+    // Pending writes of the old world do not affect the next one of the same name.
     server.paused_world("w").await;
     assert_eq!(checkpoints(&server, &world).await, 0);
 }

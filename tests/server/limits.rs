@@ -1,4 +1,4 @@
-//! What one client may have, and what the machine can bear.
+//! Limits for one client, and limits of the machine.
 
 use crate::support::{TestServer, header, refusal, view};
 use sinew_client::Client;
@@ -49,7 +49,7 @@ async fn one_client_leaves_half_for_others() {
     assert_eq!(limit(&refused), "max_drivers");
     let _other = other.drive(header(&world, "y", "h")).await.unwrap();
 
-    // Two different views, and no third; what is shared with them costs nothing.
+    // Two different views are allowed, but no third; a shared view costs nothing.
     let watch = |c: &Client, fields: &'static [&'static str]| {
         let (c, world) = (c.clone(), world.clone());
         async move { c.watch(&world, view(fields), None).await }
@@ -92,7 +92,7 @@ async fn what_the_machine_cannot_bear_is_refused_before_it_is_done() {
     let percent = |key: &str| facts[key].parse::<f64>().unwrap();
     assert!(percent("needed_percent") > 300.0, "{facts:?}");
     assert_eq!(percent("limit_percent"), 70.0);
-    // A clock that stands still needs nothing, until it is to run.
+    // A stopped clock costs nothing until it should run.
     let name = world.clone();
     worlds
         .pause_world(pb::PauseWorldRequest { name })
@@ -106,7 +106,7 @@ async fn what_the_machine_cannot_bear_is_refused_before_it_is_done() {
     let got = worlds.get_world(pb::GetWorldRequest { name }).await;
     let state = got.unwrap().into_inner().world.unwrap().state();
     assert_eq!(state, pb::WorldState::Paused, "a refusal changes nothing");
-    // An ordinary world fits, and its clock may not be set to what does not.
+    // An ordinary world fits, but its clock may not be set to a rate that does not.
     let slow = pb::World {
         substep_count: 16,
         ..Default::default()
@@ -206,7 +206,7 @@ async fn fields_outside_the_mask_are_ignored_whatever_they_hold() {
 async fn prepared_clips_count_as_stored_bytes() {
     let server = TestServer::with(&[
         ("max_clip_total_bytes", "2500000"),
-        // What a world remembers to have played it could play again.
+        // A world could play a clip again from its memory.
         ("memory_s", "0"),
     ])
     .await;

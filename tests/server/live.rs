@@ -1,5 +1,4 @@
-//! Streams that walk: a window prepares them, whatever the network does. World time is stepped, so that all of it is
-//! the same every time.
+//! Walking streams: a window prepares them, whatever the network does. World time is stepped, so every run is the same.
 
 use crate::corpus;
 use crate::support::{FALLEN, FROZEN, TestServer, header, refusal};
@@ -23,7 +22,7 @@ fn walk(body: &Body) -> Clip {
     cycle(body, &clip).unwrap()
 }
 
-/// Of a driver of figure `a` that sends 120 frames per second, with a window of so many ms.
+/// Header of a driver of figure `a` that sends 120 frames per second, with a window of `window_ms`.
 fn windowed(world: &str, window_ms: f64) -> pb::DriveHeader {
     pb::DriveHeader {
         playout_delay_ms: None,
@@ -47,8 +46,8 @@ struct Streamed {
     speed: f64,
 }
 
-/// Streams `posture` for `seconds`, with 120 frames per second, through a network; then `silence` seconds more without
-/// it.
+/// Streams `posture` for `seconds`, with 120 frames per second, through a network, followed by `silence` seconds
+/// without frames.
 async fn stream(
     id: &str,
     posture: impl Fn(f64) -> Option<Posture>,
@@ -174,7 +173,7 @@ async fn a_walk_comes_through_jitter_and_loss() {
             s.far,
             s.speed
         );
-        // What comes after the stream is the subject of `tests/recordings/live.rs`, at every phase of the gait.
+        // `tests/recordings/live.rs` tests the motion after the stream, at every phase of the gait.
         assert!(
             s.fell.is_none_or(|t| t > seconds),
             "window {window} ms: fell at {:?} s",
@@ -243,7 +242,7 @@ async fn push_frames(
     }
 }
 
-/// A driver that is started again while its figure walks, and asks it to stand: it finishes its step and stands.
+/// A driver is restarted while its figure walks, and commands it to stand: the figure finishes its step and stands.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
     let (body, seconds) = (Body::adult_man(), 4);
@@ -287,8 +286,8 @@ async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
     server.stop().await;
 }
 
-/// A stream leads its figure into a wall: it comes to a stand before it, and is led into the stream, which has walked
-/// on all the time, once the wall is gone.
+/// A stream leads its figure into a wall. The figure comes to a stand in front of it and, once the wall is removed,
+/// rejoins the stream, which has kept walking.
 #[tokio::test(flavor = "multi_thread")]
 async fn who_is_led_into_a_wall_stands_and_walks_on_when_it_is_gone() {
     let body = Body::adult_man();

@@ -1,4 +1,4 @@
-//! Long work: operations with progress and cancel, and streams that do the same.
+//! Long work: operations with progress and cancellation, and streams that do the same.
 
 use crate::support::{TestServer, arm_frame, refusal, view};
 use sinew_server::workers::Turn;
@@ -88,7 +88,7 @@ async fn an_operation_answers_with_the_frames_of_the_call() {
     assert!(called.frames.len() > 10 && called.summary.is_some());
     let started = server.start_operation(Work::SimulateClip(request)).await;
     let ended = server.wait_operation(&started.name, 60).await;
-    // Whoever asks gets it, as often as it is asked for.
+    // The result can be fetched by any request, any number of times.
     for operation in [ended, server.get_operation(&started.name).await] {
         let Some(Done::SimulateClip(done)) = operation.result else {
             panic!("{operation:?}");
@@ -130,7 +130,7 @@ async fn what_was_sent_counts_until_the_work_has_used_it() {
     };
     let start = || async { server.client.operations().start_operation(upload()).await };
     let first = start().await.unwrap().into_inner().operation.unwrap();
-    // The call is answered, and what it has brought waits for its turn.
+    // The call is answered, and its result waits for its turn.
     let refused = start().await.unwrap_err();
     assert_eq!(refused.code(), Code::ResourceExhausted);
     assert!(refused.message().contains("max_pending_bytes"), "{refused}");
@@ -173,7 +173,7 @@ async fn operations_end_with_what_the_call_would_have_answered() {
         called.state_hash
     );
 
-    // What fails says why, as the call would have.
+    // A failed operation gives its reason, as the call would have.
     let taken = server
         .start_operation(Work::CreateClip(lift("raised", 60)))
         .await;
@@ -200,7 +200,7 @@ async fn operations_end_with_what_the_call_would_have_answered() {
         "{status:?}"
     );
 
-    // Lists have no results; what has ended can be forgotten.
+    // Lists contain no results; finished operations can be deleted.
     let all = server.operations().await;
     assert_eq!(all.len(), 4);
     assert!(all.iter().all(|o| o.result.is_none()));
@@ -250,7 +250,7 @@ async fn an_operation_tells_how_far_it_is_and_is_cancelled() {
         assert!(begun.elapsed() < Duration::from_secs(60));
     };
     assert!((0.0..1.0).contains(&running.progress) && running.end_time.is_none());
-    // A wait ends with what there is then.
+    // A wait ends with the state at that time.
     let waited = server.wait_operation(&long.name, 0).await;
     assert_eq!(waited.state(), pb::OperationState::Running);
     let delete = pb::DeleteOperationRequest {
@@ -267,7 +267,7 @@ async fn an_operation_tells_how_far_it_is_and_is_cancelled() {
     assert_eq!(cancelled.state(), pb::OperationState::Cancelled);
     assert!(cancelled.result.is_none());
     operations.cancel_operation(cancel).await.unwrap();
-    // Its worker is free: the one that waited for it is done.
+    // Its worker is free, so the waiting operation is done.
     let next = server.wait_operation(&next.name, 60).await;
     assert_eq!(next.state(), pb::OperationState::Succeeded);
     server.stop().await;
@@ -299,7 +299,7 @@ async fn operations_are_bounded_and_a_repeat_starts_none() {
     assert_eq!(refusal(&full).1, "LIMIT_REACHED");
     let quota = full.get_error_details().quota_failure().unwrap().violations[0].clone();
     assert_eq!(quota.subject, "max_operations");
-    // One that has ended makes room.
+    // A finished operation makes room.
     let cancel = pb::CancelOperationRequest {
         name: names[0].clone(),
     };
@@ -441,7 +441,7 @@ async fn events_tell_when_a_clip_begins_and_ends() {
     let told = next().await;
     assert_eq!((told[0].0, told[0].2.as_str()), (ended, "clips/wave"));
     assert!((told[0].3 - ticks).abs() <= 2, "{told:?} of {ticks}");
-    // One that is put in the place of another, and is stopped.
+    // One that replaces another, and is stopped.
     server.play(&figure, "clips/walk", true).await;
     server.step(&world, 5).await;
     assert_eq!(next().await[0].0, began);
@@ -484,7 +484,7 @@ async fn clips_are_rehearsed_for_a_figure() {
         budget: Some(prost_types::Duration { seconds, nanos: 0 }),
         ..Default::default()
     };
-    // What is tracked as it is needs none.
+    // A clip that is tracked without help needs none.
     let easy = server
         .start_operation(Work::RehearseClip(rehearsal("wave", 60)))
         .await;
@@ -512,7 +512,7 @@ async fn clips_are_rehearsed_for_a_figure() {
     let kept = matches!(hard.way(), pb::FollowWay::Helped | pb::FollowWay::Rehearsed);
     assert_eq!(kept, hard.lost_at_s.is_none());
 
-    // Each wrong field is named, and who is not there is not found.
+    // Each wrong field is named, and a missing figure is not found.
     let wrong = |change: fn(&mut pb::RehearseClipRequest)| {
         let mut request = rehearsal("wave", 60);
         change(&mut request);
@@ -545,7 +545,7 @@ async fn clips_are_rehearsed_for_a_figure() {
         assert_eq!(absent.code(), Code::NotFound);
     }
 
-    // One that is given up ends.
+    // A cancelled operation ends.
     let long = server
         .start_operation(Work::RehearseClip(rehearsal("slide", 600)))
         .await;

@@ -47,7 +47,7 @@ fn crate_at(x: f64) -> pb::Obstacle {
 }
 
 impl TestServer {
-    /// Adds an obstacle; its name is made up if `id` is empty.
+    /// Adds an obstacle; the server chooses its name if `id` is empty.
     pub async fn add_obstacle(
         &self,
         world: &str,
@@ -353,7 +353,7 @@ async fn bad_obstacles_change_nothing_and_are_named() {
     let refused = obstacles.delete_obstacle(request).await.unwrap_err();
     assert_eq!(refusal(&refused).2, "name");
     assert!(server.obstacles(&world).await.is_empty());
-    // A world holds so many, and says so.
+    // A world holds a limited number, and the refusal names the limit.
     for _ in 0..256 {
         server
             .add_obstacle(&world, "", crate_at(3.0))

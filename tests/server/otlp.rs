@@ -1,4 +1,4 @@
-//! Traces as a collector receives them. Method: a collector in this process, and the real server in it, too.
+//! Traces as a collector receives them. Method: a collector and the real server, both in this process.
 
 use opentelemetry_proto::tonic::collector::trace::v1::trace_service_server::{
     TraceService, TraceServiceServer,
@@ -16,7 +16,7 @@ use std::time::Duration;
 use tokio_stream::wrappers::TcpListenerStream;
 use tonic::{Code, Request, Response, Status};
 
-/// Keeps what it is sent.
+/// Stores the requests that it receives.
 #[derive(Clone, Default)]
 struct Collector(Arc<Mutex<Vec<ExportTraceServiceRequest>>>);
 
@@ -74,7 +74,7 @@ fn text(value: &str) -> Option<Value> {
 }
 
 /// Calls with and without a token, good and bad, within a trace of the client; a world that ticks; then the server
-/// ends, which sends what is left.
+/// ends, which sends the remaining spans.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_collector_receives_calls_and_a_few_ticks() {
     let (collector, endpoint) = Collector::start().await;

@@ -1,4 +1,4 @@
-//! The viewer over HTTP: content codings, tags and what is kept.
+//! The viewer over HTTP: content codings, tags and caching.
 
 use crate::support::TestServer;
 use flate2::read::GzDecoder;

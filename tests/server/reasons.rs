@@ -1,4 +1,5 @@
-//! Every error says why, whoever makes it: all calls with broken bytes, and what goes wrong before a call is there.
+//! Every error gives a reason, whichever layer makes it: all calls with broken bytes, and failures before a call is
+//! dispatched.
 
 use crate::raw::Raw;
 use crate::support::{TestServer, refusal};
@@ -12,7 +13,7 @@ use tonic::codegen::http::Uri;
 use tonic::metadata::{MetadataMap, MetadataValue};
 use tonic::{Code, Request, Status};
 
-/// A connection without deadlines of its own: tonic's channel ends calls by `grpc-timeout` like the server does.
+/// A connection without its own deadlines: tonic's channel ends calls by `grpc-timeout` like the server does.
 #[derive(Clone)]
 struct Connection {
     http: Client<HttpConnector, tonic::body::Body>,
@@ -27,7 +28,7 @@ fn connection(server: &TestServer) -> Connection {
     }
 }
 
-/// How a call ends that sends these messages.
+/// Result of a call that sends these messages.
 async fn ends(
     connection: &Connection,
     path: &str,
@@ -68,7 +69,7 @@ async fn broken_requests_of_every_call_are_told_why() {
     assert!(all.len() > 60);
     for method in &all {
         let path = path(method);
-        // Bytes that are no message, the beginning of one, and more than there may be.
+        // Bytes that are not a message, the beginning of a message, and a message above the limit.
         for (bytes, code, reason) in [
             (vec![0xff; 32], Code::InvalidArgument, "MALFORMED_MESSAGE"),
             (
@@ -88,7 +89,7 @@ async fn broken_requests_of_every_call_are_told_why() {
             let (got, why, _) = refusal(&e);
             assert_eq!((got, why.as_str()), (code, reason), "{path}: {e:?}");
         }
-        // No message at all, and an encoding that nobody asked for.
+        // No message at all, and an unsupported encoding.
         let e = ends(&connection, &path, vec![], &[]).await.unwrap_err();
         assert_eq!(refusal(&e).0, Code::InvalidArgument, "{path}: {e:?}");
         let e = ends(&connection, &path, vec![vec![]], &gzip)
@@ -117,7 +118,7 @@ async fn errors_of_libraries_have_a_reason_too() {
             (Code::Unimplemented, "NOT_AVAILABLE")
         );
     }
-    // Health of what there is not: field 1 is the name of the service.
+    // Health of a service that does not exist; field 1 is the name of the service.
     let service = vec![0x0a, 1, b'x'];
     let e = ends(
         &connection,

@@ -1,6 +1,6 @@
-//! Goal: what a clip was rehearsed for is played by a figure like that, seen in its frames, and outlives the server
-//! that stores it. Method: a body that slides on its soles as nobody can without help; short, so that help is found
-//! soon; then the directory is damaged.
+//! Goal: a rehearsal of a clip is played by a figure like the one for which it was made, is visible in its frames, and
+//! survives a restart of the server. Method: a body slides on its soles, which is impossible without help; the clip is
+//! short, so that help is found soon; then the directory is damaged.
 
 use crate::support::TestServer;
 use sinew_physics::body::Body;
@@ -14,19 +14,19 @@ use std::path::{Path, PathBuf};
 const FIGURE: &str = "worlds/w/figures/a";
 /// Frames of the clip, 60 per second.
 const FRAMES: i64 = 40;
-/// Those in which it would come to a stand: it ends before, in motion.
+/// Frames in which it would come to a stand; it ends earlier, in motion.
 const MOVES: f64 = 50.0;
-/// Ticks in which it is over.
+/// Number of ticks after which it is over.
 const TICKS: usize = 240;
 /// Largest help, in weights.
 const HELP: f64 = 2.0;
-/// Paths closer than this are one, and those farther apart are two, m.
+/// Paths closer than this count as equal, and those farther apart as different, m.
 const SAME: f64 = 1e-3;
 const OTHER: f64 = 0.05;
 /// Bit of `status.flags`.
 const FALLEN: i32 = 1 << 6;
 
-/// A body at ease that slides forward faster than it could walk, from a stand on.
+/// A body at ease slides forward from a stand, faster than it could walk.
 fn slide(id: &str) -> pb::CreateClipRequest {
     let body = Body::adult_man();
     let frame = |i: i64| {
@@ -49,15 +49,15 @@ fn slide(id: &str) -> pb::CreateClipRequest {
     }
 }
 
-/// A server with a world that stands still and a figure in it.
+/// A server with a paused world and a figure in it.
 async fn start(settings: &[(&str, &str)]) -> TestServer {
     let server = TestServer::with(settings).await;
     server.app.restore().await;
     server
 }
 
-/// Rehearses a clip until something is found that is better than help while it is tracked: how much time that takes
-/// depends on what else the machine does.
+/// Rehearses a clip until the result is better than help during tracking; the time that this takes depends on the load
+/// of the machine.
 async fn rehearse(server: &TestServer, clip: &str) -> pb::Rehearsal {
     for seconds in [10, 20, 40] {
         let found = rehearse_for(server, clip, seconds).await;
@@ -84,24 +84,23 @@ async fn rehearse_for(server: &TestServer, clip: &str, seconds: i64) -> pb::Rehe
 struct Played {
     /// Pose of the pelvis after each tick.
     path: Vec<f64>,
-    /// What helped it most, N·m or N.
+    /// Largest help, N·m or N.
     help: f64,
     fallen: bool,
-    /// In which ways it was followed, as frames say.
+    /// Ways in which it was followed, according to its frames.
     ways: BTreeSet<pb::FollowWay>,
-    /// As the figure says after the last tick.
+    /// Status of the figure after the last tick.
     status: pb::FigureStatus,
 }
 
 impl Played {
-    /// How far it is from another one at most within the first ticks, m or parts of a quaternion.
+    /// Largest difference from `other` within the first `ticks`, m or quaternion components.
     fn off(&self, other: &Self, ticks: usize) -> f64 {
         let pairs = self.path.iter().zip(&other.path).take(7 * ticks);
         pairs.fold(0.0, |m, (a, b)| m.max((a - b).abs()))
     }
 
-    /// True if it is the same. What falls makes much of how the time of the world is rounded, so it is not compared to
-    /// its end.
+    /// Whether it equals `other`. A fall amplifies the rounding of world time, so it is not compared to its end.
     fn is(&self, other: &Self) -> bool {
         self.off(other, 100) < SAME
     }
@@ -170,7 +169,7 @@ async fn a_figure_does_what_was_rehearsed_for_it_also_after_a_restart() {
     assert!(found.reason.starts_with("plain tracking loses it"));
     assert!(found.help_peak_newtons <= HELP * 900.0);
 
-    // It does as it was rehearsed, which frames show where it is helped, and as before where that is not asked for.
+    // It follows its rehearsal, which frames show while it is helped, and moves as before if no rehearsal is requested.
     let helped = way == pb::FollowWay::Helped;
     let follows = played(&first, "slide", pb::Follow::Assisted).await;
     let off = follows.off(&plain, TICKS);
@@ -194,7 +193,7 @@ async fn a_figure_does_what_was_rehearsed_for_it_also_after_a_restart() {
     assert_eq!(again.fallen, follows.fallen);
     second.stop().await;
 
-    // A damaged one is left out. The clip is there, and can be rehearsed again, which mends the file.
+    // A damaged rehearsal is ignored. The clip exists, and can be rehearsed again, which repairs the file.
     let file = files(&folder).remove(0);
     let mut bytes = std::fs::read(&file).unwrap();
     let middle = bytes.len() / 2;
@@ -208,7 +207,7 @@ async fn a_figure_does_what_was_rehearsed_for_it_also_after_a_restart() {
     assert!(again.off(&plain, TICKS) > OTHER);
     assert_eq!(files(&folder), [file]);
 
-    // They go with their clip, and another one of its name has none.
+    // They are deleted with their clip, and a new clip of the same name has none.
     let delete = pb::DeleteClipRequest {
         name: "clips/slide".into(),
         ..Default::default()

@@ -1,5 +1,5 @@
-//! What one client does to others: reads and pushes do not wait for a busy world, floods are refused with a time after
-//! which to come again, long work is shared, clocks that start again are followed.
+//! Effects of one client on others: reads and pushes do not wait for a busy world, floods are refused with a retry
+//! time, long work is shared, and restarted clocks are followed.
 
 use crate::support::{TestServer, arm_frame, header, refusal, view};
 use sinew_client::Client;
@@ -222,7 +222,7 @@ async fn long_simulations_of_one_client_block_nobody() {
     };
     other.motions().create_clip(request).await.unwrap();
     assert!(long.iter().all(|l| !l.is_finished()));
-    // Who goes away frees the workers.
+    // A client that disconnects frees the workers.
     for task in long {
         task.abort();
     }

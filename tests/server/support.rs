@@ -1,4 +1,4 @@
-//! The server in this process, and what tests keep asking of it.
+//! The server in this process, with requests that many tests make.
 
 use sinew_client::Client;
 use sinew_server::api::App;
@@ -27,12 +27,12 @@ impl TestServer {
         Self::with(&[]).await
     }
 
-    /// With settings other than the defaults.
+    /// Starts it with settings other than the defaults.
     pub async fn with(settings: &[(&str, &str)]) -> Self {
-        // How fast this build computes on this machine decides no test but those that are about it.
+        // The speed of this build on this machine must affect only the tests that are about it.
         let flags: Vec<_> = [("max_tick_budget", "1000"), ("lame_duck_s", "0")]
             .iter()
-            // Nor do tests beside each other wait for each other's ticks.
+            // Parallel tests must not wait for each other's ticks either.
             .chain(&[("tick_priority", "plain")])
             .chain(settings)
             .map(|(a, b)| ((*a).to_owned(), (*b).to_owned()))
@@ -73,7 +73,7 @@ impl TestServer {
         self.ended.take().unwrap().await.unwrap();
     }
 
-    /// A world, paused so that tests say when it moves.
+    /// A paused world, so that tests decide when it moves.
     pub async fn paused_world(&self, id: &str) -> String {
         self.world(id, true, pb::World::default()).await
     }
@@ -207,7 +207,7 @@ pub fn arm_frame(figure: &str, i: i64) -> pb::MotionFrame {
     }
 }
 
-/// A drive whose motion is used a fixed time after it came, so that what happens depends on ticks alone.
+/// A drive whose motion is used a fixed time after its arrival, so that the result depends on ticks alone.
 pub fn header(world: &str, figure: &str, driver: &str) -> pb::DriveHeader {
     pb::DriveHeader {
         world: world.into(),

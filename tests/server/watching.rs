@@ -146,7 +146,7 @@ async fn a_slow_viewer_gets_the_latest_frame_and_slows_nobody() {
         seen += 1;
     }
     assert!(seen > 150, "the quick one saw {seen} of 300");
-    // What was under way when the window closed, then the latest, with nothing in between.
+    // The frames under way when the window closed, then the latest one, with nothing in between.
     let mut ticks = Vec::new();
     while ticks.last().is_none_or(|t| *t < last) {
         ticks.push(next_frame(&mut slow).await.tick);
@@ -286,12 +286,12 @@ async fn who_joins_late_gets_the_past_and_then_what_comes_without_a_gap() {
             other => panic!("{other:?}"),
         }
     }
-    // The names come before the first frame, when they change, and where frames that are held go on.
+    // The names come before the first frame, when they change, and where held frames resume.
     let counts: Vec<_> = names.iter().map(|n| (n.0, n.1)).collect();
     assert_eq!(counts, [(2, 1), (20, 2), (142, 2)]);
     server.step(&world, 1).await;
     assert_eq!(next_frame(&mut frames).await.tick, 151);
-    // Others begin and do not read: those that do get theirs all the same.
+    // Other viewers begin and do not read; those that read still get their frames.
     let mut idle = Vec::new();
     let first = server
         .client
@@ -312,7 +312,7 @@ async fn who_joins_late_gets_the_past_and_then_what_comes_without_a_gap() {
         assert_eq!(next_frame(&mut first).await.tick, tick);
     }
     drop(idle);
-    // Every third frame; what is not computed yet is none of the past.
+    // Every third frame; ticks not yet computed are not part of the past.
     let third = pb::View {
         rate_divisor: 3,
         ..view(&["root_pose"])
@@ -350,7 +350,7 @@ async fn who_joins_a_world_late_that_runs_catches_up_with_it() {
         .await
         .unwrap();
     let now = server.get_world(&world).await.tick;
-    // Nothing of what is done again is left out; a viewer that is too slow for what comes gets the latest.
+    // No replayed frame is left out; a viewer that is too slow for new frames gets the latest.
     let mut last = 30;
     while last < now + 10 {
         let tick = next_frame(&mut frames).await.tick;

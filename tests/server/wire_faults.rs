@@ -9,8 +9,7 @@ fn expect(status: Status, code: Code, field: &str) {
     assert_eq!((c, f.as_str()), (code, field), "{status:?}");
 }
 
-/// A server with the paused world `w` and the figure `a`, and what it showed before it was asked for things that it
-/// refuses.
+/// A server with the paused world `w` and the figure `a`, and its state before the requests that it refuses.
 struct Asked {
     server: TestServer,
     world: String,

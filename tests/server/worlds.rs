@@ -247,7 +247,7 @@ async fn figures_come_change_and_go() {
     server.stop().await;
 }
 
-/// A lift that is too much for one arm: the other hand helps, and the events and frames say so.
+/// A lift that is too much for one arm: the other hand helps, and events and frames show it.
 #[tokio::test(flavor = "multi_thread")]
 async fn the_other_hand_helps_with_a_load_that_asks_for_it() {
     let server = TestServer::start().await;
@@ -517,7 +517,7 @@ async fn one_port_has_pages_metrics_health_reflection_and_grpc_web() {
             .count(),
         15
     );
-    // What errors are made of is described, too.
+    // The types in errors are described, too.
     for file in ["google/rpc/error_details.proto", "sinew/v1/operation.proto"] {
         let request = ServerReflectionRequest {
             host: String::new(),

@@ -1,5 +1,5 @@
-//! What a checkpoint takes, per figure: bytes, the time that it keeps the thread of the world (`capture`), the rest of
-//! writing it, and making a world of it. One step of the same world beside it, in the same run, is the measure.
+//! Cost of a checkpoint per figure: bytes, the time on the thread of the world (`capture`), the rest of writing it, and
+//! making a world from it. One step of the same world, in the same run, serves for comparison.
 
 use sinew_physics::body::Body;
 use sinew_physics::figure::ControllerKind;
@@ -15,7 +15,7 @@ use std::time::Instant;
 const FIGURES: usize = 100;
 const ROUNDS: usize = 200;
 
-/// A world of men who walk, by a clip or by a live stream, a second after they began.
+/// A world of walking men, following a clip or a live stream, one second after their start.
 fn world(live: bool) -> World {
     let body = Arc::new(Body::adult_man());
     let clip = Arc::new(builtin(&body, "walk").expect("a built-in motion"));

@@ -1,5 +1,5 @@
 //! One controller tick from a state in mid-squat: dynamics, supports, strength, desired points and the decision,
-//! without stepping. `paper` is what the assembled Pinocchio + Eigen tick does; `decide` is the controller alone.
+//! without stepping. `paper` does the work of the assembled Pinocchio + Eigen tick; `decide` is the controller alone.
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
 #[path = "common/decision.rs"]

@@ -13,7 +13,7 @@ use sinew_physics::math::{F64x8, Lane};
 use std::hint::black_box;
 
 const GRAVITY: f64 = 9.81;
-/// States that are cycled through, so that no branch predictor learns one of them.
+/// Number of states used in turn, so that the branch predictor cannot learn one of them.
 const STATES: usize = 64;
 
 /// Reproducible numbers in −1…1 (a 64-bit linear congruential generator).
@@ -109,7 +109,7 @@ fn one_figure(c: &mut Criterion) {
     group.bench_function("kinematics", |b| {
         b.iter(|| kin.set_state(black_box(links), &states[next()]));
     });
-    // As Pinocchio's `rnea` does, this begins with the state and includes the kinematics.
+    // Like Pinocchio's `rnea`, this starts from the state and includes the kinematics.
     group.bench_function("rnea", |b| {
         b.iter(|| {
             let n = next();

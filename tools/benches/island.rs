@@ -1,4 +1,4 @@
-//! One solve of an island of free bodies that touch in more and more places: `bodies/contacts`. Time must grow with the
+//! One solve of an island of free bodies with a growing number of contacts: `bodies/contacts`. Time must grow with the
 //! smaller of the two.
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
@@ -7,7 +7,7 @@ use sinew_physics::collide::island::{Articulated, ContactLaw, Island, Parts};
 use sinew_physics::collide::narrow::Near;
 use sinew_physics::math::Vec3;
 
-/// Nobody: the island is of free bodies alone.
+/// No figure: the island consists of free bodies alone.
 enum Nobody {}
 
 impl Articulated for Nobody {

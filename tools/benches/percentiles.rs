@@ -1,7 +1,7 @@
-//! How long the slow ticks take: medians and percentiles of the modern controller's decision and of the whole tick (two
-//! substeps, with stretched tissue), over a figure that walks, that is pushed while it walks and while it stands, and
-//! that stands. A mean or a single state hides what a live world waits for. One thread; the decision is that of a
-//! controller of its own which sees every state and target of the run.
+//! Duration of slow ticks: medians and percentiles of the modern controller's decision and of the whole tick (two
+//! substeps, with stretched tissue), for a figure that walks, that is pushed while it walks and while it stands, and
+//! that stands. A mean or a single state would hide the ticks for which a live world waits. One thread; the decision is
+//! made by a separate controller that sees every state and target of the run.
 #![allow(missing_docs)]
 
 #[path = "common/decision.rs"]
@@ -19,12 +19,12 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Length of one run, s, and how many times each is run: the fastest of them counts at each tick, so that other work on
-/// the machine does not.
+/// Length of one run, s, and number of runs. The fastest run counts at each tick, so that other work on the machine
+/// does not matter.
 const SECONDS: f64 = 20.0;
 const RUNS: usize = 5;
 
-/// A motion without end, and how often (s) and how strongly (N·s) the chest is pushed, each time from another side.
+/// An endless motion, and the interval (s) and impulse (N·s) of pushes at the chest, each from another side.
 struct Scene {
     name: &'static str,
     clip: &'static str,

@@ -9,7 +9,7 @@ use sinew_physics::motion::builtin::builtin;
 use sinew_physics::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
 use std::sync::Arc;
 
-/// A world of `count` men who squat without end, each at another moment of the motion.
+/// A world of `count` endlessly squatting men, each at another phase of the motion.
 fn world(controller: ControllerKind, count: usize) -> World {
     let body = Arc::new(Body::adult_man());
     let clip = Arc::new(builtin(&body, "squat").expect("a built-in motion"));

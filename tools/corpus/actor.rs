@@ -1,5 +1,5 @@
-//! The actor: a skeleton with proportions and a mass table of its own, forward kinematics, and the inverse kinematics
-//! of its legs.
+//! The actor: a skeleton with its own proportions and mass table, forward kinematics, and the inverse kinematics of its
+//! legs.
 //!
 //! World: x forward, y left, z up, metres. A segment's frame sits at its proximal joint; in the zero pose (upright,
 //! arms hanging, palms to the thighs) all frames are parallel to the world. Angles follow docs/notation.md of this
@@ -281,7 +281,7 @@ pub struct Pose {
     pub tips: [Vec3; 2],
     /// 39 anatomical angles, rad.
     pub angles: [f64; 39],
-    /// How far each leg is too short for its foot, m (0 unless the motion is authored wrongly).
+    /// Length that each leg lacks to reach its foot, m (0 unless the motion is authored wrongly).
     pub short: [f64; 2],
 }
 
@@ -464,7 +464,7 @@ impl Actor {
         )
     }
 
-    /// Centres of mass of the segments: where Winter's table has them along each segment.
+    /// Centres of mass of the segments: placed along each segment by Winter's table.
     pub fn centres(&self, pose: &Pose) -> [Vec3; 18] {
         let mut out = [Vec3::zero(); 18];
         let mix = |a: Vec3, b: Vec3, u: f64| a + (b - a) * u;

@@ -1,4 +1,4 @@
-//! Which motion is written in which dialect, and all files of the corpus.
+//! The dialects of each motion, and all files of the corpus.
 
 use super::dialect::{DIALECTS, Dialect, dialect, write};
 use super::motions;
@@ -80,7 +80,7 @@ pub fn files_of(motion: &Motion) -> Vec<(String, Vec<u8>)> {
     let mut out = Vec::new();
     let mut listed = Vec::new();
     for (k, d) in dialects_of(name).into_iter().enumerate() {
-        // Every file has noise of its own.
+        // Every file has its own noise.
         let seed = name.bytes().fold(k as u64 + 1, |h, b| {
             h.wrapping_mul(131).wrapping_add(u64::from(b))
         });

@@ -1,4 +1,4 @@
-//! Ways in which BVH files say the same motion, and the writer.
+//! Dialects in which BVH files express the same motion, and the writer.
 
 use super::actor::{ABDOMEN, ARM, Actor, CHEST, FootPose, HEAD, LEG, PELVIS, Pose, Upper, sign};
 use super::gait::deg;
@@ -21,7 +21,7 @@ pub enum Point {
     Toes(usize),
 }
 
-/// The frame that a bone turns with.
+/// The frame with which a bone turns.
 #[derive(Clone, Copy, Debug)]
 pub enum Follow {
     Segment(usize),
@@ -55,7 +55,7 @@ pub struct Names {
     pub trunk: &'static [&'static str],
     pub neck: &'static [&'static str],
     pub head: &'static str,
-    /// How sides are written: left, right.
+    /// Spelling of the sides: left, right.
     pub sides: [&'static str; 2],
     /// Clavicle, upper arm, forearm, hand (or forearm twist and hand).
     pub arm: &'static [&'static str],
@@ -201,7 +201,7 @@ const COLLAR: Names = Names {
     legs_first: false,
 };
 
-/// The clean one that every motion is written in.
+/// The clean dialect, in which every motion is written.
 pub const PLAIN: Dialect = Dialect {
     name: "vrm",
     unit: 1.0,
@@ -390,7 +390,7 @@ pub const DIALECTS: [Dialect; 13] = [
     },
 ];
 
-/// The dialect of a name.
+/// The dialect with this name.
 pub fn dialect(name: &str) -> Dialect {
     *DIALECTS
         .iter()
@@ -643,7 +643,7 @@ fn euler(q: Quat, order: [usize; 3]) -> [f64; 3] {
     ]
 }
 
-/// The same rotation in the way that lies nearest to `last`.
+/// The angles of the same rotation that are nearest to `last`.
 fn continuous(angles: [f64; 3], last: Option<[f64; 3]>) -> [f64; 3] {
     let pi = std::f64::consts::PI;
     let Some(last) = last else { return angles };

@@ -20,7 +20,7 @@ pub struct Step {
     pub stride: f64,
 }
 
-/// How steps are taken.
+/// Style of the steps.
 #[derive(Clone, Copy, Debug)]
 pub struct Manner {
     /// Pitch at touch-down and at lift-off of a full step, degrees.
@@ -31,7 +31,7 @@ pub struct Manner {
     /// Height of the hips while standing and in mid-swing, shares of the leg.
     pub stand: f64,
     pub tall: f64,
-    /// How much lower they are in double support, m.
+    /// Lowering of the hips in double support, m.
     pub drop: f64,
     /// Trunk bent forward, degrees.
     pub lean: f64,
@@ -84,7 +84,7 @@ pub fn at_ease() -> Upper {
     }
 }
 
-/// Foot plans from where the feet stand and the steps they take.
+/// Foot plans from the initial stance and the steps.
 pub fn plans(
     actor: &Actor,
     start: [[f64; 3]; 2],
@@ -107,7 +107,7 @@ pub fn plans(
         for (k, s) in steps.iter().enumerate().filter(|(_, s)| s.side == side) {
             let last = stances.last_mut().expect("starts standing");
             last.until = s.off;
-            // The push-off of the leg that is left behind depends on the stride that follows.
+            // The push-off of the rear leg depends on the following stride.
             let behind = steps[..k]
                 .iter()
                 .rev()
@@ -198,7 +198,7 @@ fn pelvis_height(actor: &Actor, steps: &[Step], manner: &Manner) -> Track {
     Track::still(&keys)
 }
 
-/// Angles of trunk and arms that go with the steps.
+/// Angles of trunk and arms that accompany the steps.
 fn swinging(steps: Vec<Step>, manner: Manner, length: f64) -> Style {
     let stride = stride_track(&steps);
     let begin = steps[0].off - 0.3;
@@ -335,7 +335,7 @@ fn steady(keys: Vec<Key>) -> Track {
     Track::through(&thin)
 }
 
-/// Where and when the feet of a walk come down.
+/// Places and times of the footfalls of a walk.
 pub struct Walk {
     pub steps: usize,
     /// Length of a full step, m, and time from touch-down to touch-down, s.

@@ -3,8 +3,8 @@
 //! ```sh
 //! cargo run --example corpus -- tests/corpus
 //! ```
-//! With `--check` it writes nothing and prints, per motion, how far legs are too short for their feet and how deep
-//! feet sink: both are 0 unless a motion is authored wrongly.
+//! With `--check` it writes nothing and prints, per motion, the length that legs lack to reach their feet, and the
+//! depth of feet in the floor: both are 0 unless a motion is authored wrongly.
 
 mod actor;
 mod corpus;

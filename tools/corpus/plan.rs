@@ -1,11 +1,10 @@
 //! From footholds, a pelvis height and the angles of trunk and arms to a whole motion.
 //!
-//! The centre of mass follows the cart-table equation of the linear inverted pendulum with the height that the motion
-//! has:
-//! `λ (c − p) − z c̈ = L̇`, with `λ = g + z̈`, the planned zero-moment point `p` and the rate of the angular momentum
-//! `L` about the centre of mass. In flight λ is 0 and the path is ballistic by itself. `L̇` comes from the pass
-//! before; a few passes suffice. The pelvis is then placed such that the centre of mass by the mass table is there,
-//! with both feet where the footholds say.
+//! The centre of mass follows the cart-table equation of the linear inverted pendulum with the height of the motion: `λ
+//! (c − p) − z c̈ = L̇`, with `λ = g + z̈`, the planned zero-moment point `p` and the rate of the angular momentum `L`
+//! about the centre of mass. In flight λ is 0 and the path is ballistic by itself. `L̇` comes from the previous pass; a
+//! few passes suffice. The pelvis is then placed such that the mass table gives this centre of mass, with both feet on
+//! their footholds.
 
 use super::actor::{Actor, FootPose, MASS_SHARE, Pose, Upper, pelvis_turn, sign};
 use super::tracks::{Key, Sampled, Track, bump, ease, mix, ramp, rest, v3};
@@ -17,7 +16,7 @@ pub const GRAVITY: f64 = 9.81;
 const STEP: f64 = 1.0 / 120.0;
 /// Height over the floor that a foot in the air keeps in the middle of its swing, m.
 const CLEARANCE: f64 = 0.015;
-/// Longest distance of hip and ankle, share of the leg: knees are not stretched beyond.
+/// Longest distance of hip and ankle, share of the leg: knees are not stretched further.
 const LONGEST: f64 = 0.995;
 /// Passes over the whole motion.
 const PASSES: usize = 9;
@@ -31,16 +30,15 @@ pub struct Stance {
     pub x: f64,
     pub y: f64,
     pub yaw: f64,
-    /// Pitch at touch-down (toes up positive: heel first) and until when the sole is flat, s after touch-down.
+    /// Pitch at touch-down (toes up positive: heel first) and time until the sole is flat, s after touch-down.
     pub strike: (f64, f64),
-    /// Pitch at lift-off (negative: over the toes) and since when it grows, s before lift-off.
+    /// Pitch at lift-off (negative: over the toes) and the time over which it grows, s before lift-off.
     pub off: (f64, f64),
-    /// Where the zero-moment point is at touch-down and at lift-off, ahead of the ankle; in long stances it rests
-    /// between.
+    /// Zero-moment point at touch-down and at lift-off, ahead of the ankle; in long stances it rests in between.
     pub roll: (f64, f64),
 }
 
-/// Where the zero-moment point rests under a standing foot, ahead of the ankle, for the adult actor.
+/// Resting zero-moment point under a standing foot, ahead of the ankle, for the adult actor.
 pub const MID_FOOT: f64 = 0.042;
 
 /// A way point of a foot in the air.
@@ -198,7 +196,7 @@ impl FootPlan {
 
     /// Point of the zero-moment point under this foot.
     fn roll_point(&self, actor: &Actor, t: f64) -> Vec3 {
-        // The stance that holds, else the one that is nearer in time.
+        // The present stance, or else the one nearest in time.
         let s = self.stance(t).unwrap_or_else(|| {
             self.stances
                 .iter()
@@ -226,7 +224,7 @@ impl FootPlan {
     }
 }
 
-/// What prescribes the height.
+/// The prescribed height.
 pub enum Height {
     /// Height of the middle of the hips, m.
     Pelvis(Track),
@@ -262,7 +260,7 @@ pub struct Script {
     pub height: Height,
     /// Zero-moment point along the forward axis of the world instead of under the feet, with a weight 0…1 over time.
     pub elsewhere: Option<(Track, Track)>,
-    /// Pelvis place (x, y) instead of the one that the centre of mass asks for, with a weight 0…1 over time.
+    /// Pelvis place (x, y) instead of the one that the centre of mass requires, with a weight 0…1 over time.
     pub seat: Option<(Track, Track)>,
     /// Sway of the zero-moment point (x, y), m.
     pub sway: [Track; 2],
@@ -287,7 +285,7 @@ fn left_share(feet: &[FootPlan; 2], count: usize) -> Vec<f64> {
             _ => runs.push((at(i), i, i + 1)),
         }
     }
-    // Shares that hold before and after each double support: of the foot that stands alone there.
+    // Shares before and after each double support, when one foot stands alone.
     let single = |d: [bool; 2]| match d {
         [true, false] => Some(1.0),
         [false, true] => Some(0.0),

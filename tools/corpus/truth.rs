@@ -1,4 +1,4 @@
-//! What is true of a motion, as JSON. The schema is described in tests/corpus/README.md.
+//! The truth of a motion, as JSON. The schema is described in tests/corpus/README.md.
 
 use super::actor::{ANGLES, MASS_SHARE, SEGMENTS};
 use super::dialect::Dialect;

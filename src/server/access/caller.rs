@@ -1,4 +1,4 @@
-//! Who asks, and what it may do.
+//! The caller and its permissions.
 
 use super::roles::{Role, Roles, Rule};
 use crate::shares::Client;
@@ -6,22 +6,22 @@ use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
-/// Name of everybody on a server without authentication.
+/// Name of every caller on a server without authentication.
 pub const ANONYMOUS: &str = "anonymous";
-/// A grant to this principal is one to everyone who has said who it is.
+/// A grant to this principal is a grant to every authenticated caller.
 pub const EVERYONE: &str = "*";
 
-/// What a token or the settings say about someone.
+/// Claims of a token or of the settings about a principal.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Claims {
     /// Roles, for the server and in the worlds that are named.
     pub roles: Roles,
-    /// Names of worlds and clips that the roles are for, each with `*` at its end for any ending; `None`: all.
+    /// Names of worlds and clips to which the roles apply, each with `*` at its end for any ending; `None`: all.
     pub names: Option<Vec<String>>,
 }
 
 impl Claims {
-    /// Whether a world or clip of this name is meant.
+    /// Whether the names include this world or clip.
     pub fn name(&self, id: &str) -> bool {
         let matches = |pattern: &String| match pattern.strip_suffix('*') {
             Some(start) => id.starts_with(start),
@@ -47,14 +47,14 @@ impl Claims {
 pub struct Identity {
     /// `user:{sub}`, `cert:{name}` or `anonymous`.
     pub principal: Arc<str>,
-    /// What it may do without any grant.
+    /// Its permissions without any grant.
     pub claims: Arc<Claims>,
-    /// When it has to prove itself again.
+    /// Time at which it has to prove itself again.
     pub expires: Option<SystemTime>,
 }
 
 impl Identity {
-    /// Everybody on a server without authentication: owner of everything.
+    /// Every caller on a server without authentication: owner of everything.
     pub fn anonymous() -> Self {
         Self {
             principal: ANONYMOUS.into(),
@@ -66,22 +66,22 @@ impl Identity {
         }
     }
 
-    /// Whether nobody knows who it is.
+    /// Whether it is anonymous.
     pub fn is_anonymous(&self) -> bool {
         &*self.principal == ANONYMOUS
     }
 }
 
-/// Who makes a call.
+/// The caller of a call.
 #[derive(Clone, Debug)]
 pub struct Caller {
-    /// Who it is.
+    /// Its identity.
     pub identity: Identity,
-    /// Whose share of what all have this takes: the principal, or of anonymous callers the address.
+    /// The client whose share of common resources this uses: the principal, or for anonymous callers the address.
     pub client: Client,
-    /// What orders its commands among those of others: the principal, or of anonymous callers the connection.
+    /// The key that orders its commands among those of others: the principal, or for anonymous callers the connection.
     pub order: Arc<str>,
-    /// What the call needs.
+    /// The rule of the call.
     pub rule: Rule,
     /// Name of the call, for messages.
     pub call: Arc<str>,
@@ -93,10 +93,10 @@ impl Caller {
         &self.identity.principal
     }
 
-    /// Checks the part of the rule that no world is needed for.
+    /// Checks the part of the rule that needs no world.
     ///
     /// # Errors
-    /// A role for the server is missing, or the call is open to nobody.
+    /// A role for the server is missing, or the call is refused to all callers.
     pub fn check_server(&self) -> Result<(), Fault> {
         match self.rule {
             Rule::Never => Err(Fault::Denied {
@@ -108,7 +108,7 @@ impl Caller {
                 facts: vec![],
             }),
             Rule::Needs(Role::Creator) if !self.may_create() => Err(self.denied(Role::Creator, "")),
-            // Roles in a world are checked with the world; everybody here has said who it is.
+            // Roles in a world are checked with the world; every caller here is authenticated.
             Rule::Needs(_) | Rule::Open | Rule::Unknown => Ok(()),
         }
     }
@@ -116,7 +116,7 @@ impl Caller {
     /// Whether it may create worlds and clips.
     fn may_create(&self) -> bool {
         let roles = self.identity.claims.roles;
-        // Who owns worlds by its token creates those that the token names.
+        // A caller whose token owns worlds may create those named in the token.
         roles.contain(Role::Creator) || roles.contain(Role::Owner)
     }
 
@@ -154,7 +154,7 @@ impl Caller {
         Err(self.denied(role, &format!("worlds/{world}")))
     }
 
-    /// That a role is missing; `place`: where, empty for the server.
+    /// The fault of a missing role; `place`: where it is missing, empty for the server.
     pub fn denied(&self, role: Role, place: &str) -> Fault {
         let place = if place.is_empty() {
             String::new()
@@ -176,19 +176,19 @@ impl Caller {
         }
     }
 
-    /// Time until the proof of identity is over; `None`: it never is.
+    /// Time until the proof of identity expires; `None`: never.
     pub fn expires_in(&self) -> Option<Duration> {
         let left = |at: SystemTime| at.duration_since(SystemTime::now()).unwrap_or_default();
         self.identity.expires.map(left)
     }
 
-    /// When that is.
+    /// Time at which the proof of identity expires.
     pub fn expires_at(&self) -> Option<Instant> {
         self.expires_in()
             .and_then(|left| Instant::now().checked_add(left))
     }
 
-    /// What a stream learns whose caller has to prove itself again.
+    /// The end of a stream whose caller has to prove itself again.
     pub fn expired() -> Fault {
         Fault::Unauthenticated {
             reason: "TOKEN_EXPIRED",

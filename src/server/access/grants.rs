@@ -1,4 +1,4 @@
-//! Who has which roles in one world.
+//! The roles of principals in one world.
 
 use super::caller::{Caller, EVERYONE, Identity};
 use super::limits::Bucket;
@@ -14,16 +14,15 @@ use tokio::sync::watch;
 
 /// Grants of a world.
 const MOST_GRANTS: usize = 256;
-/// Priority that owners and directors take leases with at most.
+/// Highest priority of leases of owners and directors.
 pub const TOP_PRIORITY: i32 = 100;
 /// Seconds' worth of perturbations that may come at once.
 const PERTURBATION_BURST_S: f64 = 10.0;
 
-/// Time in which the largest force would stop a load that is thrown, s: as long as an impulse lasts that says nothing
-/// of it.
+/// Time in which the largest force would stop a thrown load, s: the default duration of an impulse.
 const CATCH_TIME: f64 = 0.1;
 
-/// What a perturber may do.
+/// Limits of a perturber.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     /// Largest force, N.
@@ -35,14 +34,14 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    /// None but those of the calls.
+    /// No limits except those of the calls.
     pub const NONE: Self = Self {
         force: f64::INFINITY,
         mass: f64::INFINITY,
         rate: f64::INFINITY,
     };
 
-    /// Bounds as they are given: the mass is as heavy as the force if it is not told.
+    /// Bounds as given; without a mass, its weight equals the force.
     pub fn new(force: Option<f64>, mass: Option<f64>, rate: Option<f64>) -> Self {
         let force = force.unwrap_or(f64::INFINITY);
         Self {
@@ -52,7 +51,7 @@ impl Bounds {
         }
     }
 
-    /// What either allows.
+    /// The union of both permissions.
     fn or(self, other: Self) -> Self {
         Self {
             force: self.force.max(other.force),
@@ -73,7 +72,7 @@ impl Bounds {
                 let most = self.force * CATCH_TIME;
                 all.push(("load with a momentum", mass * velocity.norm(), most, "N·s"));
             }
-            // What came over the wire is finite.
+            // Numbers from the wire are finite.
             for (what, value, most, unit) in all {
                 if value > most {
                     let limit = format!(
@@ -92,24 +91,24 @@ impl Bounds {
 pub struct Grant {
     /// Last part of its name.
     pub id: String,
-    /// To whom.
+    /// The principal to which it is given.
     pub principal: Arc<str>,
     /// Roles as they were given.
     pub roles: Vec<Role>,
-    /// Figures that the role of a driver is for; empty: all.
+    /// Figures to which the role of a driver applies; empty: all.
     pub figures: Vec<String>,
     /// Bounds of a perturber, as they were given: force (N), mass (kg), rate (1/s).
     pub bounds: Option<[Option<f64>; 3]>,
     /// Highest priority of a driver's leases.
     pub max_priority: i32,
-    /// When it was created.
+    /// Time of creation.
     pub created: SystemTime,
-    /// When it ends.
+    /// Time at which it ends.
     pub expires: Option<SystemTime>,
 }
 
 impl Grant {
-    /// All of a principal's own world.
+    /// Full ownership of a principal's own world.
     pub fn owner(principal: Arc<str>) -> Self {
         Self {
             id: "creator".to_owned(),
@@ -129,7 +128,7 @@ impl Grant {
     }
 }
 
-/// What changes of a grant; `None` stays.
+/// Changes to a grant; `None` leaves a field unchanged.
 #[derive(Clone, Debug, Default)]
 pub struct GrantUpdate {
     /// Roles.
@@ -144,7 +143,7 @@ pub struct GrantUpdate {
     pub expires: Option<Option<SystemTime>>,
 }
 
-/// What a caller may do in a world, all in all.
+/// All permissions of a caller in a world.
 #[derive(Clone, Debug)]
 pub struct Rights {
     /// Its roles.
@@ -194,7 +193,7 @@ fn admit(all: &BTreeMap<String, Grant>, world: &str, mut grant: Grant) -> Result
 #[derive(Debug)]
 pub struct Grants {
     all: RwLock<BTreeMap<String, Grant>>,
-    /// Changes with them.
+    /// Changes whenever the grants change.
     version: watch::Sender<u64>,
     rates: Mutex<HashMap<Arc<str>, Bucket>>,
 }
@@ -222,7 +221,7 @@ impl Grants {
         self.version.subscribe()
     }
 
-    /// When the next one ends that has not yet.
+    /// End of the next grant to expire.
     pub fn next_end(&self) -> Option<SystemTime> {
         let now = SystemTime::now();
         self.read()
@@ -232,7 +231,7 @@ impl Grants {
             .min()
     }
 
-    /// What a caller may do in this world, which has this name.
+    /// The permissions of a caller in this world, whose name is `world`.
     pub fn rights(&self, identity: &Identity, world: &str) -> Rights {
         let claimed = identity.claims.roles_in(world);
         let mut rights = Rights {
@@ -272,8 +271,8 @@ impl Grants {
         rights
     }
 
-    /// Checks that each perturbation of a batch is within the bounds of a caller, and counts them. What their sum has
-    /// to keep to is left to who knows what else acts; `None`: nothing.
+    /// Checks that each perturbation of a batch is within the bounds of a caller, and counts them. Returns the bound on
+    /// their sum, which is checked by the code that knows the other forces; `None`: no bound.
     ///
     /// # Errors
     /// One is too strong, there are more than may come at once, or they come too often.
@@ -329,7 +328,7 @@ impl Grants {
     /// The grant that [`Self::add`] would add.
     ///
     /// # Errors
-    /// Its own.
+    /// Those of [`Self::add`].
     pub fn would_add(&self, world: &str, grant: Grant) -> Result<Grant, Fault> {
         admit(&self.read(), world, grant)
     }
@@ -363,7 +362,7 @@ impl Grants {
             .ok_or_else(|| missing(world, id))
     }
 
-    /// Changes one, if `same` does not object to what it is now; `only`: tells what it would be.
+    /// Changes one, if `same` accepts its present value; `only`: returns the result without changing it.
     ///
     /// # Errors
     /// There is none of that name; those of `same`.
@@ -402,7 +401,7 @@ impl Grants {
         Ok(grant)
     }
 
-    /// Takes one back, if `same` does not object to what it is now.
+    /// Removes one, if `same` accepts its present value.
     ///
     /// # Errors
     /// There is none of that name; those of `same`.

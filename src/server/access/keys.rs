@@ -1,4 +1,4 @@
-//! The public keys of those who issue tokens: a JWKS in a file or behind a URL, fetched again now and then.
+//! The public keys of token issuers: a JWKS in a file or behind a URL, fetched again at intervals.
 
 use crate::config::Config;
 use http_body_util::{BodyExt as _, Empty, Limited};
@@ -24,12 +24,12 @@ const MOST_BYTES: usize = 256 * 1024;
 const MOST_KEYS: usize = 128;
 /// Bytes of the name of a key.
 const MOST_ID: usize = 256;
-/// How long fetching may take.
+/// Longest time for fetching.
 const FETCH_TIME: Duration = Duration::from_secs(5);
-/// How soon a token with an unknown key lets the keys be fetched again.
+/// Shortest interval at which a token with an unknown key causes the keys to be fetched again.
 const LEAST_INTERVAL: Duration = Duration::from_secs(10);
 
-/// A key that signatures are checked with.
+/// A key for checking signatures.
 #[derive(Clone)]
 pub(super) struct Key {
     id: Option<String>,
@@ -45,21 +45,21 @@ enum From {
     ),
 }
 
-/// Where keys come from, and those that were there last.
+/// The source of the keys, and the keys last fetched.
 pub(crate) struct KeySource {
     from: From,
     interval: Duration,
     keys: RwLock<Vec<Key>>,
     version: AtomicU64,
-    /// When they were fetched last, whether it worked or not. Held while they are.
+    /// Time of the last attempt to fetch them, successful or not. Locked during an attempt.
     fetched: tokio::sync::Mutex<Option<Instant>>,
 }
 
 impl KeySource {
-    /// The source that the settings name. A file is read at once.
+    /// The source named in the settings. A file is read at once.
     ///
     /// # Errors
-    /// The file has no keys, or the address is none.
+    /// The file has no keys, or the address is invalid.
     pub(crate) fn new(config: &Config) -> Result<Arc<Self>, String> {
         let place = config.jwt_keys.as_str();
         let from = if place.contains("://") {
@@ -142,7 +142,7 @@ impl KeySource {
         self.read().await.map(|_| ())
     }
 
-    /// Fetches the keys unless that was done or tried within `least`. Those that were there stay if it fails.
+    /// Fetches the keys unless that was tried within `least`. The present keys stay if it fails.
     async fn fetch(&self, least: Duration) {
         let mut fetched = self.fetched.lock().await;
         if fetched.is_some_and(|at| at.elapsed() < least) {
@@ -153,7 +153,7 @@ impl KeySource {
         match read {
             Ok(keys) => {
                 *self.keys.write().unwrap_or_else(PoisonError::into_inner) = keys;
-                // Tokens that were checked with the keys before are checked again.
+                // Tokens that were checked with the previous keys are checked again.
                 self.version.fetch_add(1, Ordering::AcqRel);
                 metrics::counter!("sinew_key_fetches_total", "result" => "ok").increment(1);
             }
@@ -167,7 +167,7 @@ impl KeySource {
         }
     }
 
-    /// Fetches the keys at once, and then again and again.
+    /// Fetches the keys at once, and then repeatedly.
     pub(super) async fn refresh_forever(&self) {
         loop {
             self.fetch(Duration::ZERO).await;
@@ -192,7 +192,7 @@ fn read(path: &Path) -> Result<Vec<u8>, String> {
     Ok(text)
 }
 
-/// Certificates of a PEM file; those that the system trusts for an empty path.
+/// Certificates of a PEM file; for an empty path, those that the system trusts.
 pub(super) fn roots(path: &str) -> Result<RootCertStore, String> {
     let mut roots = RootCertStore::empty();
     if path.is_empty() {
@@ -226,7 +226,7 @@ fn client(ca: &str) -> Result<Client<HttpsConnector<HttpConnector>, Empty<Bytes>
     Ok(Client::builder(TokioExecutor::new()).build(connector))
 }
 
-/// Fetches a page. Redirections are not followed: keys come from where the operator said.
+/// Fetches a page. Redirections are not followed: keys come only from the address that the operator gave.
 async fn get(
     client: &Client<HttpsConnector<HttpConnector>, Empty<Bytes>>,
     url: &http::Uri,
@@ -242,7 +242,7 @@ async fn get(
         .map_err(|e| format!("the answer could not be read: {e}"))
 }
 
-/// An error with what it comes from.
+/// An error with its causes.
 fn reasons(error: &dyn std::error::Error) -> String {
     let mut out = error.to_string();
     let mut source = error.source();
@@ -253,7 +253,7 @@ fn reasons(error: &dyn std::error::Error) -> String {
     out
 }
 
-/// The keys of a set. Those that are for something else are left out.
+/// The keys of a set. Those for other uses are left out.
 fn parse(text: &[u8]) -> Result<Vec<Key>, String> {
     if text.len() > MOST_BYTES {
         return Err(format!("a set of keys may have {MOST_BYTES} bytes"));

@@ -1,4 +1,4 @@
-//! How many calls one client may make in a second.
+//! Limits on the calls of one client per second.
 
 use crate::shares::Client;
 use sinew_wire::status::Fault;
@@ -77,7 +77,7 @@ impl CallRates {
         if buckets.len() >= REMEMBERED && !buckets.contains_key(client) {
             buckets.retain(|_, b| !b.is_full(self.rate, burst, now));
             if buckets.len() >= REMEMBERED {
-                buckets.clear(); // more than so many busy clients at a time: the other limits hold
+                buckets.clear(); // too many busy clients at a time: the other limits still hold
             }
         }
         let bucket = buckets
@@ -117,7 +117,7 @@ mod tests {
                 .admit(&a, start + retry + Duration::from_micros(1))
                 .is_ok()
         );
-        // However many come, memory is bounded.
+        // Memory is bounded, however many clients come.
         for i in 0..3 * REMEMBERED {
             let _ = rates.admit(&format!("{i}").into(), start);
         }

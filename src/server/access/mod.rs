@@ -1,9 +1,9 @@
-//! Who may do what: identities, roles, and how much each principal may ask for.
+//! Permissions: identities, roles, and the limits of each principal.
 //!
-//! A call passes [`identify`] first. It finds out who asks, by the client certificate of the connection or by a bearer
-//! token, looks up which role the call needs ([`roles`]), and checks everything that no world is needed for. Services
+//! A call passes [`identify`] first. It identifies the caller by the client certificate of the connection or by a
+//! bearer token, looks up the role that the call needs ([`roles`]), and checks everything that needs no world. Services
 //! get a world only through a check of the caller's role in it (`api::App::world`). Without certificates and keys in
-//! the settings everybody is `anonymous` and owns everything.
+//! the settings, every caller is `anonymous` and owns everything.
 
 pub mod caller;
 pub mod grants;
@@ -49,7 +49,7 @@ pub struct Access {
 }
 
 impl Access {
-    /// As the settings say.
+    /// Access as configured.
     ///
     /// # Errors
     /// A file cannot be used.
@@ -63,7 +63,7 @@ impl Access {
         }))
     }
 
-    /// Whether callers have to say who they are.
+    /// Whether callers have to authenticate.
     pub fn is_required(&self) -> bool {
         self.tokens.is_some() || self.trusts_certificates
     }
@@ -85,10 +85,10 @@ impl Access {
         tokio::join!(keys, certificate);
     }
 
-    /// Who asks. A token counts before a certificate.
+    /// The identity of the caller. A token takes precedence over a certificate.
     ///
     /// # Errors
-    /// Nobody that is known.
+    /// The caller is unknown.
     pub(super) async fn identity(
         &self,
         headers: &HeaderMap,
@@ -151,7 +151,7 @@ impl Access {
                 call: shown.into(),
             }
         };
-        // Programs on this machine without authentication are no strangers; health is always answered.
+        // Programs on this machine without authentication are trusted; health is always answered.
         let local = address.is_none_or(|a| a.ip().to_canonical().is_loopback());
         let free = rule == roles::Rule::Open || (local && caller.identity.is_anonymous());
         if !free {
@@ -162,7 +162,7 @@ impl Access {
     }
 }
 
-/// Finds out who makes a call, and refuses it if that is enough to refuse it.
+/// Identifies the caller, and refuses the call if the identity alone is reason enough.
 pub(super) async fn identify(
     State(access): State<Arc<Access>>,
     request: Request,

@@ -1,7 +1,7 @@
-//! Roles, and which of them each call needs.
+//! Roles, and the role that each call needs.
 //!
 //! The table role × call is not written down in the server: it is read from the option `required_role` of the protos,
-//! in the descriptor set that reflection serves. A call without the option is refused to everybody.
+//! in the descriptor set that reflection serves. A call without the option is refused to all callers.
 
 use prost_reflect::{DescriptorPool, Value};
 use sinew_wire::DESCRIPTOR_SET;
@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 /// Full name of the option.
 const OPTION: &str = "sinew.v1.required_role";
 
-/// What someone may do; as `sinew.v1.Role`.
+/// A role; as `sinew.v1.Role`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
     /// Watches a world.
@@ -25,7 +25,7 @@ pub enum Role {
     Director,
     /// Ends the world and grants roles in it.
     Owner,
-    /// Has said who it is.
+    /// Is authenticated.
     Member,
     /// Creates worlds and clips.
     Creator,
@@ -43,7 +43,7 @@ impl Role {
         Self::Creator,
     ];
 
-    /// As claims, settings and messages name it.
+    /// Its name in claims, settings and messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Viewer => "viewer",
@@ -56,7 +56,7 @@ impl Role {
         }
     }
 
-    /// The role of this name.
+    /// The role with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|r| r.name() == name)
     }
@@ -93,7 +93,7 @@ impl Role {
         !matches!(self, Self::Member | Self::Creator)
     }
 
-    /// Itself and what it contains.
+    /// Itself and the roles that it contains.
     fn closed(self) -> Roles {
         let contained: &[Self] = match self {
             Self::Viewer | Self::Member => &[],
@@ -107,7 +107,7 @@ impl Role {
     }
 }
 
-/// A set of roles, with what they contain.
+/// A set of roles, with all that they contain.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Roles(u8);
 
@@ -120,18 +120,18 @@ impl Roles {
         self.0 & (1 << role as u8) != 0
     }
 
-    /// These and those.
+    /// The union of both sets.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
-    /// Whether there is none.
+    /// Whether the set is empty.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// One by one.
+    /// The roles one by one.
     pub fn iter(self) -> impl Iterator<Item = Role> {
         Role::ALL.into_iter().filter(move |r| self.contain(*r))
     }
@@ -145,14 +145,14 @@ impl FromIterator<Role> for Roles {
     }
 }
 
-/// What a call needs.
+/// The requirement of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// Open to everyone: health, and the schema.
+    /// Open to all callers: health, and the schema.
     Open,
     /// This role.
     Needs(Role),
-    /// Refused to everybody: it does not say what it needs.
+    /// Refused to all callers, because it states no requirement.
     Never,
     /// There is no such call.
     Unknown,
@@ -193,7 +193,7 @@ pub fn paths() -> impl Iterator<Item = &'static str> {
     TABLE.keys().map(String::as_str)
 }
 
-/// A path, if it is that of a call of the protos.
+/// The path, if it belongs to a call of the protos.
 pub fn known(path: &str) -> Option<&'static str> {
     TABLE.get_key_value(path).map(|(known, _)| known.as_str())
 }

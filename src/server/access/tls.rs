@@ -1,7 +1,7 @@
-//! TLS on the port of the server, and who a client certificate speaks for.
+//! TLS on the port of the server, and the principal of a client certificate.
 //!
 //! Certificate, key and the roots of clients are read again when their files change, so that neither a renewed
-//! certificate nor another root needs a restart. Connections that there are stay as they were agreed on.
+//! certificate nor another root needs a restart. Existing connections stay as they were negotiated.
 
 use super::caller::{Claims, Identity};
 use super::keys::roots;
@@ -19,10 +19,10 @@ use tokio_rustls::TlsAcceptor;
 use x509_parser::extensions::GeneralName;
 use x509_parser::prelude::{FromDer as _, X509Certificate};
 
-/// How often the files are looked at.
+/// Interval at which the files are checked.
 const LOOK_EVERY: Duration = Duration::from_secs(30);
 
-/// What is agreed on with clients, and the files that it comes from.
+/// The TLS settings for clients, and the files from which they come.
 struct Agreed {
     /// Certificate, key, and roots of clients; empty where there are none.
     files: [String; 3],
@@ -35,7 +35,7 @@ fn changed(files: &[String; 3]) -> [Option<SystemTime>; 3] {
     [0, 1, 2].map(|i: usize| std::fs::metadata(&files[i]).and_then(|m| m.modified()).ok())
 }
 
-/// TLS with what the files hold now.
+/// TLS with the present content of the files.
 fn load(files: &[String; 3], required: bool) -> Result<TlsAcceptor, String> {
     let [certificates, key, client_ca] = files;
     let provider = Arc::new(rustls::crypto::aws_lc_rs::default_provider());
@@ -72,12 +72,12 @@ fn shown(certificates: &str, key: &str, provider: &CryptoProvider) -> Result<Cer
             "tls_cert: {certificates}: there is no certificate in it"
         ));
     }
-    // The error of a key says nothing of what is in it.
+    // The error of a key reveals nothing of its content.
     let private = PrivateKeyDer::from_pem_file(key).map_err(|e| format!("tls_key: {key}: {e}"))?;
     CertifiedKey::from_der(chain, private, provider).map_err(|e| format!("tls_key: {key}: {e}"))
 }
 
-/// TLS as the settings say.
+/// TLS as configured.
 #[derive(Clone)]
 pub struct Tls(Arc<Agreed>);
 
@@ -107,14 +107,14 @@ impl Tls {
         }))))
     }
 
-    /// Takes connections, as the files have it by now.
+    /// Accepts connections with the latest settings from the files.
     pub fn acceptor(&self) -> TlsAcceptor {
         let now = self.0.now.read();
         now.unwrap_or_else(PoisonError::into_inner).0.clone()
     }
 
-    /// Reads the files again if one of them has changed since. What cannot be read changes nothing. Sessions that were
-    /// agreed on with what was before are not resumed: who was let in by a root that is gone comes in no more.
+    /// Reads the files again if one of them has changed since. Unreadable files change nothing. Sessions negotiated
+    /// with the previous files are not resumed, so a client admitted by a removed root is no longer admitted.
     pub fn read_again(&self) {
         let read = changed(&self.0.files);
         let mut now = self.0.now.write().unwrap_or_else(PoisonError::into_inner);
@@ -173,7 +173,7 @@ impl CertificateRoles {
         roles.into_iter().flatten().collect()
     }
 
-    /// Who a certificate that was verified speaks for: its first URI, else its first DNS name, else its common name.
+    /// The principal of a verified certificate: its first URI, else its first DNS name, else its common name.
     pub fn identify(&self, certificate: &CertificateDer<'_>) -> Option<Identity> {
         let (_, parsed) = X509Certificate::from_der(certificate).ok()?;
         let names = parsed.subject_alternative_name().ok().flatten();

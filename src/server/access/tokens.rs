@@ -1,7 +1,7 @@
-//! Bearer tokens: who a token speaks for, checked against keys that the operator gave.
+//! Bearer tokens: the principal of a token, checked against keys that the operator gave.
 //!
-//! Algorithms with a shared secret are taken only for the secret of the operator's own file, those with a pair of keys
-//! only for the keys of a JWKS; so a public key is never mistaken for a secret.
+//! Algorithms with a shared secret are accepted only for the secret of the operator's own file, and those with a pair
+//! of keys only for the keys of a JWKS, so a public key is never mistaken for a secret.
 
 use super::caller::{Caller, Claims, Identity};
 use super::keys::{Key, KeySource};
@@ -20,7 +20,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, SystemTime};
 
-/// Algorithms that are taken for keys of a JWKS.
+/// Algorithms accepted for keys of a JWKS.
 const ASYMMETRIC: [Algorithm; 9] = [
     Algorithm::RS256,
     Algorithm::RS384,
@@ -45,17 +45,17 @@ const MOST_CLAIMS: usize = 64;
 /// Tokens whose signature was checked before and that are remembered: 4 MiB at most.
 const REMEMBERED: usize = 1024;
 
-/// What a token says.
+/// Claims of a token.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TokenClaims {
-    /// Who it speaks for.
+    /// Its principal.
     pub sub: String,
-    /// When it ends, s since 1970.
+    /// Expiry, s since 1970.
     pub exp: u64,
-    /// Roles by name; those that are not known here are for others.
+    /// Roles by name; unknown ones are meant for other servers.
     #[serde(default)]
     pub roles: Vec<String>,
-    /// Worlds and clips that the roles are for; absent: all.
+    /// Worlds and clips to which the roles apply; absent: all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub worlds: Option<Vec<String>>,
 }
@@ -72,7 +72,7 @@ pub struct Tokens {
 
 #[derive(Default)]
 struct Checked {
-    /// Version of the keys that they were checked with.
+    /// Version of the keys with which they were checked.
     keys: u64,
     by_token: HashMap<String, Identity>,
 }
@@ -91,7 +91,7 @@ fn refused(reason: &'static str, message: impl Into<String>) -> Fault {
 }
 
 impl Tokens {
-    /// As the settings say; `None` without keys.
+    /// Tokens as configured; `None` without keys.
     ///
     /// # Errors
     /// A file cannot be read or holds no keys.
@@ -132,10 +132,10 @@ impl Tokens {
         self.keys.as_ref().map_or(0, |k| k.version())
     }
 
-    /// Who a token speaks for.
+    /// The identity of a token.
     ///
     /// # Errors
-    /// The token does not prove it, or not any more.
+    /// The token does not prove it, or no longer does.
     pub async fn identify(&self, token: &str) -> Result<Identity, Fault> {
         if token.len() > MOST_TOKEN {
             return Err(refused(
@@ -224,7 +224,7 @@ impl Tokens {
     }
 }
 
-/// The identity that claims speak of.
+/// The identity in the claims.
 fn identity(claims: TokenClaims, leeway: Duration) -> Result<Identity, Fault> {
     let lists = [Some(&claims.roles), claims.worlds.as_ref()];
     let too_long =
@@ -242,7 +242,7 @@ fn identity(claims: TokenClaims, leeway: Duration) -> Result<Identity, Fault> {
             roles: roles.chain([Role::Member]).collect::<Roles>(),
             names: claims.worlds,
         }),
-        // One beyond the end of time does not end.
+        // An expiry beyond the end of time counts as none.
         expires: Duration::from_secs(claims.exp)
             .checked_add(leeway)
             .and_then(|after| SystemTime::UNIX_EPOCH.checked_add(after)),
@@ -278,7 +278,7 @@ pub fn read_secret(path: &Path) -> Result<Vec<u8>, String> {
     }
 }
 
-/// Writes a new secret to a file that there is not yet, for its owner alone.
+/// Writes a new secret to a new file, readable only by its owner.
 ///
 /// # Errors
 /// There is one already, or it cannot be written.
@@ -296,7 +296,7 @@ pub fn create_secret(path: &Path) -> io::Result<()> {
     writeln!(file, "{}", hex::encode(secret))
 }
 
-/// Bytes that nobody can guess.
+/// Unguessable bytes.
 ///
 /// # Errors
 /// The system has none.
@@ -306,20 +306,20 @@ pub fn fill_random(bytes: &mut [u8]) -> io::Result<()> {
     filled.map_err(|_| io::Error::other("the system has no random numbers"))
 }
 
-/// What a token is to say, beside who signs it.
+/// Content of a new token, without its signature.
 #[derive(Clone, Debug)]
 pub struct NewToken {
-    /// Who it speaks for.
+    /// Its principal.
     pub subject: String,
     /// Its roles.
     pub roles: Vec<Role>,
-    /// Worlds and clips that they are for; `None`: all.
+    /// Worlds and clips to which they apply; `None`: all.
     pub worlds: Option<Vec<String>>,
-    /// How long it is valid.
+    /// Its lifetime.
     pub lifetime: Duration,
-    /// For which server.
+    /// The server for which it is meant.
     pub audience: String,
-    /// By whom; empty: not told.
+    /// Its issuer; empty: not stated.
     pub issuer: String,
 }
 

@@ -1,4 +1,4 @@
-//! Whether what the settings name can be used: files, directories, addresses. Nothing is changed.
+//! Checks that the files, directories and addresses in the settings can be used. Nothing is changed.
 
 use super::Config;
 use crate::access::keys::KeySource;
@@ -9,21 +9,21 @@ use crate::telemetry;
 use std::net::TcpListener;
 use std::path::Path;
 
-/// What is wrong, by setting.
+/// A problem with a setting.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Name of the setting.
     pub setting: &'static str,
-    /// What is wrong with it.
+    /// The problem.
     pub what: String,
 }
 
-/// Everything that is wrong. An address of keys is asked for them; nothing else leaves this machine.
+/// All problems. Keys are fetched from their address; no other request leaves this machine.
 pub async fn problems(config: &Config) -> Vec<Problem> {
     let mut all = Vec::new();
     let mut check = |setting: &'static str, result: Result<(), String>| {
         if let Err(what) = result {
-            // What is told already begins with its setting.
+            // Drop the setting's name if the message already begins with it.
             let what = what.strip_prefix(&format!("{setting}: ")).unwrap_or(&what);
             let what = super::without_secrets(what);
             all.push(Problem { setting, what });
@@ -67,13 +67,13 @@ async fn keys(config: &Config) -> Result<(), String> {
     KeySource::new(config)?.try_fetch().await
 }
 
-/// Whether worlds can be kept there. A server that runs may have it.
+/// Checks that worlds can be kept there. A running server may be using it.
 fn directory(dir: &str) -> Result<(), String> {
     if dir.is_empty() {
         return Ok(());
     }
     let path = Path::new(dir);
-    // One that is not there yet is made in the nearest that is.
+    // A directory that does not exist yet will be made in the nearest existing one.
     let there = path
         .ancestors()
         .find(|p| p.exists() || p.as_os_str().is_empty());

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::net::SocketAddr;
 use std::path::Path;
 
-/// Why the settings are not usable.
+/// Reason why the settings are not usable.
 #[derive(Debug, thiserror::Error)]
 pub enum ConfigError {
     /// The file cannot be read.
@@ -33,21 +33,21 @@ pub enum ConfigError {
     Unknown {
         /// File, environment or flag.
         source_name: String,
-        /// What was given.
+        /// The given text.
         name: String,
-        /// What may have been meant.
+        /// The setting that may have been meant.
         hint: String,
     },
-    /// A value is not what the setting needs.
+    /// A value does not have the form that the setting needs.
     #[error("{source_name}: {name} must be {expected}, got {value}")]
     Value {
         /// File, environment or flag.
         source_name: String,
         /// Setting.
         name: &'static str,
-        /// What it needs.
+        /// The expected form.
         expected: String,
-        /// What was given.
+        /// The given text.
         value: String,
     },
     /// The address is not loopback and that was not allowed.
@@ -167,7 +167,7 @@ macro_rules! settings {
     (@expected text, $least:expr, $most:expr) => { "a text".to_owned() };
 }
 
-/// How alike a name must be to one that there is to have been meant, 0…1.
+/// Least similarity of a name to an existing one that it may have meant, 0…1.
 const ALIKE: f64 = 0.7;
 
 /// The setting that a misspelt name may have meant, as its source writes it.
@@ -186,7 +186,7 @@ fn hint(source_name: &str, name: &str) -> String {
     }
 }
 
-/// A text as TOML would read it; what TOML does not know stays text.
+/// A text as TOML would read it; other text stays text.
 fn typed(text: &str) -> toml::Value {
     text.parse::<i64>()
         .map(toml::Value::Integer)
@@ -398,7 +398,7 @@ fn without_secrets(value: &str) -> String {
     format!("{scheme}://{host}{path}")
 }
 
-/// Which settings are not the defaults, and what gave them their values.
+/// The settings that are not the defaults, and the sources of their values.
 pub type Sources = BTreeMap<&'static str, String>;
 
 impl Config {
@@ -477,7 +477,7 @@ impl Config {
         Ok((config, sources))
     }
 
-    /// As [`Config::table`], without what may be a secret: addresses with names, passwords or parameters in them.
+    /// As [`Config::table`], without possible secrets: addresses with names, passwords or parameters in them.
     pub fn shown(&self) -> Vec<(&'static str, &'static str, String)> {
         let mut table = self.table();
         for (_, _, value) in &mut table {
@@ -486,7 +486,7 @@ impl Config {
         table
     }
 
-    /// Checks that what strangers can reach is protected.
+    /// Checks that everything within reach of strangers is protected.
     fn check_access(&self) -> Result<(), ConfigError> {
         let needs = |given: &'static str, other: &'static str, missing: bool| {
             if missing {
@@ -532,11 +532,11 @@ impl Config {
     }
 }
 
-/// What names of settings have in front of them in the environment.
+/// Prefix of the names of settings in the environment.
 const PREFIX: &str = "SINEW_";
 
-/// Variables `SINEW_…` that are no settings: the name of the file, and what tests, examples and tools of this project
-/// read.
+/// Variables `SINEW_…` that are not settings: the name of the file, and the variables of tests, examples and tools of
+/// this project.
 const OTHER_VARIABLES: [&str; 25] = [
     "config",
     "token",
@@ -565,8 +565,8 @@ const OTHER_VARIABLES: [&str; 25] = [
     "soak_seconds",
 ];
 
-/// True for a variable that is no setting. Kubernetes sets `SINEW_SERVICE_…` and `SINEW_PORT…` in every container next
-/// to a service of the name `sinew`.
+/// Whether a variable is not a setting. Kubernetes sets `SINEW_SERVICE_…` and `SINEW_PORT…` in every container next to
+/// a service of the name `sinew`.
 fn is_no_setting(name: &str) -> bool {
     OTHER_VARIABLES.contains(&name)
         || name == "port"

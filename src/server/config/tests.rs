@@ -75,7 +75,7 @@ fn mistakes_are_named() {
     assert!(fault.contains("SINEW_MAX_WORLD") && fault.contains("SINEW_MAX_WORLDS"));
     let traced = load(&[pair("otlp_endpoint", "http://127.0.0.1:4317")]);
     assert_eq!(traced.is_ok(), cfg!(feature = "otlp"));
-    // What may have been meant is said as it is written where the mistake is; there is no wild guess.
+    // The suggestion is written in the form of the place where the mistake is; there is no wild guess.
     for (wrong, meant) in [
         ("SINEW_MAX_WORDLS", "SINEW_MAX_WORLDS"),
         ("SINEW_CONFG", "SINEW_CONFIG"),

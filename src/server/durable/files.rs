@@ -1,5 +1,5 @@
 //! Small files that are whole or damaged, never half written: a new one is written beside the old one, brought to disk
-//! and renamed. Each begins with what it is, its format and a checksum.
+//! and renamed. Each begins with its kind, its format and a checksum.
 
 use super::store::StoreError;
 use std::fs::File;
@@ -14,7 +14,7 @@ const HEAD: usize = MAGIC.len() + 1 + 4 + 4;
 /// Extension of a file that is being written.
 const UNFINISHED: &str = "new";
 
-/// What the disk said about a file.
+/// A disk error about a file.
 pub(super) fn io_error(path: &Path, error: &std::io::Error) -> StoreError {
     let place = path.display();
     match error.kind() {
@@ -54,7 +54,7 @@ pub(super) fn sync_directory(dir: &Path) -> Result<(), StoreError> {
 /// Writes a file as a whole.
 ///
 /// # Errors
-/// It could not be written; what was there before is still there.
+/// It could not be written; the previous content is still there.
 pub(super) fn write(path: &Path, kind: u8, format: u32, bytes: &[u8]) -> Result<(), StoreError> {
     let fresh = path.with_extension(UNFINISHED);
     let written = File::create(&fresh).and_then(|mut file| {
@@ -63,13 +63,13 @@ pub(super) fn write(path: &Path, kind: u8, format: u32, bytes: &[u8]) -> Result<
         std::fs::rename(&fresh, path)
     });
     if let Err(error) = written {
-        let _ = std::fs::remove_file(&fresh); // it is of no use to anybody
+        let _ = std::fs::remove_file(&fresh); // it is of no further use
         return Err(io_error(path, &error));
     }
     sync_directory(path.parent().unwrap_or(Path::new(".")))
 }
 
-/// Reads a file whole. One that cannot be read is as lost as a damaged one, and no reason to do without the others.
+/// Reads a file whole. An unreadable file is as lost as a damaged one, and no reason to give up the others.
 ///
 /// # Errors
 /// It is damaged, of another kind, or of a later format.
@@ -102,13 +102,13 @@ pub(super) fn read(path: &Path, kind: u8, format: u32) -> Result<Vec<u8>, StoreE
     Ok(bytes)
 }
 
-/// Whether there is something of this name, be it readable or not.
+/// Whether a file of this name exists, readable or not.
 pub(super) fn is_there(path: &Path) -> bool {
     let looked = path.symlink_metadata();
     !looked.is_err_and(|e| e.kind() == ErrorKind::NotFound)
 }
 
-/// Removes a file; one that is not there is removed already.
+/// Removes a file; a missing file counts as removed.
 ///
 /// # Errors
 /// It could not be removed.
@@ -120,7 +120,7 @@ pub(super) fn remove(path: &Path) -> Result<(), StoreError> {
     }
 }
 
-/// Gives a file another name in its directory; one that is not there has it already.
+/// Renames a file within its directory; a missing file counts as renamed.
 ///
 /// # Errors
 /// It could not be done.
@@ -132,8 +132,8 @@ pub(super) fn rename(from: &Path, to: &Path) -> Result<(), StoreError> {
     }
 }
 
-/// Removes what a process has left that ended while it wrote files of this directory. What cannot be removed is told,
-/// and stays: nobody reads it.
+/// Removes the unfinished files that an interrupted process left in this directory. A file that cannot be removed is
+/// reported and stays, but is never read.
 ///
 /// # Errors
 /// The directory cannot be read.
@@ -182,7 +182,7 @@ impl Packed {
     }
 }
 
-/// Reads what [`Packed`] has written.
+/// Reads the output of [`Packed`].
 pub(super) struct Unpacked<'a>(pub &'a [u8]);
 
 impl<'a> Unpacked<'a> {

@@ -1,7 +1,7 @@
 //! Worlds and clips in a directory of this machine.
 //!
-//! What is small and rarely written is a file of its own, so that damage to one takes nothing else with it: that a
-//! world exists, one earlier state of it, a clip, its content. What is written all the time is in one log
+//! Small, rarely written data have their own files, so that damage to one affects no other: the existence of a world,
+//! one earlier state of it, a clip, its content. Data that are written all the time are in one log
 //! ([`Log`](super::log::Log)), because one `fsync` then serves all worlds.
 
 use super::files;
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
-/// Age at which the earlier state of a world, which is kept beside the log in case that is lost, is written anew.
+/// Age at which the earlier state of a world is written again. It is kept beside the log in case the log is lost.
 const STATE_EVERY: Duration = Duration::from_secs(60);
 /// States that are written in one go, so that commits do not wait for long.
 const STATES_AT_ONCE: usize = 2;
@@ -37,7 +37,7 @@ pub struct LastEnd {
     pub orderly: bool,
     /// Worlds that were being stepped when it ended otherwise, and the ticks.
     pub stepping: Vec<(WorldKey, u64)>,
-    /// What is wrong with the log as a whole.
+    /// Damage to the log as a whole.
     pub damage: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ pub struct LocalStore {
     marks: Arc<Marks>,
     last_end: LastEnd,
     last_key: u64,
-    /// When each earlier state was looked at last, and the tick of the one that is there.
+    /// The last check of each earlier state, and the tick of the stored one.
     states: HashMap<WorldKey, (Instant, Option<u64>)>,
     /// Held for its lock.
     _lock: File,
@@ -134,7 +134,7 @@ impl LocalStore {
         self.dir.join("contents").join(name)
     }
 
-    /// Writes states beside the log, in case the log is lost: so what fails here is told, and nothing else.
+    /// Writes states beside the log, in case the log is lost. A failure is therefore only reported.
     fn write_states(&mut self, worlds: impl IntoIterator<Item = WorldKey>) {
         for world in worlds {
             if let Err(error) = self.write_state(world) {
@@ -143,7 +143,7 @@ impl LocalStore {
         }
     }
 
-    /// Worlds whose earlier states are old, some at a time.
+    /// Worlds whose earlier states are old, a few at a time.
     fn states_due(&self) -> Vec<WorldKey> {
         let due = |w: &WorldKey| {
             let state = self.states.get(w);
@@ -155,7 +155,7 @@ impl LocalStore {
 
     fn write_state(&mut self, world: WorldKey) -> Result<(), StoreError> {
         let written = self.states.get(&world).and_then(|(_, tick)| *tick);
-        // Also if it fails: the others have their turns before it is tried again.
+        // Note the time even after a failure, so that the others have their turns before it is tried again.
         self.states.insert(world, (Instant::now(), written));
         let checkpoint = self.log.checkpoint(world)?;
         if let Some((tick, bytes)) = checkpoint
@@ -167,7 +167,7 @@ impl LocalStore {
         Ok(())
     }
 
-    /// Removes what is left of a world whose file is marked as gone; the mark goes last.
+    /// Removes the remains of a world whose file is marked as deleted; the mark is removed last.
     fn finish_deletion(&mut self, key: WorldKey) -> Result<(), StoreError> {
         self.log.forget(key)?;
         self.states.remove(&key);
@@ -175,8 +175,8 @@ impl LocalStore {
         files::remove(&self.world_path(key, GONE))
     }
 
-    /// Ends deletions that the process before this one has begun. What cannot be deleted now is left to the next start:
-    /// a world that is marked as gone does not come back.
+    /// Completes deletions that the previous process began. Files that cannot be deleted now are left to the next
+    /// start; a world marked as deleted does not come back.
     fn finish_deletions(&mut self) -> Result<(), StoreError> {
         for path in files::list(&self.dir.join("worlds"), GONE)? {
             if let Some(key) = key_of(&path)
@@ -192,7 +192,7 @@ impl LocalStore {
     fn read_world(&self, path: &Path) -> Result<WorldRecord, StoreError> {
         let world = records::read_world(path)?;
         if *path != self.world_path(world.key, "world") {
-            // A copy, perhaps: of one number there are not two worlds.
+            // Perhaps a copy: no two worlds have the same number.
             let (path, key) = (path.display(), world.key);
             return Err(StoreError::Damaged(format!(
                 "{path}: it is not called by its number, {key}"
@@ -230,7 +230,7 @@ impl LocalStore {
         clips.iter().map(content).collect()
     }
 
-    /// From now on entries of this world are taken, and its number is not given again.
+    /// Accepts entries of this world from now on, and does not assign its number again.
     fn know(&mut self, world: WorldKey) {
         self.last_key = self.last_key.max(world.0);
         self.log.know(world);
@@ -241,13 +241,13 @@ fn world_path(dir: &Path, key: WorldKey, extension: &str) -> PathBuf {
     dir.join("worlds").join(format!("{key}.{extension}"))
 }
 
-/// The number of the world that a file is called by.
+/// The number of the world in a file's name.
 fn key_of(path: &Path) -> Option<WorldKey> {
     let key = path.file_stem().and_then(|k| k.to_str());
     key.and_then(WorldKey::parse)
 }
 
-/// What the file of something is called: names are as long as clients like, and of their letters.
+/// The file name for a client's name, which may have any length and any characters.
 fn file_name(name: &str) -> String {
     hex::encode(&Sha256::digest(name)[..16])
 }
@@ -272,7 +272,7 @@ fn found<T>(
     Ok(out)
 }
 
-/// Makes a directory and its folders, unless they are there.
+/// Makes a directory and its folders, unless they exist.
 fn make(dir: &Path) -> Result<(), StoreError> {
     let unusable = |why: String| StoreError::Directory {
         path: dir.to_owned(),
@@ -302,7 +302,7 @@ fn lock(dir: &Path) -> Result<File, StoreError> {
         Ok(()) => {}
         Err(TryLockError::WouldBlock) => {
             let mut holder = String::new();
-            let _ = lock.read_to_string(&mut holder); // the message does without it
+            let _ = lock.read_to_string(&mut holder); // the message is useful without it
             return Err(StoreError::InUse {
                 path: dir.to_owned(),
                 holder: holder.trim().to_owned(),
@@ -318,7 +318,7 @@ fn lock(dir: &Path) -> Result<File, StoreError> {
     Ok(lock)
 }
 
-/// How the server before this one ended. Notes of that are gone afterwards: from here on an end is not orderly.
+/// How the server before this one ended. Its notes are removed, so from here on an end is not orderly.
 fn take_last_end(dir: &Path) -> Result<(Marks, LastEnd), StoreError> {
     let end = dir.join("end");
     let fresh = !dir.join("log.sqlite").exists();
@@ -359,7 +359,7 @@ fn open_log(dir: &Path, last_end: &mut LastEnd) -> Result<Log, StoreError> {
                 last_end.damage.push(format!(
                     "{error}; it is kept in {aside}, worlds come back from their earlier states"
                 ));
-                // It has nothing of what was noted beside the old one.
+                // Notes beside the old log do not apply to it.
                 return Log::open(&path);
             }
             Remedy::Free | Remedy::Pause => return Err(error),
@@ -375,7 +375,8 @@ impl CheckpointStore for LocalStore {
         // The numbers of damaged ones are taken, too.
         let taken = paths.iter().filter_map(|p| key_of(p)).map(|k| k.0).max();
         self.last_key = self.last_key.max(taken.unwrap_or(0));
-        // A world of which only the log knows: its own file is gone. One whose file is damaged is named already.
+        // A world known only to the log, because its own file is missing. Worlds with damaged files have already been
+        // reported.
         for key in self.log.worlds() {
             let path = self.world_path(key, "world");
             if !paths.contains(&path) {
@@ -401,7 +402,7 @@ impl CheckpointStore for LocalStore {
 
     fn delete_world(&mut self, key: WorldKey) -> Result<(), StoreError> {
         let (there, gone) = (self.world_path(key, "world"), self.world_path(key, GONE));
-        // From here on it is gone, whatever becomes of the process. It may be another try.
+        // From here on the world counts as deleted, even if the process ends. This may be another attempt.
         if there.exists() || !gone.exists() {
             files::rename(&there, &gone)?;
         }
@@ -481,7 +482,7 @@ impl CheckpointStore for LocalStore {
         self.delete_rehearsals(&clip.name)?;
         let hash = Sha256::digest(&clip.content);
         let content = self.content_path(&hash);
-        // What is there may be damaged: it is not taken for the same.
+        // The existing file may be damaged, so do not assume that it is the same.
         if records::read_content(&content).is_ok_and(|there| there == clip.content) {
             tracing::debug!(
                 clip = clip.name,
@@ -521,7 +522,7 @@ impl CheckpointStore for LocalStore {
     fn delete_clip(&mut self, name: &str) -> Result<(), StoreError> {
         self.delete_rehearsals(name)?;
         files::remove(&self.clip_path(name))?;
-        // With a clip that cannot be read it is not known what the others need.
+        // If a clip cannot be read, the contents still in use are unknown.
         let Ok(used) = self.contents() else {
             return Ok(());
         };
@@ -544,7 +545,7 @@ impl CheckpointStore for LocalStore {
 
 #[cfg(test)]
 impl LocalStore {
-    /// The log, to take its disk away.
+    /// The log, so that tests can take its disk away.
     pub(super) fn log(&self) -> &Log {
         &self.log
     }

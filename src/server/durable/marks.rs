@@ -1,9 +1,9 @@
-//! Notes in a file that a world is being stepped, which stay there when the process ends in the middle of it. So a
-//! world that crashes the process, not only its own thread, is known at the next start.
+//! Notes in a file that a world is being stepped. They remain when the process ends in the middle of a step, so a world
+//! that crashes the whole process is known at the next start.
 //!
 //! A note costs two writes to the page cache, of which no thread waits for the disk. Worlds make them only for the
-//! first seconds after a start that followed a crash: what crashes a process twice does so soon again, from the same
-//! state with the same inputs.
+//! first seconds after a start that followed a crash: a world that crashes the process again does so soon, from the
+//! same state with the same inputs.
 
 use super::files::io_error;
 use super::store::{StoreError, WorldKey};
@@ -38,7 +38,7 @@ fn slot(world: WorldKey, tick: u64) -> [u8; SLOT] {
 }
 
 impl Marks {
-    /// Opens the file, reads what is noted in it, and clears it.
+    /// Opens the file, reads its notes, and clears it.
     ///
     /// # Errors
     /// It cannot be opened or written.
@@ -53,7 +53,7 @@ impl Marks {
             .map_err(failed)?;
         let mut bytes = Vec::new();
         if let Err(error) = file.read_to_end(&mut bytes) {
-            // The next crash tells again; no world stays away for that.
+            // The next crash is recorded again; this must not keep any world away.
             let path = path.display();
             tracing::warn!(%path, %error, "which worlds were being stepped is not known");
         }

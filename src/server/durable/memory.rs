@@ -1,5 +1,4 @@
-//! A store in memory, for tests: what it holds outlives it as long as its [`Disk`] does, and its disk can be made to
-//! fail.
+//! A store in memory, for tests. Its content lives as long as its [`Disk`], and the disk can be made to fail.
 
 use super::store::{
     CheckpointStore, ClipRecord, Entry, Found, History, Item, Logged, Loss, RehearsalRecord,
@@ -9,7 +8,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// What a [`MemoryStore`] writes to.
+/// The disk of a [`MemoryStore`].
 #[derive(Clone, Debug, Default)]
 pub struct Disk(Arc<Mutex<Content>>);
 
@@ -20,9 +19,9 @@ struct Content {
     rehearsals: BTreeMap<(String, String), RehearsalRecord>,
     log: Vec<Entry>,
     fault: Option<StoreError>,
-    /// What the next commits say, the first one first.
+    /// Errors of the next commits, in order.
     next_faults: VecDeque<StoreError>,
-    /// What was done about faults.
+    /// Remedies that were applied to faults.
     remedies: Vec<Remedy>,
     commit_time: Duration,
     commits: u64,
@@ -45,17 +44,17 @@ impl Disk {
         self.content().next_faults.extend(faults.iter().cloned());
     }
 
-    /// What was done about faults so far.
+    /// Remedies applied to faults until now.
     pub fn remedies(&self) -> Vec<Remedy> {
         self.content().remedies.clone()
     }
 
-    /// How long each commit takes.
+    /// Sets the duration of each commit.
     pub fn slow_down(&self, commit_time: Duration) {
         self.content().commit_time = commit_time;
     }
 
-    /// Commits so far.
+    /// Number of commits.
     pub fn commits(&self) -> u64 {
         self.content().commits
     }
@@ -65,7 +64,7 @@ impl Disk {
         self.content().log.clone()
     }
 
-    /// True once a store on it has ended in good order.
+    /// Whether a store on it has ended in good order.
     pub fn is_closed(&self) -> bool {
         self.content().closed
     }

@@ -1,9 +1,9 @@
 //! Worlds and clips that outlive the process.
 //!
-//! [`store`] says what a store does, in bytes; [`local`] does it in a directory, with one log for all worlds ([`log`])
-//! and a small file for everything else ([`records`] has their fields, [`files`] how they are written); `memory` does
-//! it for tests. [`keeper`] is the thread that writes, [`recovery`] what happens when the server starts, [`marks`] how
-//! it knows which world crashed the process.
+//! [`store`] defines a store in terms of bytes; [`local`] implements it in a directory, with one log for all worlds
+//! ([`log`]) and small files for everything else ([`records`] has their fields, [`files`] writes them); `memory`
+//! implements it for tests. [`keeper`] is the writing thread, [`recovery`] runs when the server starts, and [`marks`]
+//! records which world crashed the process.
 
 pub mod keeper;
 pub mod local;

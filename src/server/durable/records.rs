@@ -1,4 +1,4 @@
-//! The small files of a store: the kinds there are, and the fields of each.
+//! The small files of a store: their kinds, and the fields of each.
 
 use super::files::{self, Packed, Unpacked};
 use super::store::{Durability, RehearsalRecord, StoreError, WorldKey, WorldRecord};
@@ -31,7 +31,7 @@ fn read<T>(
         .ok_or_else(|| StoreError::Damaged(format!("{}: fields are missing", path.display())))
 }
 
-/// Whether the file that marks a directory as one of worlds and clips is of this version; one that is not there is.
+/// Checks that the file that marks a directory of worlds and clips is of this version, or missing.
 ///
 /// # Errors
 /// A later version has written it, or it is damaged.
@@ -89,7 +89,7 @@ pub(super) fn read_state(path: &Path) -> Result<(u64, Bytes), StoreError> {
     })
 }
 
-/// What the file of a clip holds: its content has a file of its own.
+/// Content of a clip's file; the motion itself has its own file.
 pub(super) struct ClipFile {
     pub name: String,
     pub description: Bytes,

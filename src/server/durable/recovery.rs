@@ -1,28 +1,28 @@
-//! What happens when a server starts on a directory that another one has left: what is there is read, what is damaged
-//! is named, and what crashed the process twice stays out.
+//! Start of a server on an existing directory: intact data are read, damaged data are reported, and worlds that crashed
+//! the process twice stay out.
 
 use super::local::LocalStore;
 use super::store::{
     CheckpointStore, ClipRecord, History, RehearsalRecord, StoreError, WorldRecord,
 };
 
-/// What was found.
+/// The data found at a start.
 #[derive(Debug, Default)]
 pub struct Recovered {
-    /// Worlds to be brought back, with all that is known of them.
+    /// Worlds to bring back, with everything known about them.
     pub worlds: Vec<(WorldRecord, History)>,
-    /// Worlds that stay out; why stands in each.
+    /// Worlds that stay out; each record has the reason.
     pub quarantined: Vec<WorldRecord>,
     /// Clips.
     pub clips: Vec<ClipRecord>,
-    /// What they were rehearsed for.
+    /// Rehearsals of the clips.
     pub rehearsals: Vec<RehearsalRecord>,
-    /// What is damaged and could not be read at all.
+    /// Damaged data that could not be read at all.
     pub damaged: Vec<String>,
 }
 
 /// Reads everything that a start needs. A world that was being stepped when the process ended twice in a row is put
-/// into quarantine; those named in `release` are let out.
+/// into quarantine; those named in `release` are released.
 ///
 /// # Errors
 /// The directory cannot be read, or a decision could not be written down.

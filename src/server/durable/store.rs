@@ -1,4 +1,4 @@
-//! What a store of worlds and clips has to do, in terms of bytes. One machine keeps them in files
+//! The interface of a store of worlds and clips, in terms of bytes. One machine keeps them in files
 //! ([`LocalStore`](super::local::LocalStore)); several machines will keep them elsewhere behind the same trait.
 
 use bytes::Bytes;
@@ -7,12 +7,12 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Number of a stored world. None is given twice, so that a later world of the same name has a history of its own.
+/// Number of a stored world. No number is assigned twice, so that a later world of the same name has its own history.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct WorldKey(pub u64);
 
 impl WorldKey {
-    /// The key that is printed like this.
+    /// The key that is printed as `text`.
     pub fn parse(text: &str) -> Option<Self> {
         let key = u64::from_str_radix(text, 16).ok().map(Self);
         key.filter(|k| k.to_string() == text)
@@ -25,15 +25,15 @@ impl fmt::Display for WorldKey {
     }
 }
 
-/// How much of a world may be lost when the process or the machine ends without notice.
+/// Amount of a world that may be lost when the process or the machine ends without notice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Durability {
     /// Everything since the last orderly end.
     None,
-    /// What the last group of inputs holds: the inputs of 10 ms and the time of one commit.
+    /// The last group of inputs: those of 10 ms and of the time of one commit.
     #[default]
     Group,
-    /// Nothing that was answered: a request is answered when its input is on disk.
+    /// No answered request: a request is answered only once its input is on disk.
     Each,
 }
 
@@ -55,18 +55,18 @@ impl Durability {
     }
 }
 
-/// A stored world: that it exists, and what it was created with.
+/// A stored world: its existence and its settings at creation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WorldRecord {
     /// Its number.
     pub key: WorldKey,
     /// Last part of its name.
     pub name: String,
-    /// How much of it may be lost.
+    /// Its guarantee against loss.
     pub durability: Durability,
-    /// Why it is not brought back when the server starts.
+    /// Reason why it is not brought back when the server starts.
     pub quarantined: Option<String>,
-    /// What it was created with, in the encoding of who stores it.
+    /// Its settings at creation, in the caller's encoding.
     pub settings: Bytes,
 }
 
@@ -75,7 +75,7 @@ pub struct WorldRecord {
 pub struct ClipRecord {
     /// Last part of its name.
     pub name: String,
-    /// What is known about it, in the encoding of who stores it.
+    /// Its description, in the caller's encoding.
     pub description: Bytes,
     /// The motion itself.
     pub content: Bytes,
@@ -86,41 +86,41 @@ pub struct ClipRecord {
 pub struct RehearsalRecord {
     /// Name of the clip.
     pub clip: String,
-    /// Whom for, as a short name of letters and digits: one clip has one rehearsal of each.
+    /// The figure for which it was rehearsed, as a short name of letters and digits; a clip has one rehearsal for each.
     pub figure: String,
-    /// It, in the encoding of who stores it.
+    /// The rehearsal, in the caller's encoding.
     pub content: Bytes,
 }
 
-/// What is written of a world.
+/// Data written for a world.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Item {
     /// The whole state after a tick.
     Checkpoint {
         /// The state.
         bytes: Bytes,
-        /// Something before it was not written: what is before does not lead here.
+        /// Whether something before it was not written, so that the earlier entries do not lead here.
         after_gap: bool,
     },
-    /// What changed the world before a tick.
+    /// Changes to the world before a tick.
     Input(Bytes),
     /// Hash of the state after a tick.
     Hash(u64),
 }
 
-/// One thing that is written of one world. The order of entries is the order of what happened.
+/// One entry of one world. The order of entries is the order of events.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
     /// World.
     pub world: WorldKey,
-    /// Tick that it belongs to.
+    /// Tick to which it belongs.
     pub tick: u64,
-    /// What it is.
+    /// Its content.
     pub item: Item,
 }
 
 impl Entry {
-    /// Bytes that it takes, about.
+    /// Approximate size in bytes.
     pub fn size(&self) -> usize {
         32 + match &self.item {
             Item::Checkpoint { bytes, .. } | Item::Input(bytes) => bytes.len(),
@@ -132,16 +132,16 @@ impl Entry {
 /// Input or hash of a tick, as it is read back.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Logged {
-    /// Tick that it belongs to.
+    /// Tick to which it belongs.
     pub tick: u64,
-    /// What it is; never a checkpoint.
+    /// Its content; never a checkpoint.
     pub item: Item,
 }
 
-/// What is lost of a world.
+/// A loss in the history of a world.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loss {
-    /// The last tick that is whole; `None`: nothing is.
+    /// The last intact tick; `None` if there is none.
     pub after_tick: Option<u64>,
     /// Why.
     pub why: String,
@@ -156,27 +156,27 @@ impl fmt::Display for Loss {
     }
 }
 
-/// A world as it can be brought back: a checkpoint and everything that was written behind it. What is here is what was
-/// written; where something is damaged, it ends, and says so.
+/// A world as it can be brought back: a checkpoint and everything written after it. It contains only data as they were
+/// written; at a damaged place it ends and reports the loss.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct History {
     /// Tick and bytes.
     pub checkpoint: Option<(u64, Bytes)>,
-    /// Inputs and hashes behind it, in order.
+    /// Inputs and hashes after it, in order.
     pub entries: Vec<Logged>,
-    /// What is known to be missing.
+    /// Known losses.
     pub losses: Vec<Loss>,
 }
 
 impl History {
-    /// The last tick that is known.
+    /// The last known tick.
     pub fn last_tick(&self) -> Option<u64> {
         let checkpoint = self.checkpoint.as_ref().map(|c| c.0);
         self.entries.last().map(|e| e.tick).max(checkpoint)
     }
 }
 
-/// How much history is held.
+/// Limits on the history that is held.
 #[derive(Clone, Copy, Debug)]
 pub struct Retention {
     /// Age of the oldest.
@@ -187,27 +187,27 @@ pub struct Retention {
     pub total_bytes: u64,
 }
 
-/// What is held.
+/// Amount of history that is held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Usage {
     /// Bytes of history.
     pub history_bytes: u64,
     /// Checkpoints.
     pub checkpoints: usize,
-    /// There may be more to delete of what has been cut off.
+    /// Whether there may be more rows to delete.
     pub unswept: bool,
 }
 
-/// What the store found when it read its own directory.
+/// Data that the store found in its own directory.
 #[derive(Clone, Debug, Default)]
 pub struct Found<T> {
-    /// What is whole.
+    /// Intact records.
     pub whole: Vec<T>,
-    /// What is damaged: where it lies, and what is wrong with it.
+    /// Damaged files: place and fault of each.
     pub damaged: Vec<String>,
 }
 
-/// Why the store could not do something.
+/// Reason why the store could not do something.
 #[derive(Clone, Debug, thiserror::Error)]
 pub enum StoreError {
     /// Another process uses the directory.
@@ -217,7 +217,7 @@ pub enum StoreError {
     InUse {
         /// The directory.
         path: PathBuf,
-        /// What is known of the other.
+        /// Known data about the other process.
         holder: String,
     },
     /// It was written by a later version.
@@ -229,7 +229,7 @@ pub enum StoreError {
         path: PathBuf,
         /// Format found.
         found: u32,
-        /// Latest format that is known.
+        /// Latest format known to this version.
         known: u32,
     },
     /// The directory cannot be used.
@@ -240,19 +240,19 @@ pub enum StoreError {
         /// Why.
         why: String,
     },
-    /// No space is left on the disk, or as much as is allowed is taken.
+    /// No space is left on the disk, or the permitted space is used up.
     #[error("{0}: the disk is full")]
     Full(String),
     /// The disk takes no writes.
     #[error("{0}: the disk is read-only")]
     ReadOnly(String),
-    /// Another program keeps the disk to itself. Nothing is wrong with what is on it.
+    /// Another program holds an exclusive lock. The data themselves are fine.
     #[error("{0}: another program uses it")]
     Busy(String),
-    /// What is on disk is not what was written.
+    /// The data on disk are not those that were written.
     #[error("{0}")]
     Damaged(String),
-    /// Anything else that the disk says.
+    /// Any other error of the disk.
     #[error("{0}")]
     Io(String),
     /// The store has ended.
@@ -260,37 +260,37 @@ pub enum StoreError {
     Ended,
 }
 
-/// What is done about an error of the log.
+/// Remedy for an error of the log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
-    /// The same is tried once more, at once.
+    /// The operation is repeated once, immediately.
     Retry,
-    /// Old history is given up to make space; then the same is tried once more.
+    /// Old history is given up to make space; then the operation is repeated once.
     Free,
-    /// Nothing is written until a later try goes well. The log stays.
+    /// Nothing is written until a later attempt succeeds. The log stays.
     Pause,
     /// The log is set aside, and a new one is begun.
     NewLog,
 }
 
 impl StoreError {
-    /// What is done about this error of the log. `before`: what the same said when it was tried just before.
+    /// The remedy for this error of the log. `before`: the error of the previous attempt, if any.
     ///
-    /// The whole history is given up only for what is known to be damaged, and nothing else lasts.
+    /// The whole history is given up only for known damage; every other fault is temporary.
     pub fn remedy(&self, before: Option<&Self>) -> Remedy {
         match (before, self) {
             (None, Self::Full(_)) => Remedy::Free,
-            // A moment, perhaps. SQLite calls the file damaged when the disk fails to read a page, too.
+            // This may be temporary: SQLite calls the file damaged even when the disk only fails to read a page.
             (None, Self::Io(_) | Self::Damaged(_)) => Remedy::Retry,
             (Some(Self::Damaged(_)), Self::Damaged(_)) => Remedy::NewLog,
-            // Busy, read-only, still full, still failing: what is on disk may be whole.
+            // Busy, read-only, still full, still failing: the data on disk may be intact.
             _ => Remedy::Pause,
         }
     }
 }
 
-/// Keeps worlds and clips. Every method blocks until it is done, and what it has written is on disk when it returns;
-/// [`Keeper`](super::keeper::Keeper) calls it on a thread of its own.
+/// Keeps worlds and clips. Every method blocks until it is done, and its data are on disk when it returns;
+/// [`Keeper`](super::keeper::Keeper) calls them on its own thread.
 pub trait CheckpointStore: Send {
     /// All worlds.
     ///
@@ -301,10 +301,10 @@ pub trait CheckpointStore: Send {
     /// A number for a new world.
     fn new_key(&mut self) -> WorldKey;
 
-    /// Writes a world, in place of what was written of it before.
+    /// Writes a world, replacing its earlier record.
     ///
     /// # Errors
-    /// It could not be written; what was written before is still there.
+    /// It could not be written; the earlier record is still there.
     fn put_world(&mut self, world: &WorldRecord) -> Result<(), StoreError>;
 
     /// Forgets a world and its history.
@@ -314,16 +314,16 @@ pub trait CheckpointStore: Send {
     fn delete_world(&mut self, key: WorldKey) -> Result<(), StoreError>;
 
     /// Writes entries: all of them or, with an error, none. The first entry of a world since the store was opened must
-    /// be a checkpoint, and so must the first after something was not written.
+    /// be a checkpoint, and so must the first entry after a gap.
     ///
     /// # Errors
     /// They could not be written.
     fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError>;
 
-    /// For each world the latest state that is whole, and what was written behind it.
+    /// For each world, the latest intact state and everything written after it.
     ///
     /// # Errors
-    /// Nothing can be read. Damage to single worlds stands in their histories.
+    /// Nothing can be read. Damage to single worlds is reported in their histories.
     fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<History>, StoreError>;
 
     /// As [`latest`](Self::latest) for one world, from its last checkpoint at or before a tick.
@@ -335,7 +335,7 @@ pub trait CheckpointStore: Send {
     /// The tick of the oldest checkpoint of a world that is held.
     fn oldest(&mut self, world: WorldKey) -> Option<u64>;
 
-    /// Hashes of the states after ticks, as they were written last.
+    /// Hashes of the states after ticks, as last written.
     ///
     /// # Errors
     /// Nothing can be read.
@@ -346,7 +346,7 @@ pub trait CheckpointStore: Send {
     ) -> Result<Vec<(u64, u64)>, StoreError> {
         let mut out = std::collections::BTreeMap::new();
         let mut from = ticks.start;
-        // Histories end where the server was started anew; the next one begins with a checkpoint of its own.
+        // Histories end where the server was restarted; the next one begins with its own checkpoint.
         while from < ticks.end {
             let history = self.history_at(world, from)?;
             let Some(last) = history.last_tick().filter(|last| *last >= from) else {
@@ -364,13 +364,13 @@ pub trait CheckpointStore: Send {
         Ok(out.into_iter().collect())
     }
 
-    /// Cuts old history off. The latest checkpoint of each world and what is behind it stay.
+    /// Cuts off old history. The latest checkpoint of each world and everything after it stay.
     ///
     /// # Errors
     /// It could not be done.
     fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError>;
 
-    /// Does what [`remedy`](StoreError::remedy) says, if that is something for the store to do. Returns what was done.
+    /// Applies a [`remedy`](StoreError::remedy), if it concerns the store. Returns a description of the action.
     ///
     /// # Errors
     /// It could not be done.
@@ -382,7 +382,7 @@ pub trait CheckpointStore: Send {
     /// The directory cannot be read.
     fn clips(&mut self) -> Result<Found<ClipRecord>, StoreError>;
 
-    /// Writes a clip, which has no rehearsals then.
+    /// Writes a clip; it has no rehearsals afterwards.
     ///
     /// # Errors
     /// It could not be written.
@@ -400,7 +400,7 @@ pub trait CheckpointStore: Send {
     /// The directory cannot be read.
     fn rehearsals(&mut self) -> Result<Found<RehearsalRecord>, StoreError>;
 
-    /// Writes a rehearsal, in place of one of the same clip for the same figure.
+    /// Writes a rehearsal, replacing that of the same clip for the same figure.
     ///
     /// # Errors
     /// It could not be written.
@@ -415,6 +415,6 @@ pub trait CheckpointStore: Send {
     /// Notes that this end is orderly. Nothing is written afterwards.
     ///
     /// # Errors
-    /// It could not be noted; the next start looks for what crashed.
+    /// It could not be noted, so the next start looks for a crash.
     fn close(&mut self) -> Result<(), StoreError>;
 }

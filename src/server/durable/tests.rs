@@ -1,5 +1,5 @@
-//! Tests of the store, and what they share: worlds whose every byte follows from world and tick, and copies of the
-//! files of a store that is open, which is what a killed process leaves.
+//! Tests of the store, and their shared helpers: worlds whose every byte follows from world and tick, and copies of the
+//! files of an open store, as a killed process leaves them.
 
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
@@ -87,7 +87,7 @@ fn clip(n: u64) -> ClipRecord {
     }
 }
 
-/// Writes all worlds from tick 0 on, all of them in each commit.
+/// Writes all worlds from tick 0, all of them in each commit.
 fn fill(store: &mut dyn CheckpointStore, ticks: u64) -> Vec<WorldRecord> {
     let worlds: Vec<WorldRecord> = (0..WORLDS as u64).map(|n| world(store, n)).collect();
     let first: Vec<Entry> = worlds
@@ -114,7 +114,7 @@ fn fill(store: &mut dyn CheckpointStore, ticks: u64) -> Vec<WorldRecord> {
     worlds
 }
 
-/// Nothing in it that was not written, in order and without a hole. Returns the last tick.
+/// Checks that it contains only written data, in order and without a hole. Returns the last tick.
 fn check(n: u64, history: &History) -> Result<Option<u64>, TestCaseError> {
     let Some((from, bytes)) = &history.checkpoint else {
         prop_assert!(history.entries.is_empty());
@@ -159,8 +159,8 @@ fn files(dir: &Path) -> Vec<PathBuf> {
     out
 }
 
-/// What a process leaves that is killed while it writes, once with the last rows in the write-ahead log and once with
-/// them in their places.
+/// The files left by a process killed while writing, with the last rows either in the write-ahead log or in their final
+/// places.
 fn killed(checkpointed: bool) -> &'static Path {
     static LEFT: [OnceLock<Temporary>; 2] = [OnceLock::new(), OnceLock::new()];
     let left = LEFT[usize::from(checkpointed)].get_or_init(|| {
@@ -182,7 +182,7 @@ fn killed(checkpointed: bool) -> &'static Path {
     &left.0
 }
 
-/// What an orderly end leaves of a world that rests while others go on.
+/// The files after an orderly end, with one world resting while others continue.
 fn with_one_at_rest() -> (Temporary, Vec<WorldRecord>) {
     let dir = Temporary::new();
     let mut store = LocalStore::open(&dir.0).unwrap();
@@ -198,7 +198,8 @@ fn with_one_at_rest() -> (Temporary, Vec<WorldRecord>) {
     (dir, worlds)
 }
 
-/// Opens, reads and holds everything against what was written. True: something is reported as lost or damaged.
+/// Opens and reads everything, and compares it with the written data. Returns whether something is reported as lost or
+/// damaged.
 fn judged(dir: &Path) -> Result<bool, TestCaseError> {
     let mut store = match LocalStore::open(dir) {
         Ok(store) => store,

@@ -1,5 +1,5 @@
-//! Answers of calls that have one message: whole before the first byte is sent, so that what a slow reader keeps
-//! waiting is known and bounded. Answers that come encoded are sent from bytes that all their readers share.
+//! Answers of calls that have one message: complete before the first byte is sent, so that the bytes waiting for a slow
+//! reader are known and bounded. Answers that come encoded are sent from bytes that all their readers share.
 
 use super::Edge;
 use super::connections::Open;
@@ -45,7 +45,7 @@ static UNARY: LazyLock<HashSet<String>> = LazyLock::new(|| {
 #[derive(Clone, Copy)]
 pub(super) struct Counted;
 
-/// Makes answers whole, and refuses those that there is no room for.
+/// Completes answers, and refuses those for which there is no room.
 pub(crate) async fn answers(
     State(edge): State<Arc<Edge>>,
     request: Request,
@@ -76,7 +76,7 @@ async fn whole(mut response: Response, edge: &Edge, open: &Arc<Open>) -> Respons
         }
         None if body.is_end_stream() => return Response::from_parts(parts, body),
         None => {
-            // It is encoded now; until then the message waits with all that is in it.
+            // Encode it now; until then, the message with all its content would wait.
             match poll_fn(|cx| Poll::Ready(Pin::new(&mut body).poll_frame(cx))).await {
                 Poll::Ready(Some(Ok(frame))) => match frame.into_data() {
                     Ok(data) => answer.pieces.push_back(data),
@@ -108,7 +108,7 @@ fn refused(status: Status) -> Response {
     status.into_http::<Body>()
 }
 
-/// What follows the message.
+/// The end of the response after the message.
 #[derive(Default)]
 enum Last {
     #[default]

@@ -1,10 +1,11 @@
-//! Incoming connections: how many are kept, and which of them go when there are too many.
+//! Incoming connections: their limits, and the choice of those to close when there are too many.
 //!
-//! A connection must bring its first request soon. In total and per address only so many are kept. One more takes the
-//! place of the one that has been without a request the longest. If all are at work, some more are taken all the same,
-//! for health and metrics only; of these one that has its answer goes first, then the oldest. So whoever holds
-//! connections without using them locks out nobody. Nor does whoever opens many at once: a connection that has just
-//! come keeps its place until its first request can have been read, and if need be accepting waits for that.
+//! A connection must bring its first request soon. The number of connections is limited, in total and per address. One
+//! more takes the place of the one that has been without a request the longest. If all are in use, some more are
+//! accepted anyway, for health and metrics only; of these, one that has its answer is closed first, then the oldest. So
+//! a client that holds connections without using them locks out no other. Neither does a client that opens many at
+//! once: a new connection keeps its place until its first request can have been read, and accepting waits for that if
+//! necessary.
 
 use super::super::access::tls::Tls;
 use super::super::config::Config;
@@ -33,13 +34,13 @@ const RESERVED: usize = 256;
 const FIRST_WORD: Duration = Duration::from_millis(25);
 /// Least time between two lines of the log about connections that were closed.
 const LOG_EVERY: Duration = Duration::from_secs(10);
-/// Part of their greatest age by which connections are asked to close sooner or later, so that those that came
-/// together do not come again together.
+/// Part of their greatest age by which connections are asked to close sooner or later, so that connections that were
+/// opened together do not reconnect together.
 pub(crate) const AGE_SPREAD: f64 = 0.1;
 /// Pause after a connection could not be accepted, for example for want of file handles.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(20);
 
-/// Why the server closed a connection, or how it ended by itself.
+/// Reason why the server closed a connection, or why it ended by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Why {
     /// No request came in time.
@@ -50,14 +51,14 @@ pub(super) enum Why {
     Unread,
     /// The other side reset it.
     Reset,
-    /// There was no TLS to agree on.
+    /// The TLS handshake failed.
     Tls,
-    /// It was asked to close for its age, and did not.
+    /// It was asked to close because of its age, and did not.
     Age,
 }
 
 impl Why {
-    /// As metrics and logs name it.
+    /// Its name in metrics and logs.
     fn name(self) -> &'static str {
         match self {
             Self::Silent => "silent",
@@ -130,7 +131,7 @@ impl Peer {
         peer
     }
 
-    /// One that no server has.
+    /// A peer that belongs to no server.
     #[cfg(test)]
     pub(super) fn alone() -> Arc<Self> {
         Self::new(
@@ -216,7 +217,7 @@ struct Table {
     reserved: usize,
 }
 
-/// Closed connections that the log has not told of yet.
+/// Closed connections that have not been logged yet.
 #[derive(Debug, Default)]
 struct Log {
     told: Option<Instant>,
@@ -224,7 +225,7 @@ struct Log {
 }
 
 impl Table {
-    /// The one of `those` that was last used before all others; those without any request first.
+    /// The least recently used one of `those`; connections without any request come first.
     fn last(&self, those: impl Fn(&Peer) -> bool) -> Option<u64> {
         let those = self.peers.iter().filter(|(_, p)| those(p));
         those
@@ -237,8 +238,8 @@ impl Table {
             .map(|(number, _)| *number)
     }
 
-    /// The one beyond the limits that can go best: it asks for one answer, so one that has it does not need its place.
-    /// A rush of others does not push out who has yet to ask.
+    /// The best one to close beyond the limits. Such a connection needs only one answer, so one that has it no longer
+    /// needs its place. A rush of others does not push out a connection that has yet to make its request.
     fn last_reserved(&self) -> Option<u64> {
         let reserved = self.peers.iter().filter(|(_, p)| p.reserved);
         let last = reserved.min_by_key(|(number, p)| {
@@ -294,8 +295,8 @@ impl Doors {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes one more connection in, in place of another one if need be. The error is the time to wait before it can be
-    /// taken in: all that could go have just come.
+    /// Accepts one more connection, in place of another one if necessary. The error is the time to wait before it can
+    /// be accepted, because all candidates for closing are new.
     fn enter(self: &Arc<Self>, address: SocketAddr) -> Result<(u64, Arc<Peer>), Duration> {
         let mut table = self.table();
         let left = |p: &Peer| p.time_left(self.patience);
@@ -353,7 +354,7 @@ impl Doors {
         metrics::gauge!("sinew_connections").set(table.peers.len() as f64);
     }
 
-    /// Counts a connection that ended other than by its client's wish, and tells the log now and then.
+    /// Counts a connection that its client did not end normally, and logs the counts occasionally.
     fn count(&self, why: Why) {
         metrics::counter!("sinew_connections_closed_total", "reason" => why.name()).increment(1);
         let mut log = self.log.lock().unwrap_or_else(PoisonError::into_inner);
@@ -376,10 +377,10 @@ impl Doors {
     }
 }
 
-/// What a connection is read from and written to.
+/// The transport of a connection.
 enum Transport {
     Plain(TcpStream),
-    /// TLS that is still agreed on: by whoever reads or writes, so that accepting waits for nobody.
+    /// The TLS handshake is in progress. Reads and writes drive it, so that accepting never waits for a client.
     Agreeing(Box<tokio_rustls::Accept<TcpStream>>),
     Tls(Box<TlsStream<TcpStream>>),
     /// It was not agreed on.
@@ -392,9 +393,9 @@ pub(crate) struct Connection {
     peer: Arc<Peer>,
     number: u64,
     doors: Arc<Doors>,
-    /// When the first request must be there; gone once it is.
+    /// Deadline of the first request; `None` once it has arrived.
     deadline: Option<Pin<Box<Sleep>>>,
-    /// When it is closed for its age.
+    /// Time at which it is closed because of its age.
     end: Option<Pin<Box<Sleep>>>,
 }
 
@@ -429,7 +430,7 @@ pub(crate) fn incoming(
                 }
                 Err(error) if is_of_the_client(&error) => doors.count(Why::Reset),
                 Err(error) => {
-                    // No file handles for a while must not end the server.
+                    // A temporary lack of file handles must not end the server.
                     tracing::warn!(%error, "accept failed");
                     tokio::time::sleep(ACCEPT_PAUSE).await;
                 }
@@ -461,7 +462,7 @@ impl Drop for Connection {
 }
 
 impl Connection {
-    /// Agrees on TLS, if that is still to be done.
+    /// Completes the TLS handshake, if still necessary.
     fn poll_agreed(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
         let Transport::Agreeing(accept) = &mut self.transport else {
             return Poll::Ready(match self.transport {
@@ -536,7 +537,7 @@ impl AsyncRead for Connection {
     }
 }
 
-/// Calls a method of what is written to, once TLS is agreed on.
+/// Calls a method of the stream that is written to, once TLS is established.
 macro_rules! write_to {
     ($self:ident, $cx:ident, $method:ident($($argument:expr),*)) => {{
         ready!($self.poll_agreed($cx))?;
@@ -563,7 +564,7 @@ impl AsyncWrite for Connection {
     }
     fn poll_shutdown(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
         if matches!(self.transport, Transport::Agreeing(_)) {
-            self.transport = Transport::Refused; // nobody waits for TLS any more
+            self.transport = Transport::Refused; // no task waits for TLS any more
         }
         write_to!(self, cx, poll_shutdown())
     }
@@ -660,7 +661,8 @@ mod tests {
         assert!(extra.iter().all(|p| p.reserved));
         assert!(extra[0].is_closed(), "the oldest made room");
         assert!(extra[1..].iter().all(|p| !p.is_closed()) && busy.iter().all(|p| !p.is_closed()));
-        // One that has its answer goes before one that has yet to ask, and before one that is being answered.
+        // A connection that has its answer is closed before one that has yet to make its request, and before one that
+        // is being answered.
         let asking = extra[2].open();
         drop(extra[3].open());
         enter(&doors, from(9));

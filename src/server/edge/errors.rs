@@ -1,5 +1,5 @@
-//! Errors that nobody here has made: those of tonic, of health and of reflection get an `ErrorInfo`, as all others
-//! have, and requests that take too long end as such.
+//! Errors made outside this server's code: those of tonic, of health and of reflection get an `ErrorInfo`, like all
+//! others, and requests that take too long end with that reason.
 
 use super::Edge;
 use crate::telemetry::count_refusal;
@@ -15,10 +15,10 @@ use std::sync::Arc;
 use std::time::Duration;
 use tonic::{Code, Status};
 
-/// How much sooner a deadline of the client ends its request here than in tonic, which ends it without a reason.
+/// Time by which a client's deadline ends its request here before tonic would, which gives no reason.
 const SOONER: Duration = Duration::from_millis(5);
 
-/// Adds what is missing to a status in headers or trailers.
+/// Adds the missing details to a status in headers or trailers.
 fn explain(headers: &mut HeaderMap) {
     let Some(status) = Status::from_header_map(headers) else {
         return;
@@ -31,7 +31,7 @@ fn explain(headers: &mut HeaderMap) {
         message: status.message().to_owned(),
     };
     count_refusal(&fault);
-    // It fails for a message that cannot be a header; the status is as it was then.
+    // It fails for a message that cannot be a header, and then leaves the status unchanged.
     let _ = Status::from(fault).add_header(headers);
 }
 
@@ -64,7 +64,7 @@ fn timeout(headers: &HeaderMap) -> Option<Duration> {
     })
 }
 
-/// Ends requests that take too long, and sees to it that every error says why.
+/// Ends requests that take too long, and ensures that every error has a reason.
 pub(crate) async fn reasons(
     State(edge): State<Arc<Edge>>,
     request: Request,

@@ -1,8 +1,8 @@
-//! For whom a request is meant, and from which page it comes.
+//! Checks the host for which a request is meant, and the page from which it comes.
 //!
 //! A page of a stranger can let its own name point to this machine (DNS rebinding) and then talks to this server as if
-//! it were its own. Its name is in `Host`, and in `Origin` if the page comes from elsewhere. So only names that are
-//! known are answered. An address in place of a name is always safe: it cannot be rebound.
+//! it were its own. Its name is in `Host`, and in `Origin` if the page comes from elsewhere. Therefore only known names
+//! are answered. An address in place of a name is always safe: it cannot be rebound.
 
 use crate::config::Config;
 use axum::http::{HeaderMap, Uri, header, uri::Authority};
@@ -40,7 +40,7 @@ fn authority(origin: &str) -> Option<Authority> {
     rest.parse().ok().filter(is_plain)
 }
 
-/// True of `host` and `host:port`. What else is read as the authority of an address, as `[::1].example` is, has a host
+/// Whether it is `host` or `host:port`. Other texts that parse as an authority, such as `[::1].example`, have a host
 /// that is only a part of it.
 fn is_plain(authority: &Authority) -> bool {
     let rest = authority.as_str().strip_prefix(authority.host());
@@ -69,13 +69,13 @@ impl Hosts {
         }
     }
 
-    /// Checks what a request says about itself.
+    /// Checks the host and origin of a request.
     ///
     /// # Errors
     /// A host or an origin that is not known.
     pub(super) fn check(&self, uri: &Uri, headers: &HeaderMap) -> Result<(), Fault> {
         let mut own: Option<Authority> = uri.authority().cloned();
-        // A client without either header is no browser.
+        // A client without either header is not a browser.
         for value in headers.get_all(header::HOST) {
             let named = value
                 .to_str()

@@ -1,7 +1,7 @@
-//! What stands between the network and the services: which connections are kept, for whom requests are meant, how
-//! large they may be, and how much of what is sent may wait for those who read slowly.
+//! The layer between the network and the services. It limits connections, checks the host of requests, limits their
+//! size, and limits the bytes that wait for slow readers.
 //!
-//! Everything here is about strangers: a client that keeps to the limits does not notice it.
+//! It protects against strangers; a client within the limits does not notice it.
 
 mod answers;
 pub(super) mod connections;
@@ -52,15 +52,15 @@ pub(super) struct Edge {
     unread: Arc<Unread>,
     requests: Arc<Semaphore>,
     max_requests: u64,
-    /// The server ends: what comes now is refused.
+    /// Whether the server is ending, so that new requests are refused.
     ending: AtomicBool,
     max_requests_of_one: u64,
-    /// How long a request may take before its response begins.
+    /// Longest time of a request before its response begins.
     timeout: Duration,
 }
 
 impl Edge {
-    /// With the limits of the settings.
+    /// An edge with the limits of the settings.
     pub(super) fn new(config: &Config) -> Arc<Self> {
         Arc::new(Self {
             doors: Doors::new(config),
@@ -75,7 +75,7 @@ impl Edge {
         })
     }
 
-    /// Refuses requests from now on, and waits for the end of those that are worked on. False: some are left after
+    /// Refuses requests from now on, and waits for the end of those in progress. Returns false if some are left after
     /// `patience`.
     pub(super) async fn finish(&self, patience: Duration) -> bool {
         self.ending.store(true, Ordering::SeqCst);
@@ -95,7 +95,7 @@ pub(super) async fn admit(
     let Some(peer) = request.extensions().get::<Arc<Peer>>().cloned() else {
         return next.run(request).await; // not over the network
     };
-    // What services ask for the sender's address.
+    // Services read the sender's address from this.
     request.extensions_mut().insert(TcpConnectInfo {
         local_addr: None,
         remote_addr: Some(peer.address),
@@ -149,13 +149,13 @@ pub(super) async fn admit(
     let unread = (!vital).then(|| edge.unread.clone());
     request.extensions_mut().insert(open.clone());
     let response = next.run(request).await;
-    // Of an answer that is counted as a whole, no part waits for room.
+    // No part of an answer that is counted as a whole waits for room.
     let whole = response.extensions().get::<answers::Counted>().is_some();
     let unread = unread.filter(|_| !whole);
     response.map(|body| Body::new(Reply::new(body, unread, open, place)))
 }
 
-/// A refusal as the sender understands it: a gRPC status, or a page with a sentence.
+/// A refusal in the sender's protocol: a gRPC status, or a page with a sentence.
 fn refused(fault: Fault, request: &Request) -> Response {
     count_refusal(&fault);
     let kind = request.headers().get(header::CONTENT_TYPE);

@@ -1,12 +1,12 @@
-//! What is sent, and not yet taken by those who read slowly.
+//! Bytes that are being sent, but not yet taken by slow readers.
 //!
 //! A response is asked for its next part when the connection has room for it. Until then the part before waits in
 //! memory, for as long as the client does not read. All parts that wait are counted. When they become too many, the
-//! connections whose clients have read nothing for the longest are closed, and nobody else gets a new part until there
-//! is room again.
+//! connections whose clients have read nothing for the longest are closed, and no client gets a new part until there is
+//! room again.
 //!
-//! An answer that is there as a whole ([`super::answers`]) is counted from then on, less what is sent of it. One more
-//! that has no room is refused: it would wait in memory.
+//! A complete answer ([`super::answers`]) is counted from its completion, less the bytes already sent. A further answer
+//! without room is refused, because it would wait in memory.
 
 use super::connections::{Open, Why};
 use axum::body::{Body, Bytes};
@@ -21,7 +21,7 @@ use std::time::Duration;
 use tokio::sync::OwnedSemaphorePermit;
 use tokio::time::{Instant, Sleep};
 
-/// How long a client that reads may take for a part while others wait for room.
+/// Time that a reading client may take for a part while others wait for room.
 const PATIENCE: Duration = Duration::from_millis(250);
 /// Interval at which a response looks for room.
 const RETRY: Duration = Duration::from_millis(20);
@@ -39,10 +39,10 @@ pub(super) struct Unread {
     responses: Mutex<BTreeMap<u64, Arc<Response>>>,
 }
 
-/// A response of which something may wait.
+/// A response of which a part may wait.
 #[derive(Debug)]
 struct Response {
-    /// Since when something does, ns after the start; [`NOTHING`]: nothing does.
+    /// Time since which a part waits, ns after the start; [`NOTHING`] if none does.
     since: AtomicU64,
     open: Arc<Open>,
 }
@@ -58,7 +58,7 @@ struct Entry {
 }
 
 impl Entry {
-    /// What waits of it, waits from now on.
+    /// Restarts the time of its waiting part.
     fn touch(&self) {
         let since = self.unread.start.elapsed().as_nanos() as u64;
         self.response.since.store(since, Ordering::Relaxed);
@@ -107,7 +107,7 @@ pub(super) struct Whole {
 }
 
 impl Whole {
-    /// So much of it was sent.
+    /// Notes that `bytes` of it were sent.
     pub(super) fn sent(&mut self, bytes: u64) {
         let bytes = bytes.min(self.bytes);
         self.bytes -= bytes;
@@ -136,7 +136,7 @@ impl Unread {
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, BTreeMap<u64, Arc<Response>>> {
-        // A poisoned map is as good as any: entries are whole.
+        // A poisoned map is still usable, because its entries are consistent.
         let responses = self.responses.lock();
         responses.unwrap_or_else(PoisonError::into_inner)
     }
@@ -331,7 +331,7 @@ mod tests {
             refused.to_string().contains("max_unread_bytes"),
             "{refused}"
         );
-        // What is sent of it makes room.
+        // Sent bytes make room.
         first.sent(30);
         let second = unread.add_whole(60, &other_open).unwrap();
         // Parts of streams have half of it in any case.
@@ -342,7 +342,7 @@ mod tests {
         unread.close_stalled(Instant::now() + PATIENCE);
         assert!(slow.is_closed() && !other.is_closed());
         drop(first);
-        // One that is larger than all has room alone.
+        // An answer larger than the limit has room if it is alone.
         drop(unread.add_whole(1000, &other_open).unwrap());
         assert_eq!(unread.whole.load(Ordering::Relaxed), 0);
         assert!(unread.lock().is_empty());

@@ -1,4 +1,4 @@
-//! Sizes of requests, checked by the five bytes in front of each message, before anything is set aside for it.
+//! Sizes of requests, checked by the five bytes before each message, before memory is reserved for it.
 
 use super::Edge;
 use crate::api;
@@ -22,14 +22,14 @@ use tonic::Status;
 /// Bytes in front of each message: a flag for compression and the length.
 const PREFIX: usize = 5;
 
-/// The gRPC code of a method that there is not.
+/// The gRPC code of an unknown method.
 const UNIMPLEMENTED: &str = "12";
-/// Messages up to this size are not set aside for: with `max_requests` they are bounded, and large ones that come
+/// No memory is reserved for messages up to this size: `max_requests` bounds them, and large messages that arrive
 /// slowly do not keep them out.
 const UNCOUNTED: usize = 32 * 1024;
-/// How long a larger message may take to come: this, and its size by [`SLOWEST`].
+/// Time allowed for the arrival of a larger message: this, plus its size divided by [`SLOWEST`].
 const MESSAGE_TIME: Duration = Duration::from_secs(5);
-/// Bytes per second that a larger message comes with at least.
+/// Least rate at which a larger message must arrive, bytes per second.
 const SLOWEST: f64 = 262_144.0;
 
 /// Bytes of requests that are read or worked on.
@@ -41,8 +41,8 @@ pub(super) struct Uploads {
     large: Limit,
 }
 
-/// The part of `max_pending_bytes` that a request takes. Work that holds the request holds this, too: beside the call
-/// itself it may wait for its turn in an operation, or go on when its client is gone.
+/// The part of `max_pending_bytes` that a request takes. Work that holds the request holds this, too: besides the call
+/// itself, it may wait for its turn in an operation, or continue when its client is gone.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Upload(Arc<Mutex<Option<OwnedSemaphorePermit>>>);
 
@@ -52,7 +52,7 @@ impl Upload {
     }
 }
 
-/// Largest message of a call, and the setting that says so.
+/// Largest message of a call, and the setting that defines it.
 #[derive(Clone, Copy, Debug)]
 struct Limit {
     name: &'static str,
@@ -80,7 +80,7 @@ impl Uploads {
     }
 }
 
-/// Bounds what the messages of a call may take.
+/// Bounds the memory of the messages of a call.
 pub(crate) async fn sizes(State(edge): State<Arc<Edge>>, request: Request, next: Next) -> Response {
     let path = request.uri().path();
     let uploads = &edge.uploads;
@@ -115,7 +115,7 @@ pub(crate) async fn sizes(State(edge): State<Arc<Edge>>, request: Request, next:
     let header = |name: &str| response.headers().get(name);
     if header("grpc-status").is_some_and(|s| s == UNIMPLEMENTED) && header("grpc-message").is_none()
     {
-        return unknown_method(&called); // a service says no more than that it has no such method
+        return unknown_method(&called); // a service would only report that it has no such method
     }
     response
 }
@@ -133,9 +133,9 @@ struct Sized {
     prefix: [u8; PREFIX],
     /// Bytes of the prefix that are there.
     read: usize,
-    /// Bytes of the message that are to come.
+    /// Bytes of the message still to come.
     left: usize,
-    /// When a large message must be there.
+    /// Deadline of a large message.
     deadline: Option<Pin<Box<Sleep>>>,
     ended: bool,
 }
@@ -258,7 +258,7 @@ impl HttpBody for Sized {
         };
         let checked = match &frame {
             None => Err(self.exhausted("the message comes too slowly to wait for it".to_owned())),
-            // A connection that broke is no fault of the message.
+            // A broken connection is not a fault of the message.
             Some(Some(Err(_))) => Ok(()),
             Some(Some(Ok(frame))) => frame.data_ref().map_or(Ok(()), |data| self.count(data)),
             Some(None) => self.end(),
@@ -357,7 +357,7 @@ mod tests {
                 ),
                 "{refused:?}"
             );
-            // A small one passes all the same.
+            // A small one still passes.
             let mut small = sized(LARGE as usize, 150_000, streams);
             small.free = free.clone();
             small.count(&message(1000)).unwrap();

@@ -1,5 +1,5 @@
-//! Views of one world: for each that someone watches, a task that encodes the latest frame and hands the bytes to all
-//! its viewers.
+//! Views of one world: each watched view has a task that encodes the latest frame and hands the bytes to all its
+//! viewers.
 
 use crate::shares::{Client, check_part};
 use prost::bytes::Bytes;
@@ -30,7 +30,7 @@ pub struct Encoded {
 /// A view that is encoded while it has viewers.
 #[derive(Debug)]
 pub struct Channel {
-    /// Who asked for it first.
+    /// The client that first requested it.
     owner: Client,
     number: u64,
     latest: watch::Sender<Option<Encoded>>,
@@ -54,7 +54,8 @@ pub struct Hub {
     most_past: usize,
 }
 
-/// What viewers that resume still need. They hold none of it themselves: a viewer that never reads must cost nothing.
+/// The data that resuming viewers still need. Viewers do not hold them themselves, because a viewer that never reads
+/// must cost nothing.
 #[derive(Debug, Default)]
 struct Past {
     /// Viewers that have not caught up yet.
@@ -67,7 +68,7 @@ struct Past {
     bytes: usize,
 }
 
-/// A viewer that resumes: keeps what it may need until it has caught up.
+/// A resuming viewer: keeps the data that it may need until it has caught up.
 #[derive(Debug)]
 pub struct Resuming {
     ticks: VecDeque<Weak<Snapshot>>,
@@ -95,12 +96,12 @@ impl Hub {
     }
 
     fn past(&self) -> MutexGuard<'_, Past> {
-        // As good as any: at worst some bytes are counted twice until the last viewer has caught up.
+        // A poisoned value is still usable: at worst some bytes are counted twice until the last viewer has caught up.
         self.past.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Begins to resume with these ticks. They are kept until all viewers have caught up, but never more than the
-    /// world's history holds: then the oldest go, and are frames that a slow viewer misses.
+    /// world's history holds. Beyond that the oldest are dropped, and a slow viewer misses those frames.
     pub fn resume(&self, ticks: impl IntoIterator<Item = Arc<Snapshot>>) -> Resuming {
         let mut past = self.past();
         past.viewers += 1;
@@ -156,7 +157,7 @@ impl Hub {
         latest: &watch::Sender<Arc<Snapshot>>,
         client: Client,
     ) -> Result<Arc<Channel>, Fault> {
-        // A poisoned map is as good as any: entries are whole.
+        // A poisoned map is still usable, because its entries are consistent.
         let mut channels = self.channels.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(channel) = channels.get(view).and_then(Weak::upgrade) {
             return Ok(channel);
@@ -223,7 +224,7 @@ async fn encode(
         }
         drop(channel);
         if latest.changed().await.is_err() {
-            return; // the world is gone; so are its viewers' streams
+            return; // the world is gone, and so are its viewers' streams
         }
     }
 }
@@ -259,7 +260,7 @@ mod tests {
     #[test]
     fn viewers_that_never_catch_up_hold_no_more_than_the_history() {
         let hub = Hub::new(8, 1.0, 10);
-        // The world goes on and forgets; viewers come, resume and never read.
+        // The world continues and forgets; viewers come, resume and never read.
         let mut history: VecDeque<_> = (0..9).map(snapshot).collect();
         let mut stalled = Vec::new();
         for tick in 9..109 {

@@ -1,3 +1,3 @@
-//! Frames on their way to viewers: encoded once per view, shared by all that want the same, latest wins.
+//! Frames on their way to viewers: encoded once per view and shared by all its viewers; the latest frame wins.
 
 pub mod hub;

@@ -1,4 +1,4 @@
-//! What becomes of each call: how long it takes, how it ends, and, in a build with traces, its span.
+//! The outcome of each call: its duration, its result, and, in a build with traces, its span.
 
 use crate::access::roles;
 use axum::body::{Body, Bytes};
@@ -34,15 +34,15 @@ const CODES: [&str; 17] = [
     "DATA_LOSS",
     "UNAUTHENTICATED",
 ];
-/// What the client gave up before its end.
+/// A call that the client gave up before its end.
 const CANCELLED: usize = 1;
-/// What ended without saying how.
+/// A call that ended without a code.
 const UNKNOWN: usize = 2;
 
-/// Meters of calls. Methods are those of the protos, so there are as many as there are.
+/// Meters of calls. Methods are those of the protos, so their number is fixed.
 struct Meters {
     methods: HashMap<&'static str, Histogram>,
-    /// Health, reflection, and what there is not.
+    /// Health, reflection, and unknown methods.
     other: Histogram,
     codes: [Counter; CODES.len()],
 }
@@ -64,14 +64,14 @@ fn short(path: &'static str) -> &'static str {
     path.strip_prefix("/sinew.v1.").unwrap_or(path)
 }
 
-/// What those who handle a call note about it.
+/// Notes about a call from its handlers.
 #[derive(Debug, Default)]
 pub(crate) struct Note {
     principal_kind: OnceLock<&'static str>,
 }
 
 impl Note {
-    /// Notes who asks: `user`, `cert` or `anonymous`.
+    /// Notes the kind of principal: `user`, `cert` or `anonymous`.
     pub(crate) fn principal(&self, name: &str) {
         let kinds = ["user", "cert"];
         let kind = kinds.into_iter().find(|k| name.starts_with(k));
@@ -96,7 +96,7 @@ pub(crate) async fn observe(mut request: Request, next: Next) -> Response {
         call: Some(call),
         code: None,
     };
-    // A client that goes away meanwhile drops this: the call is counted as cancelled.
+    // A client that disconnects in the meantime drops this, so the call is counted as cancelled.
     let response = next.run(request).await;
     call.code = code(response.headers());
     response.map(|body| Body::new(Answer { body, call }))
@@ -123,7 +123,7 @@ struct Call {
     span: Option<super::traces::CallSpan>,
 }
 
-/// A call that is counted once: when its answer has ended, or nobody wants it any more.
+/// A call that is counted once: when its answer has ended, or is no longer wanted.
 struct Observed {
     call: Option<Call>,
     code: Option<usize>,

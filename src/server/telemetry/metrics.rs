@@ -1,8 +1,8 @@
 //! The metrics of the server: one table of names, kinds and meanings, which `/metrics` exports and the manual lists.
 //!
-//! Buckets are fixed and labels are enumerations, so what a process exports does not grow with what is asked of it.
-//! Everything that can be named beforehand is exported from the start, as zero: a rate over a counter that appears with
-//! its first event misses that event.
+//! Buckets are fixed and labels are enumerations, so the export of a process does not grow with its requests. Every
+//! series known in advance is exported from the start, as zero: a rate over a counter that appears with its first event
+//! misses that event.
 
 use metrics::{Histogram, Unit};
 use metrics_exporter_prometheus::{Matcher, PrometheusBuilder, PrometheusHandle};
@@ -48,19 +48,19 @@ const CALL_BUCKETS_S: &[f64] = &[
     300.0,
 ];
 
-/// What a metric is.
+/// Kind of a metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     /// It only grows.
     Counter,
-    /// It is what is now.
+    /// A present value.
     Gauge,
     /// Times, with the upper bounds of their buckets, s.
     Histogram(&'static [f64]),
 }
 
 impl Kind {
-    /// As Prometheus calls it.
+    /// Its name in Prometheus.
     pub fn name(self) -> &'static str {
         match self {
             Self::Counter => "counter",
@@ -75,9 +75,9 @@ impl Kind {
 pub struct Metric {
     /// Its name.
     pub name: &'static str,
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
-    /// Its label and what that may be; without values they come as they are needed, each from an enumeration.
+    /// Its label and the label's values; without values, series appear as needed, each from an enumeration.
     pub label: Option<(&'static str, &'static [&'static str])>,
     /// Words of the manual, and of the page itself.
     pub help: &'static str,
@@ -327,7 +327,7 @@ pub fn metrics() -> Option<PrometheusHandle> {
             let handle = builder.install_recorder().ok()?;
             METRICS.iter().for_each(begin);
             metrics_process::Collector::default().describe();
-            // What is recorded is kept until it is counted into the buckets.
+            // Recorded times are kept until they are counted into the buckets.
             let counted = handle.clone();
             let counting = move || {
                 loop {
@@ -367,7 +367,7 @@ fn begin(m: &Metric) {
 
 /// The text of the page; `None`: another recorder was installed by the program that embeds this one.
 ///
-/// What is not counted where it happens is looked at now: the process, and the tasks of the runtime that calls this.
+/// Values not counted at their source are read now: the process, and the tasks of the calling runtime.
 pub(crate) fn render() -> Option<String> {
     let handle = metrics()?;
     metrics_process::Collector::default().collect();
@@ -378,11 +378,11 @@ pub(crate) fn render() -> Option<String> {
     Some(handle.render())
 }
 
-/// Where ticks and their times are counted. A tick looks nothing up.
+/// Counters of ticks and their times, so that a tick looks nothing up.
 pub(crate) struct TickMeters {
     /// A whole tick.
     pub total: Histogram,
-    /// How late it began.
+    /// Lateness of its start.
     pub late: Histogram,
     /// Its stages: commands, motion, step, publish.
     pub stages: [Histogram; 4],
@@ -418,7 +418,7 @@ pub(crate) fn ticks() -> &'static TickMeters {
     })
 }
 
-/// Where frames are counted that are sent: nothing is looked up for one.
+/// Counter of sent frames, so that nothing is looked up for each.
 pub(crate) fn frames_sent() -> &'static metrics::Counter {
     static SENT: OnceLock<metrics::Counter> = OnceLock::new();
     SENT.get_or_init(|| {
@@ -427,7 +427,7 @@ pub(crate) fn frames_sent() -> &'static metrics::Counter {
     })
 }
 
-/// Counts how long something is done with a checkpoint: until it is dropped.
+/// Measures the duration of an operation on a checkpoint, until this is dropped.
 pub(crate) struct CheckpointTimer(&'static str, Instant);
 
 impl CheckpointTimer {

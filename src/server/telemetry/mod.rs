@@ -1,4 +1,4 @@
-//! Logs, metrics, and the eye on every call.
+//! Logs, metrics, and the observation of every call.
 
 pub(super) mod calls;
 pub mod metrics;

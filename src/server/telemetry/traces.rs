@@ -1,7 +1,7 @@
 //! Traces for an OpenTelemetry collector: a span of each call, and of a few ticks.
 //!
-//! Spans go through a bounded queue to a thread of their own, which drops what it cannot send: a collector that is slow
-//! or away holds nothing up. A client may name the trace that it is in; whether it is sampled, the settings say.
+//! Spans go through a bounded queue to their own thread, which drops those that it cannot send, so a slow or absent
+//! collector holds nothing up. A client may name its trace; the settings decide whether it is sampled.
 
 use crate::config::Config;
 use axum::http::HeaderMap;
@@ -31,18 +31,18 @@ const FAULTS: [&str; 6] = [
     "DATA_LOSS",
 ];
 
-/// Where spans go.
+/// Destination of spans.
 struct Traces {
     tracer: SdkTracer,
-    /// One tick of so many has a span; 0: none.
+    /// One tick out of this many has a span; 0: none.
     ticks: u64,
     tick: AtomicU64,
 }
 
 static TRACES: OnceLock<Traces> = OnceLock::new();
 
-/// Of calls a share by their trace, so that all parts of one trace decide alike; of the rest everything, because what
-/// makes those spans has chosen already.
+/// Of calls a share by their trace, so that all parts of one trace decide alike; of the rest everything, because the
+/// code that makes those spans has already chosen.
 #[derive(Clone, Debug)]
 struct Sampling(Sampler);
 
@@ -69,7 +69,7 @@ impl ShouldSample for Sampling {
 pub struct Sender(SdkTracerProvider);
 
 impl Sender {
-    /// Sends what is left.
+    /// Sends the remaining spans.
     pub async fn close(self) {
         let closed = tokio::task::spawn_blocking(move || self.0.shutdown()).await;
         if let Ok(Err(e)) = closed {
@@ -146,7 +146,7 @@ pub(super) fn begin(method: Option<&'static str>, headers: &HeaderMap) -> Option
 }
 
 impl CallSpan {
-    /// Ends it with its code, and what kind of principal called.
+    /// Ends it with its code, and the kind of the calling principal.
     pub(super) fn end(mut self, name: &'static str, code: usize, principal: Option<&'static str>) {
         let span = &mut self.0;
         span.set_attribute(KeyValue::new("rpc.grpc.status_code", code as i64));

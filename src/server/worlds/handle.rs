@@ -1,4 +1,4 @@
-//! One world, as those see it who have something for it or want to know something of it.
+//! One world, as seen by services that command or query it.
 
 use super::usage::Usage;
 use super::waiting::Waiting;
@@ -29,52 +29,52 @@ use tokio::sync::{oneshot, watch};
 pub struct WorldHandle {
     /// Last part of its name.
     pub id: Arc<str>,
-    /// What leaves that thread.
+    /// The output of that thread.
     pub outlet: Arc<Outlet>,
     /// Its views.
     pub hub: Hub,
-    /// Where its drivers leave their motion.
+    /// Mailboxes in which its drivers leave their motion.
     pub mailboxes: Arc<Mailboxes>,
-    /// Its past, if that is kept.
+    /// Its past, if it is kept.
     pub journal: Option<Arc<Journal>>,
-    /// Held by who looks for a state of that past to put the world into.
+    /// Locked while a seek looks for a state of that past.
     pub seeking: tokio::sync::Mutex<()>,
     /// Ends when the world does.
     pub closed: watch::Receiver<()>,
     /// Ticks per second.
     pub rate_hz: f64,
-    /// Frames that viewers were too slow for.
+    /// Frames for which viewers were too slow.
     pub dropped: AtomicU64,
     /// Requests that found the queue full.
     pub refused: AtomicU64,
     /// Viewers.
     pub viewers: AtomicI64,
-    /// When it was used last.
+    /// Its last use.
     pub usage: Usage,
-    /// Who has which roles in it.
+    /// The roles of principals in it.
     pub grants: Grants,
-    /// Whether it is written down, and where.
+    /// Whether it is stored, and where.
     pub stored: watch::Sender<Stored>,
-    /// Who created it.
+    /// Its creator.
     pub(super) owner: Client,
-    /// When those who watch were last told that someone was refused.
+    /// Time of the last event about a refused caller.
     pub(super) told_refused: Mutex<Option<Instant>>,
-    /// Commands of each client that wait.
+    /// Waiting commands of each client.
     pub(super) waiting: Waiting,
     pub(super) commands: Arc<Queue>,
     pub(super) ticket: Ticket,
-    /// Worlds end because the server does.
+    /// Whether worlds end because the server does.
     pub(super) ending: Arc<AtomicBool>,
 }
 
-/// Whether a world is written down.
+/// Whether a world is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stored {
-    /// Not yet. Whoever changes it waits for that.
+    /// Not yet. Changes to the world wait for it.
     Coming,
     /// Under this number, which no other world has had.
     At(WorldKey),
-    /// It is there as long as the server is.
+    /// It lives only as long as the server.
     Never,
 }
 
@@ -101,15 +101,15 @@ pub struct WorldStats {
 }
 
 impl WorldHandle {
-    /// Whose share of the worlds it is.
+    /// The client whose share of the worlds it uses.
     pub fn owner(&self) -> &Client {
         &self.owner
     }
 
-    /// Waits until it is known whether and where it is written down.
+    /// Waits until it is known whether and where it is stored.
     ///
     /// # Errors
-    /// It has ended before.
+    /// It ended first.
     pub async fn place(&self) -> Result<Stored, Fault> {
         let (mut stored, mut closed) = (self.stored.subscribe(), self.closed.clone());
         let known = stored.wait_for(|s| *s != Stored::Coming);
@@ -120,7 +120,7 @@ impl WorldHandle {
         }
     }
 
-    /// Why a world that has ended cannot be asked, if more is known than that it has.
+    /// Reason why a world has ended, if one is known.
     fn why_ended(&self) -> Option<Fault> {
         let draining = || {
             self.ending
@@ -134,12 +134,12 @@ impl WorldHandle {
         self.why_ended().unwrap_or_else(|| self.no_more())
     }
 
-    /// What a stream learns when the world has ended.
+    /// The end of a stream whose world has ended.
     pub fn no_more(&self) -> Fault {
         Fault::not_found("world", format!("worlds/{}", self.id))
     }
 
-    /// Why nobody waits for the world any more, if its tick does not end.
+    /// The fault of a world whose tick does not end, for which no caller should wait.
     fn lost(&self) -> Option<Fault> {
         self.outlet.lost.borrow().clone()
     }
@@ -158,7 +158,7 @@ impl WorldHandle {
         }
     }
 
-    /// What a request learns that the end of the world came in between of.
+    /// The answer to a request that the end of the world interrupted.
     pub fn ended(&self) -> Fault {
         self.why_ended().unwrap_or_else(|| Fault::Aborted {
             reason: "WORLD_ENDED",
@@ -166,7 +166,7 @@ impl WorldHandle {
         })
     }
 
-    /// Tells those who watch events that a caller was refused, once in a while.
+    /// Sends an event to viewers that a caller was refused, at most once in an interval.
     pub fn tell_refused(&self, caller: &Caller, figure: &str) {
         let now = Instant::now();
         let mut told = self
@@ -189,7 +189,7 @@ impl WorldHandle {
         );
         // A full queue has no room for news.
         let _ = self.send(origin, move |s| {
-            // A name that a stranger made up is not repeated.
+            // A name made up by a stranger is not repeated.
             let figure = if s.figure(&figure).is_ok() {
                 figure.as_str()
             } else {
@@ -248,11 +248,11 @@ impl WorldHandle {
             let done = catch_unwind(AssertUnwindSafe(|| f(shard)));
             match done {
                 Ok(result) => shard.reply(move || {
-                    // The caller may have given up; then nobody wants the answer.
+                    // The caller may have given up; then the answer is not needed.
                     let _ = tx.send(result);
                 }),
                 Err(panic) => {
-                    // The caller learns of it when others can see that the world has failed.
+                    // The caller learns of it only once others can see that the world has failed.
                     shard.reply(move || drop(tx));
                     resume_unwind(panic);
                 }
@@ -284,7 +284,7 @@ impl WorldHandle {
         self.outlet.latest.borrow().clone()
     }
 
-    /// World and figures as they were when something of them changed last.
+    /// World and figures as of their last change.
     pub fn described(&self) -> Arc<Described> {
         self.outlet.described.borrow().clone()
     }
@@ -311,7 +311,7 @@ impl WorldHandle {
         figures.map(|f| as_of(&latest, f)).collect()
     }
 
-    /// Who controls a figure.
+    /// The controller of a figure.
     ///
     /// # Errors
     /// There is none of that name.
@@ -371,7 +371,7 @@ impl WorldHandle {
     }
 }
 
-/// A figure as it was described last, with what a frame says of it that changes from tick to tick.
+/// A figure as last described, with the values in a frame that change from tick to tick.
 fn as_of(latest: &Snapshot, described: &FigureInfo) -> FigureInfo {
     let mut figures = latest.roster.iter().zip(&latest.figures);
     let shown = figures.find(|(entry, _)| entry.index == described.index);

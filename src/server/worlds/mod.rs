@@ -1,5 +1,5 @@
-//! Worlds by name: [`registry`] has them all, [`handle`] is one of them, [`waiting`] counts what its clients want of
-//! it, [`usage`] when it was used last.
+//! Worlds by name: [`registry`] has them all, [`handle`] is one of them, [`waiting`] counts its waiting commands by
+//! client, and [`usage`] records its last use.
 
 pub mod handle;
 pub mod registry;

@@ -23,11 +23,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, RwLockReadGuard, Rw
 use std::time::Duration;
 use tokio::sync::watch;
 
-/// Names of worlds that nobody has named begin with it; a number follows.
+/// Prefix of names that the server chooses for worlds; a number follows.
 const GIVEN: &str = "world-";
 
-/// A world that is being deleted. Its name is taken until this is dropped, so that what belongs to it can be forgotten
-/// by that.
+/// A world that is being deleted. Its name stays taken until this is dropped, so that its data can be deleted by that
+/// name.
 #[derive(Debug)]
 pub struct Leaving {
     /// The world.
@@ -54,18 +54,18 @@ pub struct Registry {
     worlds: RwLock<Worlds>,
     /// Names of worlds that are being deleted. Locked after `worlds`.
     leaving: Arc<Mutex<HashSet<Arc<str>>>>,
-    /// Number of the next world that is given a name.
+    /// Number for the next name that the server chooses.
     next: AtomicU64,
-    /// No new worlds.
+    /// Whether new worlds are refused.
     draining: AtomicBool,
     /// Worlds end because the server does.
     ending: Arc<AtomicBool>,
     config: Arc<Config>,
-    /// What the past of all worlds takes.
+    /// Memory used by the past of all worlds.
     past: Arc<Total>,
     planners: Arc<Planners>,
     scheduler: Scheduler,
-    /// What the ticks of all worlds may cost.
+    /// Budget for the ticks of all worlds.
     pub budget: Arc<Budget>,
 }
 
@@ -109,7 +109,8 @@ impl Registry {
         self.worlds.write().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Gives no world a name with the number of this one, which is stored: it may be in quarantine, or come back later.
+    /// Never again chooses the number of this stored world for a name: the world may be in quarantine, or come back
+    /// later.
     pub fn number_behind(&self, name: &str) {
         let number = name.strip_prefix(GIVEN).and_then(|n| n.parse::<u64>().ok());
         if let Some(number) = number {
@@ -118,7 +119,7 @@ impl Registry {
         }
     }
 
-    /// Workers for the ticks of worlds, and how urgent the system lets them be.
+    /// Workers for the ticks of worlds, and the priority that the system grants them.
     pub fn workers(&self) -> (usize, Priority) {
         self.scheduler.workers()
     }
@@ -158,8 +159,8 @@ impl Registry {
         self.start(id, (settings, Some(from)), paused, owner, false)
     }
 
-    /// Brings a world back, in a state if there is one. It counts to the share of its owner, and there is room for it
-    /// also if that has more than its share.
+    /// Brings a world back, in a state if there is one. It counts towards the share of its owner, but is admitted even
+    /// if that exceeds the share.
     ///
     /// # Errors
     /// Those of [`Self::create`] and of [`Shard::restore`].
@@ -174,8 +175,8 @@ impl Registry {
         self.start(Some(id), (settings, from), paused, owner, true)
     }
 
-    /// The name of a new world, one that is free if none is given; there must be room for it. `owner`: who has to have
-    /// a share left.
+    /// The name of a new world, or a free one if none is given; there must be room for it. `owner`: the client that
+    /// must have a share left.
     fn admit(
         &self,
         worlds: &Worlds,
@@ -220,7 +221,7 @@ impl Registry {
     /// The world that [`Self::create`] would create.
     ///
     /// # Errors
-    /// Its own.
+    /// Those of [`Self::create`].
     pub fn would_create(
         &self,
         id: Option<String>,
@@ -266,7 +267,7 @@ impl Registry {
         let id = self.admit(&self.read(), id, shares)?;
         let rate_hz = settings.rate_hz;
         let name: Arc<str> = id.as_str().into();
-        // Nobody who looks a world up waits for what may take many figures.
+        // Do this outside the lock: it may create many figures, and look-ups of worlds must not wait for it.
         let mut shard = self.shard(name.clone(), settings, paused)?;
         if let Some(from) = from {
             shard.restore(from, Past::Beginning)?;
@@ -327,7 +328,7 @@ impl Registry {
         found.ok_or_else(|| self.missing(id))
     }
 
-    /// Whether this very world is there, and not only one of its name.
+    /// Whether this very world exists, and not only one of the same name.
     pub fn holds(&self, handle: &WorldHandle) -> bool {
         let found = self.get(&handle.id);
         found.is_ok_and(|there| std::ptr::eq(&*there, handle))
@@ -340,12 +341,12 @@ impl Registry {
         Fault::not_found("world", format!("worlds/{id}"))
     }
 
-    /// True once the server is about to end.
+    /// Whether the server is about to end.
     pub fn is_draining(&self) -> bool {
         self.draining.load(Ordering::SeqCst)
     }
 
-    /// Lets no world be created any more; those that are there go on.
+    /// Refuses new worlds; existing ones continue.
     pub fn refuse_new(&self) {
         let _worlds = self.write();
         self.draining.store(true, Ordering::SeqCst);
@@ -356,8 +357,7 @@ impl Registry {
         self.read().values().cloned().collect()
     }
 
-    /// Ends a world and waits until it has ended. `by`: who wants it, or why, for those who watch its
-    /// events.
+    /// Ends a world and waits until it has ended. `by`: the caller or the reason, for viewers of its events.
     ///
     /// # Errors
     /// There is none of that name.
@@ -366,7 +366,7 @@ impl Registry {
         deleted.ok_or_else(|| self.missing(id))
     }
 
-    /// Ends a world if `still` says so once nobody can get hold of it any more; `None` if it goes on.
+    /// Ends a world if `still` agrees once no caller can obtain it any more; `None` if it continues.
     ///
     /// # Errors
     /// There is none of that name.

@@ -1,4 +1,4 @@
-//! When a world was used last, so that one that nobody uses can end.
+//! Last use of a world, so that an unused one can end.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -14,12 +14,12 @@ struct State {
     last: Instant,
 }
 
-/// A call or a stream, as long as it goes on.
+/// A call or a stream, as long as it lasts.
 #[derive(Debug)]
 pub struct InUse(Arc<Mutex<State>>);
 
 fn lock(state: &Mutex<State>) -> MutexGuard<'_, State> {
-    // Two numbers are whole at any time.
+    // Two numbers are always consistent.
     state.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -46,13 +46,13 @@ impl Usage {
         lock(&self.0).last = Instant::now();
     }
 
-    /// The world is used until what this gives is dropped.
+    /// The world is in use until the returned value is dropped.
     pub fn begin(&self) -> InUse {
         lock(&self.0).open += 1;
         InUse(self.0.clone())
     }
 
-    /// How long nobody has used the world at this time.
+    /// Time for which the world has been unused at `now`.
     pub fn idle(&self, now: Instant) -> Duration {
         let state = lock(&self.0);
         if state.open > 0 {

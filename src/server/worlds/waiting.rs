@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How many commands of each client wait.
+/// Number of waiting commands of each client.
 #[derive(Clone, Debug)]
 pub(super) struct Waiting {
     by_client: Arc<Mutex<HashMap<Arc<str>, u64>>>,
@@ -33,7 +33,7 @@ impl Drop for Waits {
 }
 
 impl Waiting {
-    /// None yet, of a queue that holds `most`, of which one client may have `share`.
+    /// No commands yet, for a queue that holds `most`, of which one client may have `share`.
     pub fn new(most: u64, share: f64) -> Self {
         Self {
             by_client: Arc::default(),
@@ -54,10 +54,10 @@ impl Waiting {
             .unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Counts one more of a client.
+    /// Counts one more command of a client.
     ///
     /// # Errors
-    /// It has its share already.
+    /// The client already has its share.
     pub fn enter(&self, client: &Arc<str>) -> Result<Waits, Fault> {
         let mut all = self.lock();
         let count = all.entry(client.clone()).or_default();

@@ -1,6 +1,6 @@
-//! What age does to a body: size, proportions, mass fractions and ranges of motion from 6 to 90 years.
+//! Effects of age on a body: size, proportions, mass fractions and ranges of motion from 6 to 90 years.
 //!
-//! Every quantity is a continuous function of age: values stand at nodes and are interpolated between them, nothing
+//! Every quantity is a continuous function of age: values are given at nodes and interpolated between them, so nothing
 //! jumps at a birthday. From 20 to 44 years all of them are those of the adult tables, to the last bit.
 
 use super::model::{Profile, Sex};
@@ -14,7 +14,7 @@ pub struct Origin {
     /// S1 read in data that cite the publication; S2 read in the publication or an excerpt; S3 cross-check only; D
     /// derived; R estimate.
     pub tag: &'static str,
-    /// What was done with it.
+    /// How the value was processed.
     pub note: &'static str,
 }
 
@@ -22,7 +22,7 @@ pub struct Origin {
 pub const AGE_RANGE: [f64; 2] = [6.0, 90.0];
 /// From this age on proportions are an adult's, years.
 pub const GROWN: f64 = 20.0;
-/// Sexes do not differ below the first age and differ as adults do from the second on, years.
+/// The sexes do not differ below the first age, and differ as adults do from the second on, years.
 const SEXES_PART: [f64; 2] = [10.0, 18.0];
 
 /// Value at `x` of the polyline through `nodes`, constant beyond its ends.
@@ -71,7 +71,7 @@ const ORDINARY_MAN: [(f64, [f64; 2]); 11] = [
     (60.0, [1.75, 82.0]),
     (72.0, [1.72, 78.0]),
 ];
-/// The same of an ordinary woman.
+/// Stature (m) and mass (kg) of an ordinary woman, by age.
 const ORDINARY_WOMAN: [(f64, [f64; 2]); 11] = [
     (6.0, [1.16, 21.0]),
     (8.0, [1.28, 26.0]),
@@ -89,8 +89,8 @@ const ORDINARY_WOMAN: [(f64, [f64; 2]); 11] = [
 impl Profile {
     /// An ordinary person of this sex and age: stature and mass from tables, rounded to centimetres and half kilograms.
     ///
-    /// The man and the woman of 30 years are those that the strength levels refer to: 1.75 m, 75 kg and 1.63 m, 62 kg.
-    /// Ages outside 6…90 years count as the nearest.
+    /// The strength levels refer to the man and the woman of 30 years: 1.75 m, 75 kg and 1.63 m, 62 kg. Ages outside
+    /// 6…90 years count as the nearest.
     pub fn ordinary(sex: Sex, age: f64) -> Self {
         let [height, mass] = match sex {
             Sex::Male => polyline(&ORDINARY_MAN, age),
@@ -130,7 +130,7 @@ pub struct Proportions {
     pub foot: f64,
     /// Distances of the shoulders and of the hips.
     pub width: f64,
-    /// Cross-section of the head; its height is what the rest leaves of the stature.
+    /// Cross-section of the head; its height is the remainder of the stature.
     pub head_width: f64,
 }
 
@@ -211,7 +211,7 @@ impl MassFractions {
         }
     }
 
-    /// A published row, whose trunk is one number, with the trunk divided as `adult` divides it.
+    /// A published row that gives the trunk as one number; the trunk is divided here as in `adult`.
     fn whole_trunk(row: &'static str, head: f64, trunk: f64, limb: [f64; 6], adult: &Self) -> Self {
         let parts = &adult.percent;
         let share = trunk / (parts[0] + parts[1] + parts[2]);
@@ -326,11 +326,11 @@ const OLDER_RANGE: [f64; 2] = [44.0, 67.0];
 pub struct LimitChange {
     /// DOF within the limb.
     pub dof: usize,
-    /// True for the upper limit.
+    /// Whether this is the upper limit.
     pub upper: bool,
-    /// What a child of up to 8 years has more, degrees.
+    /// How much further a child of up to 8 years can move, degrees.
     pub child: f64,
-    /// What a person of 67 or more has more, degrees.
+    /// How much further a person of 67 or more can move, degrees.
     pub older: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Anatomical angles of a posture and back.
+//! Conversion of a posture to anatomical angles and back.
 //!
 //! The state of a 3-DOF joint is a quaternion; its three anatomical angles (flexion, abduction or lateral bend,
 //! rotation) are derived by swing–twist: `R = swing · twist`, twist about the segment's long axis z, and the swing's
@@ -125,7 +125,7 @@ pub fn from_swing_twist(swing_x: f64, swing_y: f64, twist: f64) -> Quat {
 /// Swing and twist of each ball joint, by index of its quaternion.
 pub type Swings = [SwingTwist; BALL_COUNT];
 
-/// Swings and twists of a posture, from which come its angles and their rates.
+/// Swings and twists of a posture, from which its angles and their rates are derived.
 pub fn swings(posture: &Posture) -> Swings {
     posture.ball.map(swing_twist)
 }
@@ -135,7 +135,7 @@ pub fn anatomical_angles(posture: &Posture) -> [f64; DOF_COUNT] {
     angles_of(&swings(posture), posture)
 }
 
-/// The same where the [`swings`] of the posture are known.
+/// [`anatomical_angles`] for a caller that already has the [`swings`] of the posture.
 pub fn angles_of(swings: &Swings, posture: &Posture) -> [f64; DOF_COUNT] {
     let mut out = [0.0; DOF_COUNT];
     for s in 1..SEGMENT_COUNT {

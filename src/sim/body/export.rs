@@ -18,10 +18,11 @@ use std::fmt::Write;
 
 mod solids;
 
-/// Standard gravity of exported models, m/s², pointing down z; what a world uses unless it is told otherwise.
+/// Standard gravity of exported models, m/s², pointing down z; also the default of a world.
 pub const EXPORT_GRAVITY: f64 = 9.81;
 
-/// The muscles of each DOF as plain actuators: torque bounds that know neither angle nor speed, and a largest speed.
+/// The muscles of each DOF as plain actuators: torque bounds that depend on neither angle nor speed, and a largest
+/// speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Actuation {
     /// Least torque of each DOF, N·m, < 0.
@@ -32,11 +33,11 @@ pub struct Actuation {
     pub speed: [f64; DOF_COUNT],
 }
 
-/// Least mass (kg) and inertia (kg·m²) that MuJoCo gives the massless links of a URDF, which it does not accept
-/// otherwise.
+/// Smallest mass (kg) and inertia (kg·m²) given to the massless links of a URDF in MuJoCo, which would otherwise reject
+/// them.
 const URDF_LEAST_MASS: f64 = 1e-12;
 
-/// Mass properties of one segment as files want them: about the centre of mass, in segment axes.
+/// Mass properties of one segment as model files expect them: about the centre of mass, in segment axes.
 struct Inertial {
     mass: f64,
     com: Vec3,
@@ -94,9 +95,9 @@ pub fn mjcf(body: &Body, actuation: &Actuation) -> String {
 
 /// `body` with the mass properties of `links` (loads welded on) as a MuJoCo XML model. Gravity in m/s², along −z.
 ///
-/// * A free joint `root`, then one MuJoCo body per segment, named as ours and in our order; ball joints bear the
+/// * A free joint `root`, then one MuJoCo body per segment, with Sinew's names and in its order; ball joints bear the
 ///   joint's name, hinges the DOF's. `qvel` is MuJoCo's: free joint linear (world) then angular (pelvis axes), balls
-///   along child x, y, z; our rates are those along the signed axes of [`DOF_AXIS`].
+///   along child x, y, z; Sinew's rates are along the signed axes of [`DOF_AXIS`].
 /// * Full inertia of each segment about its centre of mass; armature per joint. MuJoCo gives a ball joint one armature
 ///   for its three axes: the first DOF's is written, so the model is exact when the three are equal, as they are in
 ///   every body Sinew builds.
@@ -104,7 +105,7 @@ pub fn mjcf(body: &Body, actuation: &Actuation) -> String {
 /// * One motor per DOF, named after it: control in N·m along the DOF's signed axis, bounds of control and force from
 ///   `actuation`. There is no damping: passive tissue and ligaments are not part of the file.
 /// * Hinges have their range, which acts when the model's flag `limit` is enabled; it is disabled, so that the dynamics
-///   are the unconstrained ones. MuJoCo knows no range for the anatomical angles of a ball joint: those are custom
+///   are the unconstrained ones. MuJoCo has no range for the anatomical angles of a ball joint, so these are custom
 ///   numbers `<DOF>_range`.
 /// * A key frame `stand` holds the zero pose with the soles on z = 0.
 pub fn mjcf_with(body: &Body, links: &Links, gravity: f64, actuation: &Actuation) -> String {
@@ -278,12 +279,12 @@ pub fn urdf(body: &Body, actuation: &Actuation) -> String {
 /// joints named after the DOFs, in their order, about their signed axes, with massless links (named `<DOF>_link`)
 /// between; the last carries the segment. A ball joint's three hinge angles turn the child by `R = exp(a₁θ₁) exp(a₂θ₂)
 /// exp(a₃θ₃)`. Limits are the anatomical ones: for hinge chains they bound slightly other angles. `effort` is the
-/// larger bound of `actuation` of the two directions, for the format has one for both, and `velocity` its speed.
+/// larger of the two bounds of `actuation`, because the format has one for both directions; `velocity` is its speed.
 /// Armature and gravity have no place in the format.
 ///
-/// Visuals are boxes and cylinders, for meshes would be files of their own: four slices per segment, together of the
-/// volume of its surface. An element `mujoco`, which other loaders skip, tells MuJoCo to keep visuals and the pelvis as
-/// a body, and to accept massless links.
+/// Visuals are boxes and cylinders, because meshes would have to be separate files: four slices per segment, together
+/// of the volume of its surface. An element `mujoco`, which other loaders skip, tells MuJoCo to keep visuals and the
+/// pelvis as a body, and to accept massless links.
 pub fn urdf_with(body: &Body, links: &Links, actuation: &Actuation) -> String {
     let plain = Links::new(body);
     let mut o = String::with_capacity(1 << 15);

@@ -150,7 +150,7 @@ fn centre(mesh: &Mesh) -> Vec3 {
 /// sᵀ)/20. Parts that overlap count twice, as if they were pressed into one another.
 ///
 /// # Errors
-/// Whatever [`check`] finds; a mass that is not positive.
+/// Any error of [`check`], and a mass that is not positive.
 pub fn mass_properties(mesh: &Mesh, mass: f64) -> Result<MassProperties, GeometryError> {
     if !(mass > 0.0 && mass.is_finite()) {
         return Err(GeometryError::Mass(mass));
@@ -263,8 +263,8 @@ fn unit_curve(sides: usize, square: [f64; 2]) -> Vec<(f64, f64)> {
 
 /// Surface through `sections` in order, closed by a pole at each end, each with `sides` points (a multiple of 4).
 ///
-/// `poles` are the end points beyond the first and the last section. The result faces outwards whichever way the
-/// sections run.
+/// `poles` are the end points beyond the first and the last section. The result faces outwards, in whichever direction
+/// the sections run.
 pub fn loft(sections: &[Section], poles: [Vec3; 2], sides: usize) -> Mesh {
     let mut vertices = Vec::with_capacity(sections.len() * sides + 2);
     for section in sections {
@@ -328,7 +328,8 @@ pub fn mirrored(mesh: &Mesh) -> Mesh {
     out
 }
 
-/// The vertex that lies farthest along `direction`; the first of equals. Panics on an empty mesh, which no loft gives.
+/// The vertex that lies farthest along `direction`; the first one in a tie. Panics on an empty mesh, which a loft never
+/// produces.
 pub fn extreme(mesh: &Mesh, direction: Vec3) -> Vec3 {
     let mut best = mesh.vertices[0];
     for v in &mesh.vertices {

@@ -53,7 +53,7 @@ impl Body {
         Self::build(profile, None)
     }
 
-    /// The same with mass fractions of one's own, for example measured ones.
+    /// [`Self::humanoid`] with custom mass fractions, for example measured ones.
     ///
     /// # Errors
     /// As [`Self::humanoid`], and [`BodyError::Fractions`] naming a row whose shares are not positive or do not add to
@@ -143,7 +143,7 @@ fn assemble(profile: Profile, male: f64, adult: &Table) -> Body {
     }
 }
 
-/// Reflected inertia goes with the body, as strength does, while it grows.
+/// Reflected inertia scales with a growing body, as strength does.
 fn armature(profile: &Profile) -> f64 {
     let size = profile.mass * profile.height * profile.height / REFERENCE_SIZE;
     let grown = rise(profile.age, (AGE_RANGE[0], super::age::GROWN));

@@ -1,4 +1,4 @@
-//! The numbers of a body that the kernels read, for one figure or for eight in lanes.
+//! The numbers of a body that the kernels read, for one figure or for eight figures in lanes.
 
 use super::model::Body;
 use super::topology::{DOF_COUNT, SEGMENT_COUNT, SegmentId};
@@ -24,7 +24,7 @@ pub struct Links<L = f64> {
 }
 
 impl Default for Links<f64> {
-    /// Of no body: place for one.
+    /// All zero: a placeholder that belongs to no body.
     fn default() -> Self {
         Self {
             offset: [Vec3::zero(); SEGMENT_COUNT],
@@ -51,7 +51,7 @@ impl Links<f64> {
         }
     }
 
-    /// False if no body with loads that it may carry is like that.
+    /// Whether a body, with loads that it may carry, can have these values.
     pub fn is_valid(&self) -> bool {
         let number = |x: f64| x.abs() <= 1e6;
         let vectors = self.offset.iter().chain(&self.moment);

@@ -12,7 +12,7 @@ pub enum Sex {
     Female,
 }
 
-/// The person that a body stands for.
+/// The person represented by a body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Profile {
     /// Which tables are used.
@@ -54,7 +54,7 @@ pub struct Segment {
 /// An immutable body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Body {
-    /// The person that it stands for.
+    /// The person represented by this body.
     pub profile: Profile,
     /// Segments in topology order.
     pub segments: Vec<Segment>,
@@ -193,7 +193,7 @@ impl Body {
             let e = m.symmetric_eigenvalues();
             let mut moments = [e[0], e[1], e[2]];
             moments.sort_by(f64::total_cmp);
-            // A plane body reaches equality; rounding of a rotated tensor needs a little room.
+            // A planar body reaches equality, so allow for the rounding of a rotated tensor.
             if moments[0] <= 0.0 || moments[0] + moments[1] < moments[2] * (1.0 - 1e-9) {
                 return Err(BodyError::Inertia { segment, moments });
             }

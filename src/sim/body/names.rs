@@ -1,12 +1,12 @@
 //! Names of bodies: one list for the command line, the API and the clients.
 //!
-//! Five profiles have a name of their own ([`NAMED_BODIES`]). Every other profile is named by its values,
+//! Five profiles have their own name ([`NAMED_BODIES`]). Every other profile is named by its values,
 //! `{sex}-{age}y-{height}mm-{mass}g`, for example `female-25y-1680mm-61500g`.
 
 use super::model::{Profile, Sex};
 
-/// Bodies with a name of their own: name, sex, age in years. Stature and mass are the ordinary ones of that sex and
-/// age.
+/// Bodies with their own name: name, sex, age in years. Stature and mass are those of an ordinary person of that sex
+/// and age.
 pub const NAMED_BODIES: [(&str, Sex, f64); 5] = [
     ("adult-man", Sex::Male, 30.0),
     ("adult-woman", Sex::Female, 30.0),
@@ -15,10 +15,10 @@ pub const NAMED_BODIES: [(&str, Sex, f64); 5] = [
     ("older-woman", Sex::Female, 75.0),
 ];
 
-/// The body that is used when none is asked for.
+/// The default body.
 pub const DEFAULT_BODY: &str = NAMED_BODIES[0].0;
 
-/// What a body name may look like, for error messages.
+/// The accepted forms of a body name, for error messages.
 pub fn body_name_forms() -> String {
     let names: Vec<&str> = NAMED_BODIES.iter().map(|(name, ..)| *name).collect();
     format!(
@@ -67,8 +67,8 @@ impl Profile {
         named.map_or_else(|| self.value_name(), |(name, ..)| (*name).to_owned())
     }
 
-    /// The profile of a name of either kind; `None` for any other text. Whether body tables cover it is found when a
-    /// body is built.
+    /// The profile of a name of either kind; `None` for any other text. Building a body checks whether the body tables
+    /// cover the profile.
     pub fn from_name(name: &str) -> Option<Self> {
         let named = NAMED_BODIES.iter().find(|(n, ..)| *n == name);
         named
@@ -96,7 +96,7 @@ impl Profile {
             height: height / 1e3,
             mass: mass / 1e3,
         };
-        // One spelling per profile.
+        // Accept only one spelling per profile.
         (parts.next().is_none() && profile.value_name() == name).then_some(profile)
     }
 }

@@ -1,16 +1,16 @@
-//! Where a segment carries a load: the palm of a hand, the centre of mass of anything else.
+//! The point at which a segment carries a load: the palm of a hand, or the centre of mass of any other segment.
 
 use super::model::{Body, Mesh};
 use super::topology::{L_HAND, R_HAND, SegmentId};
 use crate::math::Vec3;
 
-/// Point (segment frame, m) at which a segment carries a load that names no point of its own.
+/// Point (segment frame, m) at which a segment carries a load for which no point is given.
 ///
 /// * Hands: the middle of the palm. It lies on the palmar surface (left hand: facing −y, right hand: facing +y), at the
 ///   level of the hand's centre of mass, which is between the wrist and the base of the fingers.
 /// * Other segments, and hands without a surface there: the centre of mass.
 ///
-/// Allocates nothing. For use when a load is given, not in every tick.
+/// Allocates nothing. Call it when a load is given, not in every tick.
 pub fn load_point(body: &Body, segment: SegmentId) -> Vec3 {
     let s = body.segment(segment);
     let side = match segment {

@@ -1,4 +1,4 @@
-//! Where the numbers of a body come from.
+//! Origins of the numbers of a body.
 
 use super::age::{self, GROWN, Origin};
 use super::model::Body;
@@ -7,9 +7,9 @@ use super::topology::{DOF_NAMES, SEGMENT_NAMES};
 /// One number with its origin.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Provenance {
-    /// What it belongs to: an action such as `knee extension`, a segment, a DOF.
+    /// The subject of the number: an action such as `knee extension`, a segment, or a DOF.
     pub action: &'static str,
-    /// What is given.
+    /// The quantity, for example a length.
     pub quantity: &'static str,
     /// Value as used for this body.
     pub value: f64,
@@ -19,7 +19,7 @@ pub struct Provenance {
     pub source: &'static str,
     /// S1 read in data citing the publication; S2 read in the publication; S3 cross-check; D derived; R estimate.
     pub tag: &'static str,
-    /// What was done with it.
+    /// How the value was processed.
     pub note: &'static str,
 }
 

@@ -1,10 +1,10 @@
-//! What the segments of an adult look like: cross-sections along each segment for the average man and woman.
+//! Shapes of the segments of an adult: cross-sections along each segment for the average man and woman.
 //!
 //! Lengths along a segment follow de Leva 1996 (see [`super::humanoid`]); the cross-sections are drawn here so that,
 //! filled with tissue of the stated density, they come close to the centre of mass and the transverse radii of gyration
 //! of that table. A segment's *girth* (one factor on its cross-sections) is then chosen so that density times volume is
-//! the table's mass, which makes a heavy body stout. Head, hands and feet hardly grow with fat: their girth is bounded
-//! and their density gives way.
+//! the table's mass, which makes a heavy body stout. Head, hands and feet hardly grow with fat, so their girth is
+//! bounded and their density changes instead.
 
 use super::geometry::{Section, append, extreme, loft, volume};
 use super::model::Mesh;
@@ -176,8 +176,8 @@ const HAND: Outline<'static> = Outline {
     last: [-1.0, 0.0],
 };
 
-/// Density of tissue with bone and air as it is found in each part, kg/m³ (after the cadaver means of Dempster 1955 and
-/// Clauser 1969, rounded), and how far the girth of the part may depart from that of the average adult.
+/// Density of each part, including bone and air, kg/m³ (after the cadaver means of Dempster 1955 and Clauser 1969,
+/// rounded), and the bounds on its girth relative to the average adult.
 #[derive(Clone, Copy)]
 pub(super) struct Fill {
     pub density: f64,
@@ -236,10 +236,10 @@ fn girth(fill: Fill, mass: f64, mesh_of: &dyn Fn(f64) -> Mesh) -> f64 {
     g.clamp(fill.girth[0], fill.girth[1])
 }
 
-/// How a part of the trunk is drawn.
+/// Sizes from which a part of the trunk is drawn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrunkSize {
-    /// 1 draws the man's outline, 0 the woman's, values between them a growing body.
+    /// 1 draws the man's outline and 0 the woman's; values in between draw a growing body.
     pub male: f64,
     /// Stature over the reference stature of the man and of the woman.
     pub scale: [f64; 2],
@@ -264,7 +264,7 @@ fn trunk(size: TrunkSize, outlines: [&Outline<'_>; 2], fill: Fill, mass: f64) ->
         if whole {
             let w = size.scale[k];
             let stretch = size.length / (MM * w * size.drawn[k]);
-            // An adult's part has the drawn length to rounding; it is drawn exactly.
+            // An adult's part already has the drawn length, to rounding, so draw it exactly.
             let z = if (stretch - 1.0).abs() < 1e-12 {
                 MM * w
             } else {
@@ -274,7 +274,7 @@ fn trunk(size: TrunkSize, outlines: [&Outline<'_>; 2], fill: Fill, mass: f64) ->
             return mesh_of(girth(fill, mass, &mesh_of));
         }
     }
-    // Both outlines at the heights of the rows of either, as shares of their heights; then everything is mixed.
+    // Sample both outlines at the heights of all rows of either, as shares of their heights, and then mix them.
     let share = |o: &Outline<'_>, z: f64| (z - o.first[0]) / (o.last[0] - o.first[0]);
     let mut at: Vec<f64> = outlines
         .iter()
@@ -328,7 +328,8 @@ fn row_at(rows: &[Row], z: f64) -> Row {
     std::array::from_fn(|k| a[k] + t * (b[k] - a[k]))
 }
 
-/// Head and neck, from the neck joint to the vertex at `length` (m), with a nose that shows where the figure looks.
+/// Head and neck, from the neck joint to the vertex at `length` (m), with a nose that shows which way the figure is
+/// looking.
 pub(super) fn head(scale: f64, length: f64, mass: f64) -> Mesh {
     let stretch = length / (HEAD.last[0] * MM);
     let mesh_of = |g: f64| {
@@ -423,8 +424,8 @@ fn foot_section(x: f64, half: f64, sole: f64, top: f64) -> Section {
     }
 }
 
-/// Foot without toes, and the two corners of its heel, ±y. The ball of the foot belongs to the toes: the foot rolls
-/// over the toe joint without rubbing against what stands on the ground. `mass` is that of foot and toes together.
+/// Foot without toes, and the two corners of its heel, ±y. The ball of the foot belongs to the toes, so that the foot
+/// rolls over the toe joint without scraping the planted part. `mass` is that of foot and toes together.
 pub(super) fn foot(scale: f64, size: FootSize, mass: f64) -> (Mesh, [Vec3; 2]) {
     let w = scale * MM * foot_girth(scale, size, mass);
     let (h, ball, sole) = (size.heel, size.ball, -size.ankle_height);

@@ -1,4 +1,4 @@
-//! Positions and velocities of one figure, or of eight in lanes.
+//! Positions and velocities of one figure, or of eight figures in lanes.
 
 use super::topology::{
     BALL_COUNT, DOF_AXIS, DOF_COUNT, DOF_LEN, DOF_START, HINGE_COUNT, JOINT, Joint, NV,
@@ -7,7 +7,7 @@ use super::topology::{
 use crate::math::{Lane, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// Where every segment is: pelvis pose and joint positions.
+/// Position of every segment: pelvis pose and joint positions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Posture<L = f64> {
     /// Pelvis origin (midpoint of the hip centres), world, m.
@@ -148,7 +148,7 @@ impl<L: Lane> Posture<L> {
 }
 
 impl Posture<f64> {
-    /// True if every number is finite.
+    /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         self.root_position.is_finite()
             && self.root_rotation.is_finite()
@@ -156,7 +156,7 @@ impl Posture<f64> {
             && self.hinge.iter().all(|a| a.is_finite())
     }
 
-    /// True if every number is finite and every rotation is one.
+    /// Whether every number is finite and every quaternion is a rotation.
     pub fn is_valid(&self) -> bool {
         let unit = |q: &Quat| {
             let square: f64 = q.to_xyzw().iter().map(|x| x * x).sum();
@@ -175,18 +175,18 @@ impl State<f64> {
         }
     }
 
-    /// True if every number is finite.
+    /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         self.posture.is_finite() && self.velocity.iter().all(|v| v.is_finite())
     }
 
-    /// True if every number is finite and every rotation is one.
+    /// Whether every number is finite and every quaternion is a rotation.
     pub fn is_valid(&self) -> bool {
         self.posture.is_valid() && self.velocity.iter().all(|v| v.is_finite())
     }
 
-    /// Slows all velocities alike, so that kinetic energy only falls, until none is above `fastest` (rad/s, m/s); true
-    /// if one was.
+    /// Scales all velocities by one factor, so that kinetic energy can only fall, until none exceeds `fastest` (rad/s,
+    /// m/s). Returns whether any did.
     pub fn brake(&mut self, fastest: f64) -> bool {
         let most = self.velocity.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         if most > fastest {

@@ -1,4 +1,4 @@
-//! The tree every figure shares: 18 segments, 17 joints, 39 joint DOFs, in depth-first order (each subtree is
+//! The tree that all figures share: 18 segments, 17 joints, 39 joint DOFs, in depth-first order (each subtree is
 //! contiguous).
 //!
 //! Joint `i` joins segment `i` to its parent and carries the segment's name. A 3-DOF joint is a ball joint: its rate is
@@ -87,7 +87,7 @@ mod ids {
 }
 pub use ids::*;
 
-/// Sign of the axis y of a body towards a side: 1 for the left one (0), −1 for the right one (1).
+/// Sign of the body's y axis towards a side: 1 for the left side (0), −1 for the right side (1).
 pub const fn outward(side: usize) -> f64 {
     if side == 0 { 1.0 } else { -1.0 }
 }
@@ -173,7 +173,7 @@ pub const JOINT_NAMES: [&str; SEGMENT_COUNT] = [
 pub const PARENT: [usize; SEGMENT_COUNT] =
     [0, 0, 1, 2, 2, 4, 5, 2, 7, 8, 0, 10, 11, 12, 0, 14, 15, 16];
 
-/// How a joint moves, and where its positions and rates are stored.
+/// The kind of a joint, and the place of its positions and rates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joint {
     /// The free pelvis.
@@ -345,7 +345,7 @@ pub const DOF_SEGMENT: [usize; DOF_COUNT] = {
     out
 };
 
-/// True where `ancestor` lies on the way from `segment` to the pelvis (a segment is its own ancestor).
+/// Whether `ancestor` lies on the path from `segment` to the pelvis (a segment is its own ancestor).
 pub const IS_ANCESTOR: [[bool; SEGMENT_COUNT]; SEGMENT_COUNT] = {
     let mut out = [[false; SEGMENT_COUNT]; SEGMENT_COUNT]; // [segment][ancestor]
     let mut s = 0;
@@ -363,8 +363,8 @@ pub const IS_ANCESTOR: [[bool; SEGMENT_COUNT]; SEGMENT_COUNT] = {
     out
 };
 
-/// For every velocity component, the component before it on the way to the root; `usize::MAX` for the first.
-/// The pattern of the inertia matrix and of its factor: entry (i, j), j < i, is nonzero only if j is reached from i.
+/// For every velocity component, the component before it on the path to the root; `usize::MAX` for the first. The
+/// pattern of the inertia matrix and of its factor: entry (i, j), j < i, is nonzero only if j is reached from i.
 pub const VELOCITY_PARENT: [usize; NV] = {
     let mut out = [usize::MAX; NV];
     let mut i = 1;

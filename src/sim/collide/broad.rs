@@ -1,4 +1,4 @@
-//! Which bodies may meet: sweep and prune along x, in a fixed order.
+//! Finds the bodies that may meet: sweep and prune along x, in a fixed order.
 
 use crate::math::Vec3;
 
@@ -11,7 +11,7 @@ pub struct Bounds {
     pub high: Vec3,
     /// Index of the body.
     pub body: usize,
-    /// False for what nothing can move: two such bodies never meet.
+    /// Whether anything can move the body; two immovable bodies never meet.
     pub moves: bool,
 }
 
@@ -28,7 +28,7 @@ impl Bounds {
 
 /// Finds all pairs of boxes that overlap, as (smaller, larger) body index in ascending order. `boxes` is reordered.
 ///
-/// O(n log n) and the pairs that overlap along x. Allocates only while `pairs` grows.
+/// O(n log n) plus the number of pairs that overlap along x. Allocates only while `pairs` grows.
 pub fn pairs(boxes: &mut [Bounds], pairs: &mut Vec<(usize, usize)>) {
     pairs.clear();
     boxes.sort_unstable_by(|a, b| a.low.x.total_cmp(&b.low.x).then(a.body.cmp(&b.body)));

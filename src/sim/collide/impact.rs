@@ -1,25 +1,25 @@
-//! The linear system of a collision as in §3 of the paper: what velocities change by when parts meet, and what angles
-//! change by so that they do not overlap.
+//! The linear system of a collision as in §3 of the paper: the change of velocities when parts meet, and the change of
+//! angles that removes overlaps.
 //!
-//! Unknown are impulses p along rows J of both bodies. Feet that stand hold still (`J v⁺ = 0`), and parts that touch do
-//! not go on into each other (`J v⁺ ≥ w`, `p ≥ 0`). With `v⁺ = v + M⁻¹ Jᵀ p` the active rows are one linear system, `J
-//! M⁻¹ Jᵀ p = w − J v`. Rows that would pull are left out, rows that would be broken are taken in. What one body gets
-//! the other one loses. Without led things `v⁺` is a projection of `v` in the metric of M: kinetic energy cannot rise.
-//! The correction of angles is the same system with `v = 0` and w = the overlap: inverse kinematics of least change,
-//! weighted by inertia.
+//! The unknowns are impulses p along rows J of both bodies. Standing feet stay still (`J v⁺ = 0`), and touching parts
+//! stop approaching each other (`J v⁺ ≥ w`, `p ≥ 0`). With `v⁺ = v + M⁻¹ Jᵀ p` the active rows are one linear system,
+//! `J M⁻¹ Jᵀ p = w − J v`. Rows that would pull are removed, and rows that would be violated are added. One body
+//! receives the momentum that the other loses. Without led obstacles, `v⁺` is a projection of `v` in the metric of M:
+//! kinetic energy cannot rise. The correction of angles is the same system with `v = 0` and w = the overlap: inverse
+//! kinematics of least change, weighted by inertia.
 
 use crate::body::topology::NV;
 use crate::dynamics::MassMatrix;
 use crate::dynamics::factor::{factor, solve};
 use crate::math::dense::{factor_rows, solve_rows};
 
-/// Most rows of one system.
+/// Largest number of rows of one system.
 pub const MOST_ROWS: usize = 64;
-/// Most changes of the set of active rows.
+/// Largest number of changes of the set of active rows.
 const ROUNDS: usize = 32;
 /// Added to the diagonal, relative to its largest element: rows of one face depend on each other.
 const RIDGE: f64 = 1e-10;
-/// A row is broken by more than this, m/s; an impulse pulls below minus this, N·s.
+/// A row counts as violated by more than this, m/s; an impulse counts as pulling below minus this, N·s.
 const TOLERANCE: f64 = 1e-9;
 
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ struct Body {
 /// One condition on the velocity after the impact.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Bodies of both sides; `None` is something that nothing moves.
+    /// Bodies of both sides; `None` is an immovable object.
     pub bodies: [Option<usize>; 2],
     /// `J` of both sides, signs included.
     pub jacobian: [[f64; NV]; 2],
@@ -39,14 +39,15 @@ pub struct Row {
     pub wanted: f64,
     /// Rows of one group are left out together.
     pub group: usize,
-    /// Impulse below which the group is left out, N·s: 0 for what touches, −∞ for what holds in any case.
+    /// Impulse below which the group is removed, N·s: 0 for touching parts, −∞ for supports that always hold.
     pub least: f64,
-    /// True if it may be taken in again, and need not be active: what touches. False: what holds.
+    /// Whether it may become active again and need not start active: true for touching parts, false for supports that
+    /// hold.
     pub one_sided: bool,
 }
 
 impl Row {
-    /// A row that says nothing yet.
+    /// An empty row.
     pub fn new(bodies: [Option<usize>; 2], group: usize) -> Self {
         Self {
             bodies,
@@ -94,7 +95,7 @@ impl Impact {
         self.response.clear();
     }
 
-    /// Adds a body with its velocity; its index.
+    /// Adds a body with its velocity; returns its index.
     pub fn add_body(&mut self, mass: &MassMatrix<f64>, velocity: &[f64; NV]) -> usize {
         let mut l = mass.clone();
         factor(&mut l);
@@ -105,7 +106,7 @@ impl Impact {
         self.bodies.len() - 1
     }
 
-    /// Adds a condition. False if there is no room.
+    /// Adds a condition. Returns false if there is no room.
     pub fn add_row(&mut self, row: Row) -> bool {
         if self.rows.len() == MOST_ROWS {
             return false;
@@ -150,7 +151,7 @@ impl Impact {
         sum
     }
 
-    /// Finds the impulses and applies them to the velocities. Rounds taken.
+    /// Finds the impulses and applies them to the velocities. Returns the number of rounds.
     ///
     /// Section 3 of the paper.
     pub fn solve(&mut self) -> usize {
@@ -199,7 +200,7 @@ impl Impact {
                 None => break,
             }
         }
-        // Whatever round it stopped in: nothing pulls, and what is given is taken.
+        // Whichever round was the last: no impulse pulls, and both sides get equal and opposite impulses.
         for k in 0..n {
             if self.rows[k].one_sided {
                 self.impulse[k] = self.impulse[k].max(0.0);
@@ -235,7 +236,7 @@ impl Impact {
         }
         factor_rows(&mut self.work[..], count);
         solve_rows(&self.work[..], count, &mut x[..count]);
-        // Once more for what the ridge leaves.
+        // Solve once more for the residual that the ridge leaves.
         let mut rest = [0.0; MOST_ROWS];
         for (i, &k) in index[..count].iter().enumerate() {
             let given: f64 = (index[..count].iter().zip(&x))
@@ -250,7 +251,7 @@ impl Impact {
         }
     }
 
-    /// Velocity of a body: after [`Self::solve`] the one that the impact leaves.
+    /// Velocity of a body; after [`Self::solve`], its velocity after the impact.
     pub fn velocity(&self, body: usize) -> &[f64; NV] {
         &self.bodies[body].velocity
     }
@@ -280,7 +281,7 @@ mod tests {
         for_each_column(&t.kin, s, r, |k, _, v| row[k] = n.dot(v));
     }
 
-    /// What both bodies have of linear momentum, and of angular momentum about the world origin.
+    /// Total linear momentum of both bodies, and total angular momentum about the world origin.
     fn total(links: &Links, states: &[State]) -> (Vec3, Vec3, f64) {
         let (mut p, mut l, mut e) = (Vec3::zero(), Vec3::zero(), 0.0);
         for s in states {
@@ -296,7 +297,8 @@ mod tests {
         (p, l, e)
     }
 
-    /// Section 3 of the paper: two figures that stand and run into each other. Momentum closes, and no energy is made.
+    /// Section 3 of the paper: two standing figures run into each other. Momentum is conserved, and no energy is
+    /// created.
     #[test]
     fn what_one_figure_gets_the_other_loses_and_the_floor_takes_the_rest() {
         let body = {
@@ -315,7 +317,7 @@ mod tests {
             for (t, s) in t.iter().zip(&states) {
                 impact.add_body(&t.mass_matrix, &s.velocity);
             }
-            // Every other round they fly: nothing but each other.
+            // In every other round they fly and touch only each other.
             let mut held = Vec::new();
             for (b, t) in t.iter().enumerate().filter(|_| round % 2 == 0) {
                 for (g, foot) in [L_FOOT, R_FOOT].into_iter().enumerate() {
@@ -353,7 +355,7 @@ mod tests {
             }
             let (p0, l0, e0) = total(&links, &states);
             let (p1, l1, e1) = total(&links, &after);
-            // What the floor gave: a wrench about the origin of each foot.
+            // Impulse of the floor: a wrench about the origin of each foot.
             let (mut p, mut l) = (Vec3::zero(), Vec3::zero());
             for (i, (b, foot, k)) in held.iter().enumerate() {
                 let mut part = [0.0; 3];

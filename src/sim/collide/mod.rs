@@ -1,9 +1,9 @@
 //! Collisions between figures and with obstacles (docs/adr/0009-collisions.md).
 //!
 //! * [`shape`]: capsules fitted to the segments, and the shapes of obstacles.
-//! * [`obstacle`]: bodies that are no figures: fixed, led, or free.
-//! * [`broad`]: which bodies may meet within a tick.
-//! * [`narrow`]: where two shapes are nearest.
+//! * [`obstacle`]: bodies that are not figures: fixed, led, or free.
+//! * [`broad`]: finds the bodies that may meet within a tick.
+//! * [`narrow`]: nearest points of two shapes.
 //! * [`impact`]: the linear system of a collision as in §3 of the paper.
 //! * [`island`]: one convex problem for all bodies that touch each other.
 

@@ -1,4 +1,4 @@
-//! Where two shapes are nearest: points with a normal and a gap.
+//! Nearest points of two shapes, with a normal and a gap.
 
 use super::shape::Capsule;
 use crate::math::vec3::vec3;
@@ -56,7 +56,7 @@ fn nearest_parameters(p1: Vec3, d1: Vec3, p2: Vec3, d2: Vec3) -> (f64, f64) {
     let s = if denominator > 1e-9 * a * e {
         ((b * f - c * e) / denominator).clamp(0.0, 1.0)
     } else {
-        // Parallel: the middle of the common part, so that nothing tips over a point chosen at random.
+        // If they are parallel, take the middle of the common part, so that no body tips over an arbitrary point.
         let (t0, t1) = ((f / e).clamp(0.0, 1.0), ((f + b) / e).clamp(0.0, 1.0));
         let t = 0.5 * (t0 + t1);
         ((t * b - c) / a).clamp(0.0, 1.0)
@@ -78,7 +78,7 @@ pub fn capsules(a: &Capsule, b: &Capsule) -> Near {
     let (pa, pb) = (a.a + da * s, b.a + db * t);
     let (ra, rb) = (a.ra + s * (a.rb - a.ra), b.ra + t * (b.rb - b.ra));
     let d = pa - pb;
-    // Axes that cross: any direction parts them; the one across both is the shortest.
+    // If the axes cross, any direction separates them, and the one across both is the shortest.
     let normal = d.normalized_or(da.cross(db).normalized_or(Vec3::Z));
     let gap = d.norm() - ra - rb;
     Near {
@@ -88,8 +88,8 @@ pub fn capsules(a: &Capsule, b: &Capsule) -> Near {
     }
 }
 
-/// Two capsules: their nearest points, and where the ends of each are nearest to the other. A part that turns fast may
-/// hit with an end that is not the nearest point yet, and two limbs side by side touch at two places.
+/// Two capsules: their nearest points, and the points nearest to each end. A part that turns fast may hit with an end
+/// that is not yet the nearest point, and two limbs side by side touch at two places.
 pub fn capsule_points(a: &Capsule, b: &Capsule, mut emit: impl FnMut(Near)) {
     emit(capsules(a, b));
     let ball = |p: Vec3, r: f64| Capsule {
@@ -108,7 +108,7 @@ pub fn capsule_points(a: &Capsule, b: &Capsule, mut emit: impl FnMut(Near)) {
     }
 }
 
-/// Points nearer to each other than this are one, m.
+/// Points nearer to each other than this are merged, m.
 pub const MERGE: f64 = 0.02;
 
 /// A ball (A) at a box (B); radius 0 is a point.
@@ -121,7 +121,7 @@ pub fn ball_box(centre: Vec3, radius: f64, b: &PosedBox) -> Near {
     let (normal, depth) = if distance > 1e-9 {
         (outside * (1.0 / distance), distance)
     } else {
-        // Inside: out through the nearest face.
+        // If the centre is inside, move it out through the nearest face.
         let mut k = 0;
         for i in 1..3 {
             if half[i] - x[i].abs() < half[k] - x[k].abs() {

@@ -1,4 +1,4 @@
-//! Bodies of a world that are no figures.
+//! Bodies of a world that are not figures.
 
 use super::shape::Capsule;
 use crate::math::hash::Fnv;
@@ -6,10 +6,9 @@ use crate::math::vec3::vec3;
 use crate::math::{Mat3, Quat, Vec3};
 use serde::{Deserialize, Serialize};
 
-/// Most obstacles of one world.
+/// Largest number of obstacles in one world.
 pub const MAX_OBSTACLES: usize = 256;
-/// Friction coefficient of an obstacle that says nothing about it, and between two figures: wood or cloth on skin and
-/// cloth.
+/// Default friction coefficient of an obstacle, also used between two figures: wood or cloth on skin and cloth.
 pub const OBSTACLE_FRICTION: f64 = 0.6;
 
 /// Shape of an obstacle in its own frame, whose origin is its centre of mass.
@@ -32,7 +31,7 @@ pub enum Shape {
         /// Half of its edges, m.
         half: Vec3,
     },
-    /// Everything below z = 0 of its frame; cannot move freely.
+    /// The half-space below z = 0 of its frame; cannot move freely.
     Plane,
 }
 
@@ -99,13 +98,13 @@ impl Shape {
 pub enum Mobility {
     /// Not at all.
     Fixed,
-    /// With its velocity, whatever it meets.
+    /// With its given velocity, whatever it hits.
     Led,
     /// As a rigid body of this mass, kg.
     Free(f64),
 }
 
-/// Everything an obstacle is made of.
+/// All properties of an obstacle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ObstacleSetup {
     /// Name, for people.
@@ -130,7 +129,7 @@ pub struct ObstacleSetup {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Obstacle {
     pub(crate) setup: ObstacleSetup,
-    /// Angular momentum about the centre, world axes, kg·m²/s: what a free body keeps.
+    /// Angular momentum about the centre, world axes, kg·m²/s, which a free body conserves.
     pub(crate) spin: Vec3,
     /// Mean force on it over the last tick, world axes, N.
     pub(crate) force: Vec3,
@@ -161,7 +160,7 @@ impl Obstacle {
         out
     }
 
-    /// What it is made of, with its present pose and velocity.
+    /// Its properties, with its present pose and velocity.
     pub fn setup(&self) -> &ObstacleSetup {
         &self.setup
     }
@@ -239,7 +238,7 @@ impl Obstacle {
             return;
         }
         if self.mass().is_some() {
-            // Angular momentum is kept and the angular velocity follows: a long body may tumble, but gains nothing.
+            // Conserve angular momentum and derive the angular velocity: a long body may tumble, but gains no energy.
             let w = self.solve_inertia(self.spin);
             let fast = w.norm();
             if fast > MAX_SPIN {

@@ -26,7 +26,7 @@ impl Capsule {
         0.5 * (self.b - self.a).norm() + self.ra.max(self.rb)
     }
 
-    /// The half of it at its first end: for a limb the one away from the joint that carries it.
+    /// Its half at the first end; for a limb, the half away from the joint that carries it.
     pub fn first_half(&self) -> Self {
         Self {
             b: (self.a + self.b) * 0.5,
@@ -117,15 +117,15 @@ fn slice(mesh: &Mesh, axis: usize, at: f64, half: f64) -> [(f64, f64); 2] {
     })
 }
 
-/// One tapered capsule along a coordinate axis: radii are the mean half extents a quarter of the length from the ends,
-/// continued to the ends, so that limbs taper; its ends reach as far as the surface.
+/// One tapered capsule along a coordinate axis. Its radii are the mean half extents at a quarter of the length from the
+/// ends, extrapolated to the ends, so that limbs taper. Its ends reach as far as the surface.
 fn along(mesh: &Mesh, axis: usize) -> Capsule {
     let (low, high) = extent(mesh, axis, |_| true).unwrap_or((0.0, 0.0));
     let length = high - low;
     let end = |share: f64| {
         let c = slice(mesh, axis, low + share * length, 0.14 * length);
         let flat = c[0].1.min(c[1].1);
-        // A flat part (hand, foot) gets the radius of its thickness and a little more.
+        // The radius of a flat part (hand, foot) is at most 1.5 times its half thickness.
         let radius = (0.5 * (c[0].1 + c[1].1)).min(1.5 * flat).min(0.45 * length);
         (c[0].0, c[1].0, radius)
     };
@@ -145,7 +145,7 @@ fn along(mesh: &Mesh, axis: usize) -> Capsule {
     }
 }
 
-/// How far the capsules of the trunk may reach beyond the ends of their part, m.
+/// Distance by which the capsules of the trunk may reach beyond the ends of their part, m.
 const BULGE: f64 = 0.035;
 
 /// Capsules from side to side, one above the other, as deep as the trunk is there.
@@ -173,7 +173,7 @@ fn trunk(mesh: &Mesh) -> Vec<Capsule> {
 
 #[cfg(test)]
 mod tests {
-    //! Goal: capsules lie close to the surface they stand for, and mirror.
+    //! Goal: capsules lie close to the surface that they represent, and are mirror images of each other.
     use super::*;
 
     /// Distance of a point to the nearest capsule surface, negative inside.

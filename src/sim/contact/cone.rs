@@ -3,10 +3,11 @@
 //! Coordinates in which the cone `|(x, y)| ≤ z` is its own dual: normal force times μ, normal velocity over μ. With the
 //! scaling W of Nesterov and Todd the multiplier λ is `W⁻² f`, and eliminating both leaves the stiffness `(R + W⁻²)⁻¹`.
 //!
-//! Of a point that slides, both force and multiplier come so close to the surface that `z − |(x, y)|` has no digits
-//! left, and W⁻² has eigenvalues that are 10¹⁶ and more apart: put together in x, y and z, the stiffness loses its
-//! small eigenvalue, then its sign, and the next force lies outside. So the way to the surface is a number of its own,
-//! and everything is put together along the directions in which W is diagonal, from numbers of one sign.
+//! For a sliding point, force and multiplier come so close to the surface that `z − |(x, y)|` has no digits left, and
+//! the eigenvalues of W⁻² differ by a factor of 10¹⁶ or more. Assembled in x, y and z, the stiffness would lose its
+//! small eigenvalue, then its sign, and the next force would lie outside. Therefore the distance to the surface is
+//! stored separately, and everything is assembled along the directions in which W is diagonal, from numbers of one
+//! sign.
 
 use crate::math::Vec3;
 
@@ -23,7 +24,7 @@ struct Inside {
     s: f64,
 }
 
-/// A step of it: in x and y, along its `n` and across, along z, and the first-order change of its `s`.
+/// A step of such a vector: in x and y, along its `n` and across, along z, and the first-order change of its `s`.
 #[derive(Clone, Copy, Debug, Default)]
 struct Step {
     t: [f64; 2],
@@ -135,7 +136,7 @@ impl Inside {
             [self.t[0] + step * d.t[0], self.t[1] + step * d.t[1]],
             self.s,
         );
-        // |t + d| − |t| − n·d, which is across² over the sum: all of it positive unless d leads back over the axis.
+        // |t + d| − |t| − n·d = across² over the sum: all terms are positive unless d leads back across the axis.
         let (way, across) = (self.length + step * d.along, step * d.across);
         let bend = if way > 0.0 {
             across * across / (next.length + way)
@@ -185,7 +186,7 @@ impl Cone {
         f.length * l.length * more + f.length * l.s + f.s * l.z()
     }
 
-    /// Where W is diagonal, and W⁻² there.
+    /// Computes the directions in which W is diagonal, and W⁻² there.
     #[inline(always)]
     fn scale(&mut self) {
         let (f, l) = (&self.f, &self.l);
@@ -198,8 +199,8 @@ impl Cone {
         self.w = [k * sum * sum, k / (sum * sum), k];
     }
 
-    /// Eliminates it: the root of its stiffness `(R + W⁻²)⁻¹ = Σ c cᵀ`; [`Self::next`] is its force at the velocity `v`
-    /// (offset included) then, with the multiplier that the aim asks for. `r`: compliance.
+    /// Eliminates the contact and returns the root of its stiffness `(R + W⁻²)⁻¹ = Σ c cᵀ`. Afterwards [`Self::next`]
+    /// is its force at the velocity `v` (offset included), with the multiplier that the aim requires. `r`: compliance.
     #[inline(always)]
     pub(crate) fn eliminate(&mut self, r: f64, mu: f64, v: Vec3, aim: f64) -> [Vec3; 3] {
         self.scale();
@@ -249,7 +250,7 @@ impl Cone {
         ]
     }
 
-    /// Components where W is diagonal.
+    /// Components along the directions in which W is diagonal.
     #[inline(always)]
     fn components(&self, v: Vec3) -> [f64; 3] {
         let a = self.n[0] * v.x + self.n[1] * v.y;
@@ -260,7 +261,7 @@ impl Cone {
         ]
     }
 
-    /// And back.
+    /// The vector with these components; inverse of [`Self::components`].
     #[inline(always)]
     fn vector(&self, c: [f64; 3]) -> Vec3 {
         let a = HALF_ROOT * (c[0] - c[1]);
@@ -302,7 +303,7 @@ impl Cone {
         self.f.vector()
     }
 
-    /// Way of the force to the surface, of its size.
+    /// Distance of the force from the surface, relative to its size.
     #[cfg(test)]
     pub(crate) fn nearness(&self) -> f64 {
         self.f.s / self.f.z()

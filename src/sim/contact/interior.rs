@@ -1,8 +1,8 @@
-//! A way in for problems at which the semi-smooth Newton method jams: a primal-dual interior-point method on the same
-//! matrix.
+//! A starting method for problems at which the semi-smooth Newton method jams: a primal-dual interior-point method on
+//! the same matrix.
 //!
-//! Where many motors and contacts lie far on the wrong side of their corners, an exact line search stops at the nearest
-//! corner, again and again. Here motor values t and forces f are unknowns of their own that stay strictly inside their
+//! If many motors and contacts lie far on the wrong side of their corners, an exact line search stops at the nearest
+//! corner again and again. Here motor values t and forces f are separate unknowns that stay strictly inside their
 //! limits and cones, with multipliers that tend to zero where t and f are free:
 //!
 //! ```text
@@ -13,8 +13,8 @@
 //!
 //! Eliminating them leaves Newton's matrix with other slopes: `1/(1/g + z₁/(t − lower) + z₂/(upper − t))` for a motor
 //! and `(R + W⁻²)⁻¹` for a contact ([`super::cone`]), with the scaling W of Nesterov and Todd for second-order cones
-//! (Andersen, Dahl & Vandenberghe 2003). Newton's method finishes from the prices that come out. The controller's
-//! problem has no joint limits; islands of bodies ([`crate::collide::island`]) have them, as [`Wall`]s.
+//! (Andersen, Dahl & Vandenberghe 2003). Newton's method finishes from the resulting prices. The controller's problem
+//! has no joint limits; islands of bodies ([`crate::collide::island`]) have them, as [`Wall`]s.
 
 use super::cone::{Cone, squared};
 use super::limits::MAX_LIMITS;
@@ -24,19 +24,19 @@ use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::math::{Mat3, Vec3};
 use crate::report::MAX_CONTACTS;
 
-/// Share of the way to the boundary that a step takes at most.
+/// Largest share of the distance to the boundary that a step may take.
 pub(crate) const TO_BOUNDARY: f64 = 0.97;
 /// Complementarity, as a share of that at the start, at which Newton's method takes over.
 const DONE: f64 = 1e-8;
-/// Multipliers at the start, in units of the prices of the linear problem. Far too large is a few iterations lost, too
-/// small is a crawl along the boundary.
+/// Multipliers at the start, in units of the prices of the linear problem. A far too large value wastes a few
+/// iterations, but a too small one makes the method crawl along the boundary.
 pub(crate) const FIRST_MULTIPLIER: f64 = 1e3;
 
-/// A motor between its limits. The way to each limit is kept apart: near one of them the difference of two values would
-/// have no digits left.
+/// A motor between its limits. The distance to each limit is stored separately, because near one of them the difference
+/// of two values would have no digits left.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Inner {
-    /// Way to the lower and the upper limit, and their multipliers.
+    /// Distance to the lower and the upper limit, and their multipliers.
     s: [f64; 2],
     z: [f64; 2],
     /// Steps of the value and of the multipliers.
@@ -45,7 +45,7 @@ pub(crate) struct Inner {
 }
 
 impl Inner {
-    /// In the middle, with multipliers of the size `size · widest / half` that suit the price `x`.
+    /// Starts in the middle, with multipliers of the size `size · widest / half` that suit the price `x`.
     #[inline(always)]
     pub(crate) fn begin(motors: &Motors, j: usize, x: f64, size: f64, widest: f64) -> Self {
         let half = 0.5 * (motors.upper[j] - motors.lower[j]);
@@ -81,8 +81,8 @@ impl Inner {
         self.z[0] * self.s[0] + self.z[1] * self.s[1]
     }
 
-    /// Eliminates it: its slope; [`Self::next`] is its value at the present price then, with the multipliers that the
-    /// aim asks for.
+    /// Eliminates the motor and returns its slope. Afterwards [`Self::next`] is its value at the present price, with
+    /// the multipliers that the aim requires.
     #[inline(always)]
     pub(crate) fn eliminate(&mut self, motors: &Motors, j: usize, x: f64, aim: f64) -> f64 {
         let g = motors.gain[j];
@@ -136,7 +136,7 @@ pub(crate) struct Wall {
 }
 
 impl Wall {
-    /// Force `widest`, multiplier `size` beyond the rate `v` (what is allowed included).
+    /// Force `widest`, multiplier `size` beyond the rate `v` (the allowed rate included).
     #[inline(always)]
     pub(crate) fn begin(v: f64, size: f64, widest: f64) -> Self {
         Self {
@@ -201,7 +201,7 @@ impl Default for Interior {
     }
 }
 
-/// Point `k`'s velocity-like vector from world axes to the cone's coordinates, where a multiplier lives.
+/// Transforms a velocity-like vector of a point from world axes to the cone's coordinates, those of its multiplier.
 #[inline(always)]
 pub(crate) fn to_cone(turn: Option<&Mat3>, mu: f64, v: Vec3) -> Vec3 {
     let v = turn.map_or(v, |t| t.transpose_mul(v));
@@ -215,8 +215,8 @@ pub(crate) fn to_world(turn: Option<&Mat3>, mu: f64, f: Vec3) -> Vec3 {
     turn.map_or(f, |t| *t * f)
 }
 
-/// Complementarity that the next step aims at. After a step that a boundary stopped it is larger, so that the next one
-/// leads back to the middle.
+/// Complementarity at which the next step aims. It is larger after a step that a boundary stopped, so that the next
+/// step leads back to the middle.
 #[inline(always)]
 pub(crate) fn aim(gap: f64, last_step: f64) -> f64 {
     match last_step {
@@ -226,7 +226,7 @@ pub(crate) fn aim(gap: f64, last_step: f64) -> f64 {
     }
 }
 
-/// Leads `x` near the minimum, wherever it was, in at most `iterations` iterations; returns how many there were.
+/// Leads `x` near the minimum from any start, in at most `iterations` iterations; returns the number of iterations.
 /// Bounded work, no allocation. The problem has no joint limits.
 ///
 /// Problem 14.2.
@@ -257,14 +257,14 @@ pub(crate) fn approach<S: System>(
     let mut start = 0.0;
     let mut shorter = 1.0f64;
     let mut done = 0;
-    // With all slopes at their largest the problem is linear: a first guess of the prices, and of their size.
+    // With all slopes at their largest, the problem is linear. It gives a first guess of the prices and of their size.
     x.fill(0.0);
     let mut ax = [0.0; NV];
     for round in 0..iterations {
         let first = round == 0;
         contacts.velocities(x, velocity);
         if round == 1 {
-            // Middle of everything, multipliers of the size of the prices.
+            // Start in the middle, with multipliers of the size of the prices.
             let mut size = 0.0;
             let half = |j: usize| 0.5 * (motors.upper[j] - motors.lower[j]);
             let widest = (0..DOF_COUNT).fold(0.0f64, |m, j| m.max(half(j)));
@@ -280,7 +280,7 @@ pub(crate) fn approach<S: System>(
                 inner.cones[k] = Cone::begin(v, size, widest);
             }
         }
-        // Complementarity, and what the step aims at.
+        // Complementarity, and the value at which the step aims.
         let (mut sum, mut count) = (0.0, 0.0);
         for m in &inner.motors {
             sum += m.gap();
@@ -347,7 +347,7 @@ pub(crate) fn approach<S: System>(
             system.mul(x, &mut ax);
             continue;
         }
-        // Steps of the rest, and how far all may go.
+        // Steps of the other unknowns, and the largest step that keeps all inside.
         contacts.velocities(&d, direction);
         let mut step = 1.0 / TO_BOUNDARY;
         for (j, m) in inner.motors.iter_mut().enumerate() {

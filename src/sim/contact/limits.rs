@@ -1,5 +1,5 @@
-//! Joint limits as unilateral rows: anatomical angles stay in their range, a raised arm stays off the antipode. And the
-//! tissue that is stretched before they are met.
+//! Joint limits as unilateral rows: anatomical angles stay in their range, and a raised arm stays off the antipode.
+//! Also the tissue that is stretched before the limits are met.
 
 use crate::body::angles::{SWING_MAX, Swings};
 use crate::body::topology::{
@@ -10,20 +10,20 @@ use crate::dynamics::Terms;
 use crate::math::Vec3;
 use crate::strength::Strength;
 
-/// Stiffness of a limit row, kg·m²: an impulse per rad/s that is still missing (`docs/equations.md`, 14.3).
+/// Stiffness of a limit row, kg·m²: impulse per missing rad/s (`docs/equations.md`, 14.3).
 pub const LIMIT_STIFFNESS: f64 = 1e3;
-/// Share of a limit violation that is taken back per substep.
+/// Share of a limit violation that is corrected per substep.
 const RETURN_SHARE: f64 = 0.2;
-/// Fastest return into the range, rad/s: a joint far outside is led back, not shot back.
+/// Fastest return into the range, rad/s, so that a joint far outside is not flung back.
 const RETURN_SPEED: f64 = 3.0;
 
 /// One limit: the distance to it changes at `rate = coefficients · x[first..first + 3]` and must not become negative.
-/// Or tissue that is stretched before a limit is met, which is the same with a stiffness of its own.
+/// Stretched tissue before a limit has the same form, with its own stiffness.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LimitRow {
     /// First velocity component it acts on.
     pub first: usize,
-    /// How many components (1 or 3).
+    /// Number of components (1 or 3).
     pub len: usize,
     /// Coefficients of the rate of the distance.
     pub coefficients: [f64; 3],
@@ -33,15 +33,15 @@ pub struct LimitRow {
     pub stiffness: f64,
 }
 
-/// The limit rows of one posture: the nearer limit of every DOF, the swing limit of every ball joint, and what tissue
-/// is stretched.
+/// The limit rows of one posture: the nearer limit of every DOF, the swing limit of every ball joint, and the stretched
+/// tissue.
 #[derive(Clone, Debug, Default)]
 pub struct LimitRows {
     /// Rows.
     pub rows: Vec<LimitRow>,
 }
 
-/// Most rows of a figure.
+/// Largest number of rows of a figure.
 pub const MAX_LIMITS: usize = 3 * DOF_COUNT + 9;
 
 impl LimitRows {
@@ -72,7 +72,8 @@ struct AngleRow {
 }
 
 impl AngleRow {
-    /// Of a ball joint whose first DOF is `d`: `row` gives the angle's rate from the angular velocity in child axes.
+    /// The row of a ball joint whose first DOF is `d`; `row` gives the angle's rate from the angular velocity in child
+    /// axes.
     fn ball(d: usize, dof: Option<usize>, angle: f64, row: Vec3) -> Self {
         let axes = row.to_array();
         let coefficients = std::array::from_fn(|k| {
@@ -159,9 +160,8 @@ fn each_angle(posture: &Posture, swings: &Swings, mut visit: impl FnMut(AngleRow
 /// Fills the rows for a substep of `h` seconds from a state and the [`swings`](crate::body::angles::swings) of its
 /// posture.
 ///
-/// Stretched tissue gives `τ + K h ω` at the end of the substep, ω the speed into it: `K` is its mean stiffness on the
-/// way that it would be stretched at the present speed, so that it takes up at least the energy that it stores, and it
-/// only ever pushes.
+/// Stretched tissue gives `τ + K h ω` at the end of the substep, ω the speed into it: `K` is its mean stiffness over
+/// the stretch at the present speed, so that it absorbs at least the energy that it stores. It never pulls.
 ///
 /// Problem 14.3.
 pub fn collect_limits(
@@ -190,12 +190,12 @@ pub fn collect_limits(
     });
 }
 
-/// What stretched tissue gives over a tick, as a controller counts on it: the mean of what the substeps will find.
+/// Torque of stretched tissue over a tick, as a controller expects it: the mean over the substeps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tissue {
     /// Torque along the joint components if they do not accelerate, N·m.
     pub torque: [f64; DOF_COUNT],
-    /// How much less it is per rad/s² of acceleration, kg·m²; by segment, the components of its joint.
+    /// Decrease of the torque per rad/s² of acceleration, kg·m²; by segment, the components of its joint.
     pub inertia: Blocks,
 }
 
@@ -203,7 +203,7 @@ pub struct Tissue {
 pub type Blocks = [[[f64; 3]; 3]; SEGMENT_COUNT];
 
 impl Tissue {
-    /// Of the state at the start of a tick of `substeps` substeps of `h` seconds, and the
+    /// Tissue in the state at the start of a tick of `substeps` substeps of `h` seconds, with the
     /// [`swings`](crate::body::angles::swings) of its posture. No allocation.
     ///
     /// The substeps are implicit: the i-th finds the tissue stretched by `i h ω + ½ i (i + 1) h² ω̇` more.
@@ -240,8 +240,7 @@ impl Tissue {
         out
     }
 
-    /// Makes the tissue part of the dense dynamics that a controller plans with; returns the blocks of M that were
-    /// there.
+    /// Adds the tissue to the dense dynamics with which a controller plans; returns the former blocks of M.
     pub fn add_to(&self, terms: &mut Terms) -> Blocks {
         let mut before = [[[0.0; 3]; 3]; SEGMENT_COUNT];
         for (h, torque) in terms.h[6..].iter_mut().zip(&self.torque) {
@@ -260,7 +259,7 @@ impl Tissue {
         before
     }
 
-    /// Puts the blocks of M back.
+    /// Restores the former blocks of M.
     pub fn restore(before: &Blocks, terms: &mut Terms) {
         for s in 1..SEGMENT_COUNT {
             let d = 6 + DOF_START[s];

@@ -8,7 +8,7 @@ use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::math::Vec3;
 use crate::report::MAX_CONTACTS;
 
-/// The quadratic part of the problem and the matrix Newton steps are solved with.
+/// The quadratic part of the problem, and the matrix with which Newton steps are solved.
 pub trait System {
     /// Storage of `A + …` and of its factor.
     type Hessian;
@@ -42,7 +42,7 @@ pub struct Problem<'a, S> {
 /// When a minimisation ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StopRule {
-    /// Most iterations.
+    /// Largest number of iterations.
     pub iterations: u32,
     /// Residual at which the problem counts as solved, in the units of b.
     pub tolerance: f64,
@@ -122,7 +122,7 @@ impl Default for NewtonWorkspace {
 }
 
 impl NewtonWorkspace {
-    /// Before a line search from `x` along `d`; the velocities of the contacts at `x` are known.
+    /// Prepares a line search from `x` along `d`; the velocities of the contacts at `x` are known.
     #[inline(always)]
     pub(crate) fn aim(
         &mut self,
@@ -136,7 +136,7 @@ impl NewtonWorkspace {
         }
     }
 
-    /// `z` less what motors, limits and contacts give along `d` at `x + a d`, after [`Self::aim`].
+    /// `z` minus the forces of motors, limits and contacts along `d` at `x + a d`, after [`Self::aim`].
     #[inline(always)]
     pub(crate) fn less_given(
         &self,
@@ -167,15 +167,15 @@ impl NewtonWorkspace {
 pub struct Outcome {
     /// Newton iterations.
     pub iterations: u32,
-    /// Largest component of the gradient left.
+    /// Largest component of the remaining gradient.
     pub residual: f64,
     /// Residual below the tolerance.
     pub converged: bool,
 }
 
-/// Largest entry of a gradient, or length of its part on the root's angular or linear velocity: those are in world
-/// axes, and when to stop must not depend on which way north is. Entries that are no numbers are left out: such states
-/// are found where they are stored.
+/// Largest entry of a gradient, or length of its part on the root's angular or linear velocity: these are in world
+/// axes, and the stop rule must not depend on the direction of north. NaN entries are ignored, because such states are
+/// detected where they are stored.
 pub(crate) fn largest(gradient: &[f64; NV]) -> f64 {
     let length = |g: &[f64]| g.iter().map(|x| x * x).sum::<f64>().sqrt();
     let root = 0f64
@@ -184,7 +184,7 @@ pub(crate) fn largest(gradient: &[f64; NV]) -> f64 {
     gradient[6..].iter().fold(root, |m, g| m.max(g.abs()))
 }
 
-/// Most evaluations of one line search.
+/// Largest number of evaluations in one line search.
 const LINE_SEARCH: usize = 12;
 
 /// Minimises the problem from `x`, which holds the last iterate afterwards. Bounded work, no allocation.
@@ -260,7 +260,7 @@ pub fn minimise<S: System>(
     }
 }
 
-/// Gradient `A x − b − t − limits − Jᵀf`, and the slope of each motor; what motors, limits and contacts give goes to
+/// Gradient `A x − b − t − limits − Jᵀf`, and the slope of each motor; the forces of motors, limits and contacts go to
 /// `ws`.
 #[inline(always)]
 fn gradient<S>(
@@ -306,7 +306,7 @@ fn gradient<S>(
     (grad, slope)
 }
 
-/// Makes `A` the Newton matrix: adds the slopes of motors, limits and contacts where the last gradient was taken.
+/// Makes `A` the Newton matrix: adds the slopes of motors, limits and contacts at the point of the last gradient.
 #[inline(always)]
 fn add_slopes<S: System>(
     problem: &Problem<'_, S>,
@@ -348,22 +348,22 @@ fn add_slopes<S: System>(
 }
 
 /// Search for the length of a step that brings the slope along it near zero: the whole step, unless the slope there is
-/// well above zero. The slope grows. Whoever searches evaluates it, in place, with the vector instructions that it is
-/// compiled for.
+/// well above zero. The slope is increasing. The caller evaluates it, in place, with the vector instructions for which
+/// the caller is compiled.
 #[derive(Debug)]
 pub(crate) struct LineSearch {
-    /// Where the slope is to be evaluated; in the end, the length of the step.
+    /// Length at which to evaluate the slope; finally, the length of the step.
     pub step: f64,
     /// Slope at the start, < 0.
     start: f64,
-    /// Evaluations that are left after the first.
+    /// Remaining evaluations after the first.
     left: usize,
-    /// Lengths between which the slope changes its sign, and the slopes that the next length is taken from.
+    /// Lengths between which the slope changes its sign, and the slopes that determine the next length.
     bracket: Option<[(f64, f64); 2]>,
 }
 
 impl LineSearch {
-    /// With `most` evaluations after the first.
+    /// A search with at most `most` evaluations after the first.
     #[inline(always)]
     pub fn new(start: f64, most: usize) -> Self {
         Self {
@@ -374,7 +374,7 @@ impl LineSearch {
         }
     }
 
-    /// True if the search ends at a step with this slope; else there is another step to evaluate.
+    /// Whether the search ends at a step with this slope; otherwise there is another step to evaluate.
     #[inline(always)]
     pub fn ends_at(&mut self, slope: f64) -> bool {
         let [lo, hi] = match self.bracket {

@@ -2,7 +2,7 @@
 
 use crate::math::Vec3;
 
-/// Where the projected point lies.
+/// Region of the projected point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Region {
     /// Apart: no force.

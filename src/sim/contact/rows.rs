@@ -1,4 +1,4 @@
-//! Contact points as rows on the velocity, grouped by the segment they lie on.
+//! Contact points as rows on the velocity, grouped by segment.
 
 use super::projection::{Region, derivative, project};
 use crate::body::topology::{DOF_LEN, DOF_START, NV, SEGMENT_COUNT};
@@ -70,7 +70,7 @@ pub struct PointRow {
     pub segment: usize,
     /// Vertex index in the segment's contact points, kept for reports.
     pub vertex: usize,
-    /// Axes of the cone as columns, the normal last, if it does not stand upright.
+    /// Axes of the cone as columns, the normal last, if the normal is not vertical.
     pub turn: Option<Mat3>,
 }
 

@@ -1,4 +1,4 @@
-//! The kernel's matrix for the simulator: A = M, whose tree pattern contacts and limits keep.
+//! The kernel's matrix for the simulator: A = M; contacts and limits preserve its tree pattern.
 
 use super::newton::System;
 use super::rows::{CHAIN_WIDTH, SegmentRows};
@@ -35,7 +35,7 @@ impl System for SparseSystem<'_> {
                 if y == 0.0 {
                     continue;
                 }
-                // In whole blocks, as in [`factor`].
+                // Update whole blocks, as in [`factor`].
                 for k in 0..(i / BLOCK + 1) * BLOCK {
                     row[k] += y * kj[a][k];
                 }

@@ -1,4 +1,4 @@
-//! The kernel against its optimality conditions and against each other storage.
+//! Checks the kernel against its optimality conditions, and its storages against each other.
 
 use super::*;
 use crate::body::topology::{DOF_COUNT, NV};
@@ -51,9 +51,9 @@ fn projection_is_nearest_point_of_the_cone_and_its_derivative_matches_difference
     }
 }
 
-/// A contact, and a motor, at a given velocity have a force that is known. From inside they come to all its digits,
-/// whether they slide at a micrometre or at kilometres a second: the way to the cone's surface goes down to 1e-16 of
-/// the force, and stiffnesses stay what they are, positive.
+/// The force of a contact or a motor at a given velocity is known. The interior method reaches it to all digits, at
+/// sliding speeds from micrometres to kilometres a second: the distance to the cone's surface falls to 1e-16 of the
+/// force, and stiffnesses stay positive.
 #[test]
 fn from_inside_contacts_and_motors_come_to_their_force() {
     let mut rng = Pcg64Mcg::seed_from_u64(3);

@@ -217,7 +217,8 @@ fn set_bodies<L: Lane>(
     }
 }
 
-/// From the tips to the root: eliminates the DOFs of each joint and adds what is left of the segment to its parent.
+/// From the tips to the root: eliminates the DOFs of each joint and adds the remaining inertia and force of the segment
+/// to its parent.
 #[inline(always)]
 fn eliminate_joints<L: Lane>(
     links: &Links<L>,

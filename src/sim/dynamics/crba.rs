@@ -42,7 +42,7 @@ fn shifted<L: Lane>(mass: L, moment: Vec3<L>, inertia: Sym3<L>, p: Vec3<L>) -> S
     inertia + Sym3::point_mass(mass, p) + cross
 }
 
-/// Inertia matrix M(q), armature included, and the composite inertias it is made of.
+/// Inertia matrix M(q), armature included, and the composite inertias from which it is built.
 ///
 /// Featherstone 2008, §6.2, with every segment seen from the pelvis origin in world axes, so that composites simply
 /// add. Needs [`Kinematics::set_posture`]. O(n·depth), no allocation.
@@ -76,7 +76,7 @@ pub fn crba<L: Lane>(
             let row = &mut m.rows[i];
             (row[0], row[1], row[2]) = (n.x, n.y, n.z);
             (row[3], row[4], row[5]) = (f.x, f.y, f.z);
-            // Every DOF on the way to the pelvis, this segment's own earlier DOFs included.
+            // Every DOF on the path to the pelvis, including this segment's own earlier DOFs.
             let mut anc = s;
             while anc != 0 {
                 let d = DOF_START[anc];

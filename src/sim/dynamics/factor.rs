@@ -6,9 +6,9 @@ use crate::math::Lane;
 
 /// Replaces M by its factor L in place. M must be positive definite, as every validated body's is.
 ///
-/// Segment by segment, each from the rows of those that it carries: the rows of a segment stay in registers until they
-/// are done. They are changed in whole blocks: a few products too many cost less than loops of all lengths. What lies
-/// beyond a diagonal is overwritten by them; no entry depends on it.
+/// Works segment by segment, each from the rows of the segments that it carries. The rows of a segment stay in
+/// registers until they are complete. They are updated in whole blocks, because a few superfluous products cost less
+/// than loops of varying length. The elements beyond a diagonal are overwritten, and no entry depends on them.
 #[inline(always)]
 pub fn factor<L: Lane>(m: &mut MassMatrix<L>) {
     for (first, count, end) in COMPONENTS.into_iter().rev() {
@@ -23,7 +23,8 @@ pub fn factor<L: Lane>(m: &mut MassMatrix<L>) {
     }
 }
 
-/// Of each segment: its first velocity component, how many it has, and where those end that it carries.
+/// For each segment: its first velocity component, the number of its components, and the end of the components that it
+/// carries.
 const COMPONENTS: [(usize, usize, usize); SEGMENT_COUNT] = {
     let mut out = [(0, 6, NV); SEGMENT_COUNT];
     let mut s = SEGMENT_COUNT - 1;
@@ -39,9 +40,9 @@ const COMPONENTS: [(usize, usize, usize); SEGMENT_COUNT] = {
     out
 };
 
-/// The N rows of L of a segment, W numbers of each, from the rows of what it carries.
+/// Computes the N rows of L of a segment, W numbers each, from the rows of the segments that it carries.
 ///
-/// * `first`, `end`: its first component, and where those end that it carries.
+/// * `first`, `end`: its first component, and the end of the components that it carries.
 #[inline(always)]
 fn factor_segment<L: Lane, const N: usize, const W: usize>(
     m: &mut MassMatrix<L>,

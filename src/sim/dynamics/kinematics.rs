@@ -4,7 +4,7 @@ use crate::body::topology::{DOF_AXIS, DOF_COUNT, DOF_START, JOINT, Joint, PARENT
 use crate::body::{Links, Posture, State};
 use crate::math::{Lane, Mat3, Sym3, Vec3, trig};
 
-/// Where every segment is and how it moves; world axes, positions relative to the pelvis origin.
+/// Position and motion of every segment; world axes, positions relative to the pelvis origin.
 #[derive(Clone, Debug)]
 pub struct Kinematics<L = f64> {
     /// `world_from_segment`.
@@ -172,8 +172,8 @@ impl<L: Lane> Kinematics<L> {
         self.set_velocity(&state.velocity);
     }
 
-    /// `J̇v` of the joint of segment `s`: what the relative angular acceleration of child and parent holds beyond the
-    /// axes times `q̈`.
+    /// `J̇v` of the joint of segment `s`: the part of the relative angular acceleration of child and parent that is not
+    /// the axes times `q̈`.
     #[inline(always)]
     pub fn joint_bias(&self, s: usize, v: &[L]) -> Vec3<L> {
         let (p, d) = (PARENT[s], DOF_START[s]);

@@ -1,7 +1,7 @@
 //! Entry points that pick the widest vector instructions the machine has, at run time.
 //!
-//! The kernels are plain generic code; compiled again here for AVX-512 and AVX2 they run eight figures in lock-step. No
-//! path uses fused multiply-add, so all of them give the same bits.
+//! The kernels are plain generic code. Compiled here once more for AVX-512 and AVX2, they run eight figures in
+//! lock-step. No path uses fused multiply-add, so all of them give the same bits.
 
 use super::aba::{AbaWorkspace, aba};
 use super::crba::{CompositeInertia, crba};

@@ -6,13 +6,13 @@ use crate::math::Lane;
 /// Longest chain of velocity components from the pelvis to a hand.
 pub const MAX_DEPTH: usize = 19;
 
-/// Lanes of a vector register; inner loops of the factorisation run over whole blocks of as many.
+/// Lanes of a vector register; inner loops of the factorisation run over whole blocks of this size.
 pub const BLOCK: usize = 8;
 
-/// Stored length of a row: [`MAX_DEPTH`] in whole blocks. What lies beyond the diagonal is never read as an entry.
+/// Stored length of a row: [`MAX_DEPTH`] in whole blocks. Elements beyond the diagonal are never read as entries.
 pub const ROW: usize = MAX_DEPTH.next_multiple_of(BLOCK);
 
-/// Depth of each velocity component: how many others lie between it and the root of the tree.
+/// Depth of each velocity component: the number of others between it and the root of the tree.
 pub const DEPTH: [usize; NV] = {
     let mut out = [0; NV];
     let mut i = 0;
@@ -25,7 +25,7 @@ pub const DEPTH: [usize; NV] = {
     out
 };
 
-/// `CHAIN[i][k]`: the component of depth `k` on the way from the root to component `i` (`k ≤ DEPTH[i]`).
+/// `CHAIN[i][k]`: the component of depth `k` on the path from the root to component `i` (`k ≤ DEPTH[i]`).
 pub const CHAIN: [[usize; MAX_DEPTH]; NV] = {
     let mut out = [[0; MAX_DEPTH]; NV];
     let mut i = 0;
@@ -96,8 +96,8 @@ impl From<&MassMatrix<f64>> for nalgebra::DMatrix<f64> {
 }
 
 impl MassMatrix<f64> {
-    /// Writes the full symmetric matrix. What the tree makes zero, and the padding of columns 45…47, is not written: it
-    /// must be zero already.
+    /// Writes the full symmetric matrix. Entries that are zero because of the tree, and the padding in columns 45…47,
+    /// are not written: they must be zero already.
     pub fn to_dense(&self, out: &mut [[f64; 48]; NV]) {
         for i in 0..NV {
             for k in 0..=DEPTH[i] {

@@ -14,12 +14,12 @@ pub struct External<L = f64> {
     pub force: Vec3<L>,
 }
 
-/// All that acts on a body from outside: gravity, and forces on its segments.
+/// Everything that acts on a body from outside: gravity, and forces on its segments.
 #[derive(Clone, Copy, Debug)]
 pub struct ExternalForces<'a, L = f64> {
     /// Magnitude of gravity, m/s², acting along −z.
     pub gravity: L,
-    /// One per segment, or empty where nothing else acts.
+    /// One per segment, or empty if nothing else acts.
     pub on_segments: &'a [External<L>],
 }
 
@@ -33,7 +33,7 @@ impl<L> ExternalForces<'_, L> {
     }
 }
 
-/// Accelerations and forces of all segments on the way.
+/// Intermediate accelerations and forces of all segments.
 #[derive(Clone, Debug)]
 pub struct RneaWorkspace<L = f64> {
     /// Angular acceleration, world axes, rad/s².

@@ -16,7 +16,7 @@ pub use crate::math::dense::WIDTH;
 /// A force on a point of a segment: segment, point (segment frame, m), force (world axes, N).
 pub type AppliedForce = (SegmentId, Vec3, Vec3);
 
-/// Where the segments are in one state, and how they move.
+/// Positions and motion of the segments in one state.
 #[derive(Clone, Debug, Default)]
 pub struct Placement {
     /// The state.
@@ -25,7 +25,7 @@ pub struct Placement {
     pub kin: Kinematics<f64>,
 }
 
-/// Placement, inertia and bias forces of one state: what a substep of simulation needs. [`Terms`] has more.
+/// Placement, inertia and bias forces of one state: everything that a simulation substep needs. [`Terms`] has more.
 #[derive(Debug)]
 pub struct Dynamics {
     placement: Placement,
@@ -69,7 +69,7 @@ impl Clone for Dynamics {
         out
     }
 
-    /// Field by field, into place. What the recursions leave in `scratch` and `external` is not needed again.
+    /// Copies field by field, in place. `scratch` and `external` are not copied: their contents are not needed again.
     fn clone_from(&mut self, other: &Self) {
         self.placement.clone_from(&other.placement);
         self.mass_matrix.rows = other.mass_matrix.rows;
@@ -80,7 +80,7 @@ impl Clone for Dynamics {
 }
 
 impl Placement {
-    /// Fills it from a state.
+    /// Computes the placement of a state.
     pub fn set_state(&mut self, links: &Links, state: &State) {
         self.state = *state;
         self.kin.set_state(links, state);
@@ -113,7 +113,7 @@ impl Placement {
 }
 
 impl Dynamics {
-    /// Fills everything from a state. `gravity` is a magnitude (m/s²) along −z.
+    /// Computes everything from a state. `gravity` is a magnitude (m/s²) along −z.
     pub fn compute(
         &mut self,
         links: &Links,
@@ -125,7 +125,7 @@ impl Dynamics {
         self.compute_forces(links, applied, gravity);
     }
 
-    /// Fills the rest where the placement is known. `gravity` is a magnitude (m/s²) along −z.
+    /// Computes the rest, given the placement. `gravity` is a magnitude (m/s²) along −z.
     fn compute_forces(&mut self, links: &Links, applied: &[AppliedForce], gravity: f64) {
         let Placement { state, kin } = &self.placement;
         crba(links, kin, &mut self.composite, &mut self.mass_matrix);
@@ -156,9 +156,9 @@ impl Dynamics {
         );
     }
 
-    /// Counts one more force among those that act on the body.
+    /// Adds one more force to those that act on the body.
     ///
-    /// * `r`: the point of segment `s` that it acts on, minus the pelvis origin, world axes, m. `force`: world axes, N.
+    /// * `r`: its point of application on segment `s`, minus the pelvis origin, world axes, m. `force`: world axes, N.
     pub fn add_force(&mut self, s: usize, r: Vec3, force: Vec3) {
         for_each_column(&self.placement.kin, s, r, |i, _, v| {
             self.h[i] -= v.dot(force);
@@ -168,7 +168,7 @@ impl Dynamics {
     pub fn point_bias(&self, s: usize, local: Vec3) -> Vec3 {
         self.bias_at(s, self.kin.rotation[s] * local)
     }
-    /// The same of a point that lies by `r` from the origin of the segment, world axes.
+    /// [`Self::point_bias`] of a point at offset `r` from the origin of the segment, world axes.
     pub fn bias_at(&self, s: usize, r: Vec3) -> Vec3 {
         let w = self.kin.omega[s];
         self.bias.acceleration[s] + self.bias.alpha[s].cross(r) + w.cross(w.cross(r))
@@ -236,7 +236,7 @@ impl Clone for Terms {
         out
     }
 
-    /// Field by field: the derived one would drop the box and allocate another, every tick.
+    /// Copies field by field: the derived implementation would drop the box and allocate another one in every tick.
     fn clone_from(&mut self, other: &Self) {
         let Self {
             dynamics,
@@ -272,7 +272,7 @@ impl Default for Terms {
 }
 
 impl Terms {
-    /// Fills everything from a state. `gravity` is a magnitude (m/s²) along −z.
+    /// Computes everything from a state. `gravity` is a magnitude (m/s²) along −z.
     pub fn compute(
         &mut self,
         links: &Links,
@@ -284,7 +284,7 @@ impl Terms {
         self.compute_forces(links, applied, gravity);
     }
 
-    /// The same of a state whose placement is known.
+    /// [`Self::compute`] for a state whose placement is known.
     pub fn compute_placed(
         &mut self,
         links: &Links,
@@ -333,7 +333,7 @@ impl Terms {
     /// (the angular half of the centroidal momentum matrix of Orin, Goswami & Lee 2013).
     ///
     /// The first three rows of `M v̇ + h` are a moment about the pelvis, the next three a force; taken about the centre
-    /// of mass, gravity gives none.
+    /// of mass, gravity contributes no moment.
     pub fn spin_rows(&self) -> ([[f64; WIDTH]; 3], Vec3) {
         let c = self.com - self.state.posture.root_position;
         let about = |moment: Vec3, force: Vec3| moment - c.cross(force);

@@ -1,9 +1,9 @@
-//! What a posture on the way up should be like: numbers with weights, that pass into one another.
+//! Goals for a posture while getting up: weighted numbers that can be interpolated.
 
 use crate::body::topology::{DOF_COUNT, DOF_START, L_THIGH, L_UPPER_ARM, R_THIGH, R_UPPER_ARM};
 use serde::{Deserialize, Serialize};
 
-/// A number that should be `at`, if it has weight.
+/// A goal for a number to be `at` a value, with a weight; weight 0 is no goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Aim {
     pub at: f64,
@@ -20,7 +20,7 @@ impl Aim {
         Self { at, weight }
     }
 
-    /// Between two; what has weight in only one of them stays where that has it.
+    /// Interpolates between two goals. If only one of them has weight, its value is kept.
     fn mix(self, to: Self, u: f64) -> Self {
         let m = |a: f64, b: f64| a + u * (b - a);
         let at = match (self.weight > 0.0, to.weight > 0.0) {
@@ -35,18 +35,17 @@ impl Aim {
     }
 }
 
-/// Goals of an instant: places along x (ahead), y (to the left) and z of the way, m; angles, rad. Pairs are left and
-/// right.
+/// Goals of an instant: places along x (ahead), y (to the left) and z in the motion's coordinates, m; angles, rad.
+/// Pairs are left and right.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goals {
     pub pelvis: [Aim; 3],
-    /// How far the pelvis is bent forward from upright, its turn about its own long axis before, and the way's heading
+    /// Forward bend of the pelvis from upright, its preceding turn about its own long axis, and the heading applied
     /// after that.
     pub turn: [Aim; 3],
     /// Centre of mass, x and y.
     pub com: [Aim; 2],
-    /// Knee caps, balls of the feet, tips of the toes and heels (height only), wrists, palms (height of what lies
-    /// flat).
+    /// Knee caps, balls of the feet, tips of the toes and heels (height only), wrists, palms (height of flat hands).
     pub knees: [[Aim; 3]; 2],
     pub balls: [[Aim; 3]; 2],
     pub tips: [Aim; 2],
@@ -82,12 +81,12 @@ fn all<const N: usize>(a: &[Aim; N], b: &[Aim; N], u: f64) -> [Aim; N] {
     std::array::from_fn(|k| a[k].mix(b[k], u))
 }
 
-/// Sides swapped.
+/// The pair with its sides swapped.
 pub fn swapped<T: Copy>(pair: [T; 2]) -> [T; 2] {
     [pair[1], pair[0]]
 }
 
-/// The joints of the mirror image: the trunk bends and turns the other way.
+/// The joint goals of the mirror image: the trunk bends and turns in the opposite direction.
 fn mirrored(joints: &[Aim; DOF_COUNT]) -> [Aim; DOF_COUNT] {
     const TRUNK: usize = DOF_START[L_UPPER_ARM.index()];
     const ARM: usize = DOF_START[R_UPPER_ARM.index()];
@@ -113,7 +112,7 @@ impl Aim {
 }
 
 impl Goals {
-    /// Those of the mirror image.
+    /// The goals of the mirror image.
     pub fn mirrored(&self) -> Self {
         let place = |[x, y, z]: [Aim; 3]| [x, y.turned(), z];
         let [pitch, roll, yaw] = self.turn;
@@ -132,7 +131,7 @@ impl Goals {
         }
     }
 
-    /// The same for a trunk that is turned like this and joints at these angles: where a body begins.
+    /// Sets the values of `turn` and `pose` to those of the body, from which the motion starts; their weights stay.
     pub fn begin(&mut self, turn: [f64; 3], angles: &[f64; DOF_COUNT]) {
         for (aim, at) in self.turn.iter_mut().zip(turn) {
             aim.at = at;
@@ -142,7 +141,7 @@ impl Goals {
         }
     }
 
-    /// `u` of the way from these to others.
+    /// Interpolates a fraction `u` of the way to other goals.
     pub fn mix(&self, to: &Self, u: f64) -> Self {
         let pair =
             |a: &[[Aim; 3]; 2], b: &[[Aim; 3]; 2]| [all(&a[0], &b[0], u), all(&a[1], &b[1], u)];

@@ -1,8 +1,8 @@
-//! Every tunable number of getting up. Reference poses and goals of the stages are tables of their own.
+//! Every tunable number of getting up. Reference poses and goals of the stages have their own tables.
 
 use crate::params::Param;
 
-/// Where things are on the floor. Lengths are those of the reference body of the built-in motions.
+/// Layout on the floor. Lengths refer to the reference body of the built-in motions.
 pub mod layout {
     crate::params::params! {
         /// Time constant with which what is on the floor counts as where it really is.

@@ -22,7 +22,7 @@ pub const BALL: [usize; 2] = [0, 1];
 /// Points of a palm that lies flat: finger tip, knuckles, palm.
 const PALM: [usize; 4] = [0, 1, 3, 4];
 
-/// Normal equations of a tick, and what they are built with.
+/// Normal equations of a tick, and the data from which they are built.
 #[derive(Clone, Debug)]
 pub struct Solver {
     links: Links,
@@ -88,13 +88,13 @@ impl Solver {
         }
     }
 
-    /// Adds one for component `i` alone.
+    /// Adds a goal for the rate of component `i` alone.
     fn pull(&mut self, i: usize, rate: f64, weight: f64) {
         self.matrix[i][i] += weight;
         self.right[i] += weight * rate;
     }
 
-    /// A point of a segment goes where coordinates are wanted.
+    /// Adds goals that move a point of a segment to the coordinates that have weight.
     fn point(&mut self, s: SegmentId, point: Vec3, to: [Aim; 3]) {
         if to.iter().all(|a| a.weight == 0.0) {
             return;
@@ -148,7 +148,7 @@ impl Solver {
         let middle = BALL.map(|k| across(&points[k])).iter().sum::<f64>() / BALL.len() as f64;
         let beside = [0, 1].map(|k| y.at + across(&points[k]) - middle);
         for (i, p) in points.iter().enumerate() {
-            // The ball of the foot stays where it is; the tips of the toes only stay down.
+            // The ball of the foot stays in place, but the tips of the toes only have to stay down.
             let to = match beside.get(i) {
                 Some(at) => [x, Aim { at: *at, ..y }, z],
                 None => [Aim::NONE, Aim::NONE, goals.tips[side]],
@@ -172,7 +172,7 @@ impl Solver {
         self.point(hand, points[0], [Aim::NONE, ahead, Aim::NONE]);
     }
 
-    /// What would come below the floor at the rates `v` is led back onto it.
+    /// Adds goals that return points to the floor if they would sink below it at the rates `v`.
     fn stay_above(&mut self, body: &Body, v: &[f64; NV], dt: f64) {
         for s in SegmentId::all() {
             for p in &body.segment(s).contact_points {
@@ -219,7 +219,7 @@ impl Solver {
         out
     }
 
-    /// Cholesky of the normal equations, with the rates that are held.
+    /// Solves the normal equations by Cholesky, with the `held` rates fixed.
     fn least_squares(&mut self, held: &[Option<f64>; DOF_COUNT]) -> [f64; NV] {
         let (a, mut x) = (&mut self.factor, self.right);
         a.copy_from_slice(&self.matrix[..]);

@@ -1,9 +1,9 @@
-//! The stages of getting up: the goals of each, from where the body is.
+//! The stages of getting up, and the goals of each, from the present place of the body.
 //!
 //! From the belly: arms out, toes tucked, hands beside the ribs, hips up and back over the knees, up on hands and
 //! knees, one hand after the other to the knees, knees off the floor, one hand after the other to the feet, heels down,
-//! up. A body that lies on its back or on a side rolls over before: one foot set up, pushed over by it, leg and arm
-//! across. All of it is written for rolling over the right side; the other is the mirror image.
+//! up. A body that lies on its back or on a side first rolls over: it sets up one foot and pushes with it, and brings
+//! leg and arm across. Everything is written for rolling over the right side; the other side is the mirror image.
 
 use super::goals::{Aim, Goals, swapped};
 use super::reference_pose::ReferencePoses;
@@ -14,42 +14,42 @@ use crate::math::Vec3;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
-/// Where everything is.
+/// Present places of the parts of the body.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Layout {
-    /// Length over that of the reference body.
+    /// Length of the body relative to the reference body.
     pub scale: f64,
-    /// The pelvis as it really is, and how far it is turned about the vertical, rad.
+    /// Real position of the pelvis, and its turn about the vertical, rad.
     pub pelvis: Vec3,
     pub yaw: f64,
-    /// How far it was from lying on its belly as the way began, rad.
+    /// Angle from lying on its belly at the start of the motion, rad.
     pub roll: f64,
-    /// Where knees, balls of the feet and wrists are on the floor, or were last.
+    /// Present or last places of knees, balls of the feet and wrists on the floor.
     pub knees: [Vec3; 2],
     pub balls: [Vec3; 2],
     pub hands: [Vec3; 2],
 }
 
-/// A stage of the way.
+/// A stage of getting up.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage {
     pub name: &'static str,
-    /// How long it takes, s.
+    /// Duration, s.
     pub seconds: f64,
     /// Its goals.
     pub goals: fn(&Layout, &ReferencePoses) -> Goals,
-    /// What is on the floor.
+    /// Parts on the floor.
     pub down: FloorContacts,
     /// A hand that steps, and how high, m.
     pub step: Option<(usize, f64)>,
 }
 
-/// What is on the floor in a stage.
+/// Parts on the floor in a stage.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FloorContacts {
-    /// Whatever touches.
+    /// Every part that touches.
     pub whole: bool,
-    /// What touches may slide.
+    /// Whether parts that touch may slide.
     pub slides: bool,
     pub knees: bool,
     pub balls: bool,
@@ -85,7 +85,7 @@ const PUSHES: FloorContacts = FloorContacts {
     balls: true,
     ..ROLLS
 };
-/// On the balls of the feet and these hands.
+/// Leaning on the balls of the feet and these hands.
 const fn leans(hands: [bool; 2]) -> FloorContacts {
     FloorContacts { hands, ..STANDS }
 }
@@ -98,7 +98,7 @@ fn middle(p: [Vec3; 2]) -> Vec3 {
     (p[0] + p[1]) * 0.5
 }
 
-/// Where something stays on the floor.
+/// Goal to stay on the floor at this place.
 fn stay(p: Vec3, weight: f64) -> [Aim; 3] {
     [
         Aim::new(p.x, weight),
@@ -138,13 +138,13 @@ impl Layout {
         (wrist, Aim::new(0.0, HAND))
     }
 
-    /// Hands stay where they are.
+    /// Goals for the hands to stay in place.
     fn hands(&self) -> ([[Aim; 3]; 2], [Aim; 2]) {
         let [l, r] = self.hands.map(|p| self.flat(p.x, p.y));
         ([l.0, r.0], [l.1, r.1])
     }
 
-    /// The same, with the hand of one side so far ahead of the feet.
+    /// `goals` with the hand of one side placed at `x` ahead of the feet.
     fn step(&self, mut goals: Goals, side: usize, x: f64) -> Goals {
         let feet = middle(self.balls);
         let y = outward(side) * ARMS_APART;
@@ -173,7 +173,7 @@ impl Layout {
         ]
     }
 
-    /// Above the floor, so far ahead of `from`, reference body, m.
+    /// Goal for a place above the floor, `x` ahead of `from`, reference body, m.
     fn place(&self, from: Vec3, x: f64, z: f64, weight: f64) -> [Aim; 3] {
         [
             Aim::new(from.x + x * self.scale, weight),
@@ -224,7 +224,7 @@ const fn crawling(
     out
 }
 
-/// Over its right side onto the belly, from the back and from the side.
+/// Stages of rolling over the right side onto the belly, from the back and from the side.
 pub const OVER: &[Stage] = &[
     stage("gather", 1.1, gather, ROLLS),
     stage("push", 0.35, push, PUSHES),
@@ -233,7 +233,7 @@ pub const OVER: &[Stage] = &[
     stage("flat", 0.4, |h, l| roll(h, &l.sprawled, 0.0), ROLLS),
 ];
 
-/// Up from the belly.
+/// Stages of getting up from the belly.
 pub const UP: &[Stage] = &[
     stage("sprawl", 0.8, sprawl, LIES),
     stage("plant", 0.95, plant, LIES),
@@ -264,12 +264,12 @@ pub const UP: &[Stage] = &[
     stage("stand", 0.5, rise, STANDS),
 ];
 
-/// Lying as it lies: the left foot set up, the right arm out of the way, the left one across.
+/// Lying in its present place: the left foot set up, the right arm out of the way, the left one across.
 fn gather(h: &Layout, l: &ReferencePoses) -> Goals {
     set_up(h, l, h.roll, 1.0)
 }
 
-/// Turned so far from lying on the belly, the left foot set up behind.
+/// Turned by `turn` from lying on the belly, the left foot set up behind.
 fn set_up(h: &Layout, l: &ReferencePoses, turn: f64, weight: f64) -> Goals {
     let mut out = roll(h, &l.gathered, turn);
     out.balls[0][2] = Aim::new(0.0, weight);
@@ -285,7 +285,7 @@ fn push(h: &Layout, l: &ReferencePoses) -> Goals {
     out
 }
 
-/// Turned so far from lying on the belly.
+/// Turned by `turn` from lying on the belly.
 fn roll(h: &Layout, pose: &[f64; DOF_COUNT], turn: f64) -> Goals {
     Goals {
         pelvis: h.pelvis.to_array().map(|x| Aim::new(x, FIRM)),
@@ -299,7 +299,7 @@ fn roll(h: &Layout, pose: &[f64; DOF_COUNT], turn: f64) -> Goals {
     }
 }
 
-/// Lying as it lay: arms out to the sides, feet off the floor so that the toes can be tucked.
+/// Still lying in place: arms out to the sides, feet off the floor so that the toes can be tucked.
 fn sprawl(h: &Layout, l: &ReferencePoses) -> Goals {
     let knees = h.knees.map(|p| stay(p, 1.0));
     Goals {
@@ -378,7 +378,7 @@ fn on_all_fours(h: &Layout, l: &ReferencePoses) -> Goals {
     }
 }
 
-/// On knees and feet, and the hand that is not of `side`.
+/// On knees and feet, and on the hand opposite to `side`.
 fn crawl(h: &Layout, l: &ReferencePoses, side: usize) -> Goals {
     let shares = [
         (middle(h.knees), 0.6),
@@ -421,7 +421,7 @@ fn bear(h: &Layout, l: &ReferencePoses) -> Goals {
     }
 }
 
-/// Away from the hand of one side.
+/// Leaning away from the hand of one side.
 fn lean(h: &Layout, l: &ReferencePoses, side: usize, at: (f64, f64)) -> Goals {
     let other = 1 - side;
     let shares = [
@@ -436,7 +436,7 @@ fn lean(h: &Layout, l: &ReferencePoses, side: usize, at: (f64, f64)) -> Goals {
     }
 }
 
-/// The hand of one side steps to so far ahead of the feet.
+/// The hand of one side steps to `x` ahead of the feet.
 fn reach(h: &Layout, l: &ReferencePoses, side: usize, at: (f64, f64), x: f64) -> Goals {
     h.step(lean(h, l, side, at), side, x)
 }

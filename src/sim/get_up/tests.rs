@@ -1,5 +1,5 @@
-//! Goal: the way up is one that a body can go. Method: a body that does exactly what is asked of it, of four people,
-//! from belly, back and sides.
+//! Goal: a body can perform the motion of getting up. Method: bodies of four people follow the motion exactly, from
+//! belly, back and sides.
 
 use super::params::solver::FASTEST;
 use super::*;
@@ -9,19 +9,19 @@ use crate::motion::builtin::at_ease;
 
 const DT: f64 = 1.0 / 60.0;
 
-/// What was seen on the way.
+/// Observations during the motion.
 #[derive(Debug, Default)]
 struct Seen {
-    /// Deepest point in the floor, m, and fastest joint, rad/s.
+    /// Deepest penetration of the floor, m, and fastest joint, rad/s.
     deep: f64,
     fastest: f64,
-    /// Height of the centre of mass at the end, and how upright the trunk is.
+    /// Height of the centre of mass at the end, and uprightness of the trunk.
     com: f64,
     up: f64,
     over: bool,
 }
 
-/// Follows the way of a straight body that is turned by `turn` rad from lying on its belly.
+/// Follows the motion of a straight body that is turned by `turn` rad from lying on its belly.
 fn follow(body: &Body, turn: f64, seconds: f64) -> Seen {
     let links = Links::new(body);
     let mut with = GetUpSolver::new(body, &at_ease(body));

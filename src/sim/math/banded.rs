@@ -28,7 +28,7 @@ impl Pentadiagonal {
         matrix
     }
 
-    /// Begins anew with `n` rows and a multiple of the identity. Allocates only if it has never been so large.
+    /// Resets to `n` rows and a multiple of the identity. Allocates only when `n` exceeds every earlier size.
     pub fn reset(&mut self, n: usize, diagonal: f64) {
         for (band, value) in [
             (&mut self.diagonal, diagonal),
@@ -40,8 +40,8 @@ impl Pentadiagonal {
         }
     }
 
-    /// Adds `weight · rᵀr` of a row `r` whose elements from column `first` on are these; those outside the matrix are
-    /// left out.
+    /// Adds `weight · rᵀr`, where the row `r` holds these elements from column `first` on. Elements outside the matrix
+    /// are ignored.
     pub fn add_row(&mut self, first: isize, row: [f64; 3], weight: f64) {
         let n = self.diagonal.len() as isize;
         for (k, a) in row.into_iter().enumerate() {
@@ -85,7 +85,7 @@ impl Pentadiagonal {
 pub(crate) struct Factor(Pentadiagonal);
 
 impl Factor {
-    /// The memory, for another matrix.
+    /// Gives the buffers back for another matrix.
     pub fn into_matrix(self) -> Pentadiagonal {
         self.0
     }

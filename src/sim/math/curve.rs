@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn the_smoother_one_has_the_least_jerk() {
-        // ∫ jerk² over the way is 720; any bump that keeps its ends adds to it.
+        // ∫ jerk² along the curve is 720; adding a bump that vanishes at both ends can only increase it.
         let jerk = |bump: f64| {
             let n = 2000;
             let h = 1.0 / f64::from(n);

@@ -101,8 +101,8 @@ pub fn cholesky_solve_summed<const N: usize>(a: &mut [[f64; N]; N], x: &mut [f64
 pub const WIDTH: usize = 48;
 
 /// Cholesky factor of a symmetric positive definite matrix by columns, in place: `m[j stride + i]`, i ≥ j, is read and
-/// becomes column j of L; the other elements are overwritten. False if the matrix is not positive definite. Whole
-/// stretches may be zero, which then cost nothing.
+/// becomes column j of L; the other elements are overwritten. Returns false if the matrix is not positive definite.
+/// Runs of zeros cost nothing.
 ///
 /// * `stride`: length of a row; columns beyond the number of rows are padding, for vector registers.
 #[inline(always)]
@@ -124,7 +124,7 @@ pub fn factor_columns(m: &mut [f64], stride: usize) -> bool {
             if a == 0.0 {
                 continue;
             }
-            // From a multiple of eight on, so that loads are aligned; what lies before the diagonal is not read.
+            // Start at a multiple of eight so that loads are aligned. Elements before the diagonal are never read.
             let from = row & !7;
             for (z, y) in other[from..].iter_mut().zip(&column[from..]) {
                 *z -= a * y;
@@ -134,8 +134,8 @@ pub fn factor_columns(m: &mut [f64], stride: usize) -> bool {
     true
 }
 
-/// Calls `$f::<LENGTH>`, LENGTH being what is left of a row from the block of eight on that column `$j` is in: loops
-/// of a known length stay in registers.
+/// Calls `$f::<LENGTH>`, where LENGTH is the rest of a row from the block of eight that contains column `$j`. Loops of
+/// a known length stay in registers.
 macro_rules! from_block_of {
     ($j:expr, $f:ident($($x:expr),*)) => {
         match $j / 8 {
@@ -150,10 +150,10 @@ macro_rules! from_block_of {
 }
 
 /// [`factor_columns`] of a matrix of a whole body, column by column from those before it: the same sums in the same
-/// order, without a way to memory and back for each product.
+/// order, but without a round trip to memory for each product.
 #[inline(always)]
 pub fn factor_body_columns<const N: usize>(m: &mut [[f64; WIDTH]; N]) -> bool {
-    // Not `all`, which would be compiled apart, without the caller's vector instructions.
+    // A loop rather than `all`: the closure would be compiled separately, without the caller's vector instructions.
     for j in 0..N {
         if !from_block_of!(j, factor_column(m, j)) {
             return false;
@@ -191,7 +191,7 @@ fn rest_of<const LENGTH: usize>(row: &[f64; WIDTH]) -> [f64; LENGTH] {
     *row.last_chunk().expect("LENGTH ≤ WIDTH")
 }
 
-/// Numbers of a row that [`solve_lower_rows`] has in registers at a time, of three rows.
+/// Elements of each row that [`solve_lower_rows`] keeps in registers at a time, for three rows.
 const TILE: usize = 16;
 
 /// `Y = L⁻¹ M` with the factor of [`factor_body_columns`]: three rows at a time from those before them, in tiles that
@@ -251,7 +251,8 @@ fn tile_of(row: &[f64; WIDTH], from: usize) -> [f64; TILE] {
     *row[from..].first_chunk().expect("tiles fill a row")
 }
 
-/// Lower triangle of `D + Σ w r rᵀ` by columns, as [`factor_body_columns`] reads it; what lies above may hold anything.
+/// Lower triangle of `D + Σ w r rᵀ` by columns, as [`factor_body_columns`] reads it; the upper triangle may hold
+/// anything.
 ///
 /// * `diagonal`: D.
 /// * `rows`: w and r of each term.

@@ -23,7 +23,7 @@ impl Fnv {
             self.u64(x.to_bits());
         }
     }
-    /// The hash so far.
+    /// The hash of everything added.
     pub fn finish(self) -> u64 {
         self.0
     }

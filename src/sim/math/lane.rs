@@ -24,7 +24,7 @@ pub trait Lane:
     + Sync
     + 'static
 {
-    /// How many figures one value holds.
+    /// Number of figures that one value holds.
     const LANES: usize;
     /// The same number in every lane.
     fn splat(x: f64) -> Self;

@@ -120,7 +120,7 @@ impl<L: Lane> Sym3<L> {
             yz: b1.dot(r2),
         }
     }
-    /// `m (|c|² 1 − c cᵀ)`: what a point mass at `c` adds to an inertia about the origin.
+    /// `m (|c|² 1 − c cᵀ)`: the contribution of a point mass at `c` to an inertia about the origin.
     #[inline(always)]
     pub fn point_mass(m: L, c: Vec3<L>) -> Self {
         let (x, y, z) = (c.x * m, c.y * m, c.z * m);

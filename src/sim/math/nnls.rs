@@ -1,8 +1,8 @@
 //! Least squares with unknowns that are not negative: forces that only push.
 
-/// Most rounds; each adds the unknown that helps most. Far more than the cones of a few contacts take.
+/// Upper bound on rounds; each adds the unknown that helps most. The cones of a few contacts need far fewer.
 const ROUNDS: usize = 60;
-/// A gain below this share of nothing more to win, in the units of `b` squared.
+/// A gain below this counts as no improvement, in the units of `b` squared.
 const TOLERANCE: f64 = 1e-9;
 /// An unknown below this leaves the active set.
 const GONE: f64 = 1e-14;
@@ -36,7 +36,8 @@ pub fn nnls<const R: usize>(columns: &[[f64; R]], b: &[f64; R], ridge: f64) -> V
         }
         while !active.is_empty() {
             let z = solve(&active, &gram, &pull, ridge);
-            // The longest step that keeps all unknowns positive; one that would turn negative leaves.
+            // The longest step that keeps all unknowns positive. An unknown that would turn negative leaves the active
+            // set.
             let step = (0..active.len())
                 .filter(|i| z[*i] <= 0.0)
                 .map(|i| x[active[i]] / (x[active[i]] - z[i]).max(1e-300))
@@ -74,8 +75,8 @@ fn dot<const R: usize>(a: &[f64; R], b: &[f64; R]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// The unconstrained solution over the active columns, by elimination of a positive definite system whose size is only
-/// known here. `dense::cholesky_solve` rounds differently, which the seventh digit of a survey would show.
+/// The unconstrained solution over the active columns, by elimination of a positive definite system whose size is known
+/// only at run time. `dense::cholesky_solve` rounds differently, which would change the seventh digit of a survey.
 fn solve(active: &[usize], gram: &[Vec<f64>], pull: &[f64], ridge: f64) -> Vec<f64> {
     let m = active.len();
     let mut a = vec![0.0; m * (m + 1)];
@@ -126,8 +127,8 @@ mod tests {
     }
 
     proptest! {
-        /// Karush, Kuhn and Tucker: no unknown is negative, no gradient of a zero unknown is positive, that of a
-        /// positive one is zero.
+        /// Karush–Kuhn–Tucker: no unknown is negative, the gradient of a zero unknown is not positive, and the gradient
+        /// of a positive unknown is zero.
         #[test]
         fn the_conditions_of_optimality_hold(
             values in prop::collection::vec(-1.0f64..1.0, 6 * 12),

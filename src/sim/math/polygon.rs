@@ -11,11 +11,11 @@ type Point = [f64; 2];
 
 /// Distance below which points of a [`Polygon`] count as one, m.
 const SAME_POINT: f64 = 1e-7;
-/// Sine of the turn below which a corner of a [`Polygon`] is none.
+/// Sine of the smallest turn that counts as a corner of a [`Polygon`].
 const STRAIGHT: f64 = 1e-9;
 /// A [`Polygon`] narrower than this is reduced to an edge, one shorter than this to a vertex, m.
 pub const THIN: f64 = 0.01;
-/// Most corners of a [`SmallPolygon`]: those of two feet.
+/// Largest number of corners of a [`SmallPolygon`]: enough for two feet.
 const MOST: usize = 40;
 
 fn sub(a: Point, b: Point) -> Point {
@@ -31,7 +31,7 @@ fn length(a: Point) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The length as the preparation of clips has always rounded it: recorded clips keep their bits.
+/// The length, rounded as clip preparation has always rounded it, so that recorded clips keep their bits.
 fn hypot(a: Point) -> f64 {
     a[0].hypot(a[1])
 }
@@ -46,7 +46,7 @@ fn by_coordinates(a: &Point, b: &Point) -> std::cmp::Ordering {
     a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]))
 }
 
-/// Mean of the corners; `None` if there is none.
+/// Mean of the corners; `None` if there are no corners.
 fn middle(corners: &[Point]) -> Option<Point> {
     let k = corners.len() as f64;
     let sum = corners
@@ -81,7 +81,7 @@ impl Corners for Vec<Point> {
 /// Appends the convex hull of `sorted` points, counter-clockwise (monotone chain, Andrew 1979): the lower chain from
 /// left to right, then the upper one back.
 ///
-/// * `straight`: true if the way from the first point over the second to the third does not turn left.
+/// * `straight`: whether the path from the first point through the second to the third does not turn left.
 fn append_hull(
     sorted: &[Point],
     out: &mut impl Corners,
@@ -105,7 +105,7 @@ fn append_hull(
     }
 }
 
-/// True unless the corner `b` turns left, in exact comparison.
+/// Whether the corner `b` does not turn left, compared exactly.
 fn no_left_turn(a: Point, b: Point, c: Point) -> bool {
     cross(sub(b, a), sub(c, a)) <= 0.0
 }
@@ -113,7 +113,7 @@ fn no_left_turn(a: Point, b: Point, c: Point) -> bool {
 /// Leaves in `inner` the part of a convex polygon that is at least `distance` (m) inside: it is cut with the half-plane
 /// of each edge, moved inwards.
 ///
-/// * `crosses`: true if the border passes between corners of these two depths; decides what becomes of corners on it.
+/// * `crosses`: whether the border passes between corners of these two depths; decides the fate of corners on it.
 /// * `length`: of an edge; [`length`] or [`hypot`], which round differently.
 fn cut_edges<C: Corners>(
     of: &[Point],
@@ -184,15 +184,15 @@ pub fn margin(polygon: &[Point], z: Point) -> f64 {
 #[derive(Clone, Copy, Debug)]
 struct Edge {
     from: Point,
-    /// Unit vector to its other end, and how far that is, m.
+    /// Unit vector to the other end, and its distance, m.
     along: Point,
     length: f64,
 }
 
-/// A convex polygon whose sides are worked out once: points are brought into it again and again.
+/// A convex polygon whose sides are computed once, because many points are projected into it.
 #[derive(Clone, Debug)]
 pub struct Region {
-    /// Counter-clockwise; a single point is one of no length.
+    /// Counter-clockwise. A single point is stored as one edge of zero length.
     edges: Vec<Edge>,
 }
 
@@ -229,7 +229,7 @@ impl Region {
         Self::new(inner)
     }
 
-    /// The nearest point of the region; `z` itself if there is none. No allocation.
+    /// The nearest point of the region; `z` itself if the region is empty. No allocation.
     pub fn nearest(&self, z: Point) -> Point {
         let left =
             |e: &Edge| e.along[0] * (z[1] - e.from[1]) - e.along[1] * (z[0] - e.from[0]) >= 0.0;
@@ -244,7 +244,7 @@ impl Region {
         let mut best = (f64::INFINITY, z);
         for e in &self.edges {
             let d = [z[0] - e.from[0], z[1] - e.from[1]];
-            // Not `clamp`, which panics where a length is no number.
+            // Not `clamp`, which panics when a length is NaN.
             let u = (d[0] * e.along[0] + d[1] * e.along[1])
                 .max(0.0)
                 .min(e.length);
@@ -258,7 +258,7 @@ impl Region {
     }
 }
 
-/// Corners of a convex polygon without allocation, at most 40; what does not fit is left out.
+/// Corners of a convex polygon without allocation, at most 40; any further corners are dropped.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(into = "Vec<Point>", try_from = "Vec<Point>")]
 pub struct SmallPolygon {
@@ -341,8 +341,8 @@ impl SmallPolygon {
         Some(inner)
     }
 
-    /// The point of the polygon that is nearest to `z`; its corners are those of a convex polygon, counter-clockwise.
-    /// `z` itself if there is none.
+    /// The point of the polygon nearest to `z`, or `z` itself if the polygon is empty. The corners must form a convex
+    /// polygon, counter-clockwise.
     pub fn nearest(&self, z: Point) -> Point {
         let m = self.len;
         let edge = |k: usize| {
@@ -392,7 +392,7 @@ pub enum Feature {
 pub struct Closest {
     /// The closest point; the given point itself when it is inside.
     pub point: Point,
-    /// Where that is.
+    /// The feature on which that point lies.
     pub feature: Feature,
     /// Signed distance to the border, m: positive inside.
     pub margin: f64,
@@ -412,12 +412,12 @@ impl Polygon {
         &self.corners
     }
 
-    /// True if there is no corner at all.
+    /// Whether there is no corner at all.
     pub fn is_empty(&self) -> bool {
         self.corners.is_empty()
     }
 
-    /// True if the polygon has an area (three corners or more).
+    /// Whether the polygon has an area (three corners or more).
     pub fn has_area(&self) -> bool {
         self.corners.len() >= 3
     }
@@ -673,7 +673,7 @@ mod tests {
         for c in s.corners() {
             assert!((h.closest(*c).unwrap().margin - 0.02).abs() < 1e-12);
         }
-        // Narrower than twice the distance: inset by less, still inside.
+        // A strip narrower than twice the distance is inset by less, and the result is still inside.
         let h = polygon(&[[0.0, 0.0], [0.3, 0.0], [0.3, 0.03], [0.0, 0.03]]);
         s.set_inset(&h, 0.02);
         assert!(s.has_area());

@@ -214,7 +214,7 @@ impl Quat<f64> {
         let x = self.rotate(Vec3::X);
         trig::atan2(x.y, x.x)
     }
-    /// True if every component is finite.
+    /// Whether every component is finite.
     pub fn is_finite(self) -> bool {
         self.to_xyzw().iter().all(|c| c.is_finite())
     }

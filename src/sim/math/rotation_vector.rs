@@ -6,7 +6,7 @@
 
 use crate::math::{Vec3, trig};
 
-/// Below this squared angle the coefficients come from their series, which then are exact to rounding.
+/// Below this squared angle the coefficients come from their series, which are exact to rounding there.
 const SERIES: f64 = 0.25;
 
 fn series(x: f64, coefficients: [f64; 6]) -> f64 {

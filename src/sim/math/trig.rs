@@ -108,7 +108,7 @@ pub fn asin(x: f64) -> f64 {
     atan2(x, ((1.0 - x) * (1.0 + x)).sqrt())
 }
 
-/// The same direction within −π…π, rad.
+/// The same angle, wrapped into −π…π, rad.
 #[inline]
 pub fn wrapped(angle: f64) -> f64 {
     let (s, c) = sin_cos(angle);

@@ -4,7 +4,7 @@ use super::Lane;
 use serde::{Deserialize, Serialize};
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-/// A vector of three components in a frame that its name tells.
+/// A vector of three components, in the frame that its variable's name states.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Vec3<L = f64> {
     /// Forward.
@@ -51,7 +51,7 @@ impl<L: Lane> Vec3<L> {
     pub fn norm(self) -> L {
         self.dot(self).sqrt()
     }
-    /// Length of what it is on the floor, z apart.
+    /// Length of the projection onto the floor, ignoring z.
     #[inline(always)]
     pub fn level(self) -> L {
         (self.x * self.x + self.y * self.y).sqrt()
@@ -97,12 +97,12 @@ impl Vec3<f64> {
     pub const fn xy(self) -> [f64; 2] {
         [self.x, self.y]
     }
-    /// What it is on the floor: z is 0.
+    /// The projection onto the floor: z is 0.
     #[inline(always)]
     pub const fn horizontal(self) -> Self {
         vec3(self.x, self.y, 0.0)
     }
-    /// True if every component is finite.
+    /// Whether every component is finite.
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
     }

@@ -1,24 +1,24 @@
-//! How much of its isometric peak a muscle group gives at an angle and at a speed: the factors f_len and f_vel of
+//! Share of its isometric peak that a muscle group can give at an angle and a speed: the factors f_len and f_vel of
 //! equation (5).
 //!
-//! Whatever data a curve is made from, it is continuous, positive, and gives less the faster it shortens
+//! Every curve, whatever its data, is continuous and positive, and gives less the faster the muscle shortens
 //! (`docs/model.md#strength`). Published fits that break this are repaired here (Anderson 2007: eccentric branch,
 //! plantarflexion, cosine beyond its half wave). Evaluated within the tick: no allocation and no platform libm.
 
 use crate::math::trig;
 
-/// Least angle factor: the groups reach farther than the postures they were measured in, and none goes dead at the end
-/// of its range.
+/// Least angle factor: the groups reach beyond the postures in which they were measured, and none drops to zero at the
+/// end of its range.
 pub const ANGLE_FLOOR: f64 = 0.1;
-/// Least factor of a published cosine: the postures it was fitted in keep it above about one half. Farther out it is
-/// extrapolation, and wrong (it leaves the knee a tenth of its torque in a full squat, from which people rise): half
-/// the peak is held there.
+/// Least factor of a published cosine. In the postures used for the fit it stays above about one half. Farther out it
+/// is an extrapolation, and a wrong one: it leaves the knee a tenth of its torque in a full squat, from which people do
+/// rise. Half the peak is held there instead.
 pub const COSINE_FLOOR: f64 = 0.5;
 /// Least velocity factor.
 pub const VELOCITY_FLOOR: f64 = 0.05;
 /// Largest factor in lengthening.
 pub const ECCENTRIC_MOST: f64 = 1.4;
-/// Least factor at fast lengthening: one muscle never gives less there than when it holds still.
+/// Least factor at fast lengthening: no muscle gives less there than when it holds still.
 const ECCENTRIC_LEAST: f64 = 1.05;
 
 /// Torque over peak torque against the joint angle.
@@ -105,7 +105,7 @@ impl VelocityFactor {
     /// The concentric curve of Anderson 2007, which is ¾ at `c4` and ½ at `c5` (rad/s, 0 < c4 < c5).
     ///
     /// It was measured to about `c5`. Extrapolated, it crosses zero at 6…9 rad/s at the hip, speeds that a brisk step
-    /// reaches, or never (plantarflexion); here it goes on as a hyperbola instead. The eccentric branch, which falls
+    /// reaches, or never (plantarflexion); here it continues as a hyperbola instead. The eccentric branch, which falls
     /// below 1 or even below 0 as published, is replaced.
     pub fn anderson(c4: f64, c5: f64, eccentric: f64) -> Self {
         let a = (c5 - 3.0 * c4) / (2.0 * c4 * c5);

@@ -6,8 +6,8 @@
 //!
 //! dMA/dt = C − F·MA,  dMR/dt = −C + R'·MF,  dMF/dt = F·MA − R'·MF,
 //!
-//! where C moves fibres to MA = TL with 10 /s and R' is R under load, rising to r·R at rest. What is left of the
-//! strength is 1 − MF. A load TL held from rest fails after −ln(1 − R(1 − TL)/(F·TL))/R.
+//! where C moves fibres to MA = TL with 10 /s and R' is R under load, rising to r·R at rest. The remaining strength is
+//! 1 − MF. A load TL held from rest fails after −ln(1 − R(1 − TL)/(F·TL))/R.
 
 use super::tables::Origin;
 use crate::body::DOF_COUNT;
@@ -17,15 +17,16 @@ use serde::{Deserialize, Serialize};
 
 /// Fastest time scale: seconds of fatigue per simulated second.
 pub const MAX_TIME_SCALE: f64 = 1000.0;
-/// How fast fibres are called up and released, 1/s: L_D = L_R of the literature. Not sped up by the time scale.
+/// Rate at which fibres are recruited and released, 1/s: L_D = L_R of the literature. The time scale does not apply to
+/// it.
 const RECRUITMENT: f64 = 10.0;
-/// Least strength that is left, so that limits stay on both sides of zero.
+/// Lower bound on the remaining strength, which keeps the limits on both sides of zero.
 const LEAST_REMAINING: f64 = 0.01;
 
 /// Coefficients of one joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FatigueRow {
-    /// Which joint.
+    /// Name of the joint.
     pub joint: &'static str,
     /// F: active fibres tire, 1/s.
     pub fatigue: f64,
@@ -85,7 +86,8 @@ pub const fn fatigue_row(dof: usize) -> &'static FatigueRow {
 }
 
 impl FatigueRow {
-    /// How long a constant load (share of the strength, 0…1) can be held from rest, s; infinite if always.
+    /// Time for which a constant load (share of the strength, 0…1) can be held from rest, s; infinite if it never
+    /// fails.
     pub fn endurance(&self, load: f64) -> f64 {
         let x = 1.0 - self.recovery * (1.0 - load) / (self.fatigue * load);
         if x > 0.0 {
@@ -108,7 +110,7 @@ impl FatigueRow {
     }
 }
 
-/// Fibres of one direction of one DOF; resting ones are what is left of 1.
+/// Fibres of one direction of one DOF; the resting ones make up the rest of 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Compartments {
     /// MA.
@@ -156,7 +158,7 @@ impl Fatigue {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let share = |x: f64| (0.0..=1.0).contains(&x);
         let mut fibres = self.fibres.iter().flatten();
@@ -164,14 +166,14 @@ impl Fatigue {
             && fibres.all(|c| share(c.active) && share(c.fatigued))
     }
 
-    /// What is left of the strength, 0.01…1, for the positive and the negative direction.
+    /// Remaining strength, 0.01…1, for the positive and the negative direction.
     pub fn remaining(&self) -> [[f64; 2]; DOF_COUNT] {
         self.fibres
             .map(|sides| sides.map(|c| (1.0 - c.fatigued).max(LEAST_REMAINING)))
     }
 
-    /// Goes on by `dt` s in which muscles gave `torque` (N·m); `lower` < 0 < `upper` is what they could have given
-    /// rested. About 5 µs; no allocation.
+    /// Advances by `dt` s in which muscles gave `torque` (N·m); `lower` < 0 < `upper` are the limits of rested muscles.
+    /// About 5 µs; no allocation.
     pub fn step(
         &mut self,
         torque: &[f64; DOF_COUNT],
@@ -230,7 +232,7 @@ mod tests {
         for (row, _) in MEASURED {
             for load in [0.2, 0.3, 0.5, 0.7] {
                 let (ours, exact) = (held(row, load, 1.0), row.endurance(load));
-                // Calling up the fibres takes 1/10 s.
+                // Recruiting the fibres takes 1/10 s.
                 assert!(
                     (ours - exact).abs() < 0.25,
                     "{} {load}: {ours} s against {exact} s",
@@ -257,8 +259,8 @@ mod tests {
         }
     }
 
-    /// Item 4 of the acceptance list, and the fit's own error: within 40 % of the measured curves between 20 and 70 %
-    /// of strength.
+    /// Item 4 of the acceptance list. The tolerance is the fit's own error: within 40 % of the measured curves between
+    /// 20 and 70 % of strength.
     #[test]
     fn endurance_is_that_of_people() {
         assert!((40.0..70.0).contains(&held(&SHOULDER, 0.5, 1.0)));

@@ -24,18 +24,20 @@ pub const LIGAMENT_ZONE: f64 = 4.0 / 180.0 * std::f64::consts::PI;
 const PER_ZONE: f64 = 1.0 / LIGAMENT_ZONE;
 /// At and past a limit, ligaments oppose it with this multiple of the isometric peak that drives into it.
 pub const LIGAMENT_FACTOR: f64 = 3.0;
-/// Passive tissue pushes this share more while it is stretched at [`TISSUE_SPEED`] or faster, and less while it
-/// recoils: it rings otherwise.
+/// Passive tissue pushes this share more while it is being stretched at [`TISSUE_SPEED`] or faster, and this share less
+/// while it recoils. Without this damping it rings.
 const TISSUE_DAMPING: f64 = 0.1;
 const TISSUE_SPEED: f64 = 10.0;
-/// Torque below which tissue does not act in the simulation, N·m; way over which a slope is no quotient, rad.
+/// Torque below which tissue does not act in the simulation, N·m. Also the angle below which a difference quotient is
+/// not used as a slope, rad.
 const FELT: f64 = 1e-3;
 const LEAST_WAY: f64 = 1e-6;
-/// Least stiffness over torque, 1/rad. Tissue that is stretched so far that it gives no more would be a constant force,
-/// which a row with a stiffness cannot be; this one changes by 8 % at 10 rad/s and 120 substeps a second, and only ever
-/// takes energy. Elsewhere tissue is stiffer.
+/// Least stiffness over torque, 1/rad. Tissue stretched until its torque no longer grows would be a constant force,
+/// which a row with a stiffness cannot represent. With this stiffness the torque changes by 8 % at 10 rad/s and 120
+/// substeps a second, and only removes energy. Elsewhere tissue is stiffer.
 const LEAST_RISE: f64 = 1.0;
-/// Below this power of e tissue is slack: it would give less than 1e−13 N·m, and most joints spend their time there.
+/// Tissue is slack below this power of e: it would give less than 1e−13 N·m. Most joints are in this range most of the
+/// time.
 const SLACK: f64 = -35.0;
 
 /// Scale of a figure's strength.
@@ -46,13 +48,14 @@ pub struct StrengthScale {
     /// Factor per DOF, 0.01…100.
     #[serde(with = "crate::saved::array")]
     pub dof: [f64; DOF_COUNT],
-    /// Which person of that sex, age and size: percentile of strength, 5…95; 50 is the average.
+    /// Percentile of strength among people of that sex, age and size, 5…95; 50 is the average.
     pub percentile: f64,
-    /// Share of its strength that it is willing to use, 0…1; below [`LEAST_EFFORT`] counts as that.
+    /// Share of its strength that the figure is willing to use, 0…1; values below [`LEAST_EFFORT`] count as
+    /// [`LEAST_EFFORT`].
     pub effort: f64,
 }
 
-/// No muscle goes quite dead, and limits stay on both sides of zero.
+/// Keeps every muscle from vanishing, so that limits stay on both sides of zero.
 pub const LEAST_EFFORT: f64 = 0.01;
 
 impl Default for StrengthScale {
@@ -67,8 +70,8 @@ impl Default for StrengthScale {
 }
 
 impl StrengthScale {
-    /// Factors on the muscles of each direction, with a further factor on all. The percentile is not among them: it
-    /// shapes [`Strength`].
+    /// Factors on the muscles of each direction, all multiplied by `further`. The percentile is not included: it is
+    /// part of [`Strength`].
     pub fn muscles(&self, further: f64) -> MuscleScale {
         let (all, effort) = (self.all * further, self.effort.max(LEAST_EFFORT));
         MuscleScale(std::array::from_fn(|d| [all * self.dof[d] * effort; 2]))
@@ -97,7 +100,7 @@ struct Passive {
     cap: f64,
     /// Angle beyond onset at which the cap is met, rad.
     capped_at: f64,
-    /// Power of e below which it does not act: less than [`FELT`].
+    /// Power of e below which it does not act, because its torque is less than [`FELT`].
     slack: f64,
 }
 
@@ -126,7 +129,7 @@ impl Passive {
         }
     }
 
-    /// How much the torque `now = self.at(x)` grows with the angle, N·m/rad.
+    /// Rate at which the torque `now = self.at(x)` grows with the angle, N·m/rad.
     #[inline]
     fn slope(&self, x: f64, now: f64) -> f64 {
         let over = self.steepness * (x - self.capped_at);
@@ -156,7 +159,7 @@ impl Passive {
 pub struct Stretched {
     /// Torque away from the end of the range, N·m, ≥ 0.
     pub torque: f64,
-    /// How much it grows with the angle, N·m/rad, > 0.
+    /// Rate at which the torque grows with the angle, N·m/rad, > 0.
     pub stiffness: f64,
 }
 
@@ -181,7 +184,7 @@ impl Strength {
         Self::at_percentile(body, 50.0)
     }
 
-    /// Strength of a person as strong as `percentile` of those of that sex, age and size; clamped to 5…95. Allocates;
+    /// Strength of a person at this percentile among people of that sex, age and size; clamped to 5…95. Allocates;
     /// offline.
     pub fn at_percentile(body: &Body, percentile: f64) -> Self {
         let person = Person::of(body, percentile);
@@ -195,7 +198,7 @@ impl Strength {
         let muscle: [[Muscle; 2]; DOF_COUNT] =
             std::array::from_fn(|d| groups[d].map(|g| person.muscle(&g)));
         let tissue = std::array::from_fn(|d| {
-            // The tissue stretched at the upper end is that of the muscle which pulls away from it.
+            // Tissue stretched at the upper end belongs to the muscle that pulls away from that end.
             let (upper, lower) = (body.upper[d], body.lower[d]);
             [
                 passive(tissues[d][0], -lower, muscle[d][0].peak, -1.0),
@@ -322,14 +325,14 @@ impl Strength {
         })
     }
 
-    /// Where the numbers of DOF `dof` (0…38) come from.
+    /// Origins of the numbers of DOF `dof` (0…38).
     pub fn provenance(&self, dof: usize) -> &[Provenance] {
         &self.provenance[dof]
     }
 
-    /// What the muscles amount to as plain actuators with constant bounds, for formats that know no other: per DOF the
-    /// largest isometric torque over its range of angles in both directions, and the faster direction's speed at which
-    /// [`curve::VELOCITY_FLOOR`] of it is left.
+    /// The muscles as plain actuators with constant bounds, for formats that know no others: per DOF, the largest
+    /// isometric torque over its range of angles in both directions, and the speed at which [`curve::VELOCITY_FLOOR`]
+    /// of it remains, for the faster direction.
     ///
     /// Lengthening muscles give up to [`curve::ECCENTRIC_MOST`] times as much, shortening ones less; ligaments are not
     /// included.
@@ -384,7 +387,7 @@ fn between(start: f64, full: f64, cap: f64) -> Passive {
     Passive::new(0.01 * cap, ln(100.0) / (full - start), start, cap)
 }
 
-/// What the tables are scaled by.
+/// The factors by which the tables are scaled.
 struct Person {
     sex: Sex,
     /// Share of the men's tables: 1 or 0 for adults.
@@ -460,7 +463,8 @@ impl Person {
         let mut muscle = match group {
             Group::Leg(leg) => {
                 let mut muscle = anderson(*leg, &self.row(*leg, self.age), self.mgh);
-                // C1 follows its own posture, so the level is carried over at one that everybody reaches.
+                // Each row's C1 applies at that row's own posture, so levels are transferred at a posture that people
+                // of all ages can reach.
                 let young = anderson(*leg, &self.row(*leg, 0.0), self.mgh);
                 let at = leg.reference_angle();
                 let level = young.peak * young.angle.at(at) * self.age_factor();

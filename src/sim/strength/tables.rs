@@ -1,4 +1,4 @@
-//! The numbers behind strength, each with where it comes from.
+//! The data behind strength, each number with its origin.
 //!
 //! Hip, knee and ankle flexion–extension: Anderson, Madigan & Nussbaum 2007, Table 3 (34 people). Everything else:
 //! levels of industrial workers (Stobbe 1982 in Chaffin & Andersson) and single studies, with angle and velocity shapes
@@ -9,7 +9,8 @@
 use crate::body::Sex;
 use crate::body::age::polyline;
 
-/// Gravity of the normalisation mass · g · height, m/s²; that of the people who were measured, whatever the world's is.
+/// Gravity in the normalisation mass · g · height, m/s²: the gravity of the measurements, whatever gravity the world
+/// has.
 pub const NORMALISING_GRAVITY: f64 = 9.81;
 /// Stature (m) and mass (kg) to which the levels of the tables refer.
 pub const fn reference_body(sex: Sex) -> (f64, f64) {
@@ -71,8 +72,8 @@ impl Leg {
         Self::Dorsiflexion,
         Self::Plantarflexion,
     ];
-    /// Angle (rad) at which levels of different ages are compared, within everybody's range: C1 is not, its cosine may
-    /// peak beyond it.
+    /// Angle (rad) at which levels of different ages are compared. It lies within the range of all ages; the angle of
+    /// C1 may not, because its cosine may peak beyond the range.
     pub fn reference_angle(self) -> f64 {
         let degrees: f64 = match self {
             Self::HipFlexion | Self::Dorsiflexion | Self::Plantarflexion => 0.0,
@@ -95,7 +96,7 @@ impl Leg {
 }
 
 /// Standard deviation of C1 between people, `[group][man, woman][18–25, 55–65, >65]`, order of [`ANDERSON`]. The oldest
-/// groups are six people: their spread is an accident.
+/// groups have only six people, so their spread is accidental.
 pub const ANDERSON_DEVIATION: [[[f64; 3]; 2]; 6] = [
     [[0.025, 0.02, 0.025], [0.033, 0.016, 0.008]],
     [[0.049, 0.043, 0.039], [0.047, 0.032, 0.003]],
@@ -199,7 +200,7 @@ pub const ANDERSON: [[[AndersonRow; 3]; 2]; 6] = [
     ],
 ];
 
-/// Where the rows of [`ANDERSON`] come from.
+/// Origin of the rows of [`ANDERSON`].
 pub const ANDERSON_ORIGIN: Origin = Origin {
     source: "Anderson, Madigan & Nussbaum 2007, J. Biomech. 40:3105, Table 3",
     tag: "S1",
@@ -222,7 +223,7 @@ pub struct Action {
     pub name: &'static str,
     /// Isometric torque at `at`, N·m, of the reference man and woman.
     pub level: [f64; 2],
-    /// Anatomical angle the level was taken at, degrees.
+    /// Anatomical angle at which the level was measured, degrees.
     pub at: f64,
     /// Angle of the peak and standard deviation of the bell, degrees.
     pub bell: [f64; 2],
@@ -308,7 +309,7 @@ const fn action(
     })
 }
 
-/// Spread where none was measured: a coefficient of variation of a quarter, as the measured groups have.
+/// Spread used where none was measured: a coefficient of variation of a quarter, like that of the measured groups.
 const USUAL_SPREAD: [[f64; 2]; 2] = [[0.59, 1.41]; 2];
 
 /// 5th, 50th and 95th percentile of men and of women.
@@ -325,7 +326,7 @@ const fn spread(group: Group, man: [f64; 3], woman: [f64; 3]) -> Group {
     }
 }
 
-/// Share of the waist's strength that the thorax joint has: the same muscles on a shorter lever.
+/// Strength of the thorax joint as a share of the waist's: the same muscles act on a shorter lever.
 const THORAX: f64 = 0.88;
 
 const fn thorax(waist: Group, name: &'static str) -> Group {
@@ -343,8 +344,8 @@ const fn thorax(waist: Group, name: &'static str) -> Group {
     }
 }
 
-/// Lumbar extension peaks far into flexion in the gymnast set; two joints share the bend, and the level is known
-/// upright only.
+/// Lumbar extension peaks far into flexion in the gymnast set; here two joints share the bend, and the level is known
+/// only for the upright posture.
 const TRUNK_FLEXION: Group = spread(
     action(
         "trunk flexion",
@@ -777,7 +778,7 @@ pub enum Tissue {
     /// Amplitude (N·m), steepness (1/rad), onset (rad): Falisse 2019 after Anderson & Pandy.
     Measured(f64, f64, f64),
     /// Amplitude (N·m) and steepness (1/rad) as measured, onset 0.1 rad before the limit: the measured trunk bends in
-    /// one joint, this one in two.
+    /// one joint, but this one bends in two.
     AtLimit(f64, f64),
     /// 1 % of the antagonist's peak at the first angle, all of it at the second, degrees.
     Between(f64, f64),
@@ -799,7 +800,7 @@ pub const TRUNK_TISSUE: [[Tissue; 2]; 9] = [
     [Unknown, Unknown],
     [Unknown, Unknown],
 ];
-/// One arm. The elbow hangs at the end of its range without effort, as in the gymnast set.
+/// One arm. The elbow hangs at the end of its range without effort, as in the gymnast's data.
 pub const ARM_TISSUE: [[Tissue; 2]; 7] = [
     [Unknown, Unknown],
     [Unknown, Unknown],

@@ -1,6 +1,6 @@
-//! Goal: the strength of whole people against measurements that were not put in, and the properties every controller
-//! relies on. Method: static moments of straight arms and loads from the mass properties of the body, compared with
-//! `range`.
+//! Goal: check the strength of whole people against measurements that were not used as input, and the properties on
+//! which every controller relies. Method: static moments of straight arms and loads from the mass properties of the
+//! body, compared with `range`.
 
 use super::curve::{ECCENTRIC_MOST, VELOCITY_FLOOR};
 use super::*;
@@ -45,8 +45,8 @@ fn isometric(body: &Body, dof: usize, degrees: f64) -> f64 {
     range_at(&Strength::for_body(body), &angles, &[0.0; 39]).1[dof]
 }
 
-/// Moment (N·m) about the joint of `first` of the hanging chain from `first` to the hand, turned level, and the
-/// distance of the grip, m.
+/// Moment (N·m) about the joint of `first` that the chain from `first` to the hand exerts when held horizontally, and
+/// the distance of the grip, m.
 fn level_arm(body: &Body, first: SegmentId) -> (f64, f64) {
     let (mut reach, mut moment) = (0.0, 0.0);
     for s in first.index()..=t::L_HAND.index() {
@@ -322,7 +322,7 @@ fn all_36_rows_are_usable_after_repair() {
     }
 }
 
-/// The isometric torques per leg that the published table gives, derived with another program.
+/// The isometric torques per leg that follow from the published table, derived with another program.
 ///
 /// Equation (5) of the paper.
 #[test]
@@ -423,13 +423,13 @@ fn ligaments_carry_what_reaches_a_limit() {
         let (lower, _) = at(body.upper[d]);
         let (_, upper) = at(body.lower[d]);
         assert!(-lower >= 3.0 * plus.peak && upper >= 3.0 * minus.peak);
-        // Not before the zone.
+        // Ligaments do not act before the zone.
         let (lower, _) = at(body.upper[d] - 1.01 * LIGAMENT_ZONE);
         assert!(-lower <= minus.peak);
-        // Beyond the limit it stays.
+        // Beyond the limit the torque stays constant.
         assert!((at(body.upper[d] + 0.3).0 + 3.0 * plus.peak).abs() <= minus.peak);
     }
-    // A weak figure has the same ligaments.
+    // The ligaments of a weak figure are the same.
     let mut angles = [0.0; 39];
     angles[26] = body.lower[26];
     let weak = StrengthScale {
@@ -453,7 +453,7 @@ fn ligaments_carry_what_reaches_a_limit() {
 fn sexes_and_ages_are_ordered() {
     let peak = |b: &Body, d: usize, side: usize| {
         let muscle = Strength::for_body(b).muscles(d)[side];
-        // Legs at the posture their levels are compared in, everything else at its peak.
+        // Compare legs at the reference posture of their levels, and everything else at its peak.
         let leg = match in_dof_order(&tables::TRUNK, &tables::ARM, &tables::LEG)[d][side] {
             Group::Leg(leg) => Some(leg.reference_angle()),
             Group::Other(_) => None,
@@ -506,7 +506,8 @@ fn ordinary_postures_leave_reserves() {
         let (lower, upper) = range_at(&s, &angles, &rates);
         (-lower[dof], upper[dof])
     };
-    // One-leg stance: the abductors of the standing hip carry the rest of the body on the half distance of the hips.
+    // One-leg stance: the abductors of the standing hip carry the rest of the body on half the distance between the
+    // hips.
     let hip = (weight - G * body.segments[10..14].iter().map(|s| s.mass).sum::<f64>()) * 0.09;
     let (adduction, abduction) = at(24, 0.0, 0.0);
     assert!(
@@ -516,7 +517,7 @@ fn ordinary_postures_leave_reserves() {
     // Rolling the foot: two thirds of the way from the middle to the edge of the sole.
     let (inward, outward) = at(28, 0.0, 0.0);
     assert!(inward > 25.0 && outward > 25.0);
-    // Squat at 90°: the knee carries half of what is above it on about 0.18 m; hip likewise.
+    // Squat at 90°: each knee carries half of the mass above it on a lever of about 0.18 m; the hip likewise.
     let (extension, _) = at(26, 90.0, 0.0);
     assert!(extension > 2.0 * 0.45 * weight * 0.18, "{extension}");
     let (extension, _) = at(23, 90.0, 0.0);
@@ -524,7 +525,7 @@ fn ordinary_postures_leave_reserves() {
     // Standing with the weight 0.1 m in front of the ankles, on both feet.
     let (plantar, _) = at(27, 3.0, 0.0);
     assert!(plantar > 2.0 * 0.5 * weight * 0.1, "{plantar}");
-    // Forward bend of the trunk by 60°: all above the waist on 0.28 m · sin 60°.
+    // Forward bend of the trunk by 60°: the mass above the waist acts on a lever of 0.28 m · sin 60°.
     let (back, _) = at(0, 30.0, 0.0);
     assert!(back > 2.0 * 0.49 * weight * 0.28 * 0.866, "{back}");
     // A brisk step: hip flexion at 5 rad/s keeps two fifths of its strength, knee extension at 8 rad/s a third.
@@ -565,7 +566,7 @@ fn passive_tissue_pushes_back_from_both_ends_and_is_bounded() {
         }
         assert!(passive(d, body.upper[d] + 0.4, 0.0) < -0.05 * minus.peak);
         assert!(passive(d, body.lower[d] - 0.4, 0.0) > 0.05 * plus.peak);
-        // In the middle of the range muscles are on their own.
+        // In the middle of the range, passive tissue does not help the muscles.
         let middle = passive(d, 0.5 * (body.lower[d] + body.upper[d]), 0.0).abs();
         assert!(
             middle < 0.01 * plus.peak.min(minus.peak),
@@ -582,8 +583,8 @@ fn passive_tissue_pushes_back_from_both_ends_and_is_bounded() {
     assert!(out.iter().all(|x| x.abs() < 1.0), "{out:?}");
 }
 
-/// What tissue gives is the slope of what it stores, its stiffness that of what it gives, and both agree with the sum
-/// over both ends.
+/// The torque of tissue is the slope of its stored energy, its stiffness is the slope of its torque, and both agree
+/// with the sum over both ends.
 #[test]
 fn tissue_gives_back_what_it_stores() {
     let body = Body::adult_man();
@@ -612,11 +613,11 @@ fn tissue_gives_back_what_it_stores() {
             );
             let (low, stiffness) = give(d, 0, angle, 0.0, 0.0);
             let (high, _) = give(d, 1, angle, 0.0, 0.0);
-            // Stiffness is what torque grows by, and where that no longer grows, the least there is.
+            // Stiffness is the growth of the torque or, where the torque no longer grows, the least stiffness.
             let ends = [-e, e].map(|e| give(d, 0, angle + e, 0.0, 0.0).0);
             let slope = (ends[0] - ends[1]) / (2.0 * e);
             if low > 0.0 && ends[1] > 0.0 {
-                // Not across a corner of the curve.
+                // Do not compare across a corner of the curve.
                 let corner = (ends[0] - 2.0 * low + ends[1]).abs() > 1e-6 * (1.0 + low);
                 let expected = slope.max(LEAST_RISE * low);
                 assert!(
@@ -624,10 +625,10 @@ fn tissue_gives_back_what_it_stores() {
                     "{name} at {angle}: {stiffness} {expected}"
                 );
             }
-            // What is less than can be felt is left out.
+            // Torque too small to be felt is left out.
             assert!((low - high - out[d]).abs() < 2.1e-3, "{name} at {angle}");
             assert!(low >= 0.0 && high >= 0.0 && stiffness >= 0.0);
-            // The mean stiffness of the way ahead leads to the torque there.
+            // The mean stiffness over the time ahead leads to the torque at its end.
             let (rate, h) = (-3.0, 0.01);
             let (torque, stiffness) = give(d, 0, angle, rate, h);
             let (ahead, _) = give(d, 0, angle + h * rate, rate, 0.0);
@@ -666,7 +667,7 @@ fn sides_are_equal() {
     }
 }
 
-/// The constant bounds of exported actuators are what the muscles give at their best angle, at rest.
+/// The constant bounds of exported actuators are the torques of the muscles at their best angle, at rest.
 #[test]
 fn actuation_is_the_largest_isometric_torque_over_the_range_of_angles() {
     for body in [

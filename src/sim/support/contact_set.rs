@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 
 /// A point that comes below this height touches, m.
 pub const ENTER_HEIGHT: f64 = 0.006;
-/// A touching point that rises above this height has left, m.
+/// A touching point that rises above this height stops touching, m.
 pub const LEAVE_HEIGHT: f64 = 0.010;
-/// Contact points of one segment that are looked at, as in the stepper.
+/// Number of contact points per segment that are checked, as in the stepper.
 const POINTS_PER_SEGMENT: usize = MAX_CONTACTS / SEGMENT_COUNT;
 
 /// One touching point.
@@ -21,7 +21,8 @@ pub struct SupportPoint {
     pub segment: SegmentId,
     /// Index in [`Segment::contact_points`](crate::body::Segment::contact_points).
     pub vertex: usize,
-    /// The support it counts for: the foot for toes that touch together with their foot, else the segment itself.
+    /// The support to which it counts: the foot, for toes that touch together with their foot; otherwise the segment
+    /// itself.
     pub support: SegmentId,
     /// World position, m.
     pub position: Vec3,
@@ -62,9 +63,9 @@ impl ContactSet {
         self.points.clear();
     }
 
-    /// Looks at every contact point of the body: one below [`ENTER_HEIGHT`] enters, one above [`LEAVE_HEIGHT`] leaves.
+    /// Updates the contact points of the body: one below [`ENTER_HEIGHT`] enters, one above [`LEAVE_HEIGHT`] leaves.
     ///
-    /// Looks at the first 8 points of each segment; at most [`MAX_CONTACTS`] touch. Allocates nothing.
+    /// Only the first 8 points of each segment are checked, and at most [`MAX_CONTACTS`] touch. Allocates nothing.
     pub fn update(&mut self, terms: &Terms, body: &Body) {
         self.points.clear();
         for s in 0..SEGMENT_COUNT {
@@ -95,7 +96,7 @@ impl ContactSet {
             }
             self.touching[s] = touching;
         }
-        // Toes count with their foot, if that touches.
+        // Toes count with their foot if the foot touches.
         for (toes, foot) in [(L_TOES, L_FOOT), (R_TOES, R_FOOT)] {
             if self.touching[foot.index()] != 0 {
                 for p in self.points.iter_mut().filter(|p| p.segment == toes) {

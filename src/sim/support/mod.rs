@@ -1,4 +1,4 @@
-//! What carries the figure: touching points, support ratios (2), main support, support polygon, zero-moment point (3),
+//! The supports of a figure: touching points, support ratios (2), main support, support polygon, zero-moment point (3),
 //! tipping.
 
 pub mod contact_set;
@@ -28,8 +28,8 @@ use crate::report::MAX_CONTACTS;
 use crate::touch::MAX_TOUCHES;
 use serde::{Deserialize, Serialize};
 
-/// Supports of one figure, computed once per tick and shared by controllers and steppers. Remembers what hysteresis
-/// needs.
+/// Supports of one figure, computed once per tick and shared by controllers and steppers. Keeps the memory that
+/// hysteresis needs.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Support {
     contacts: ContactSet,
@@ -66,7 +66,7 @@ impl Support {
     /// * `com_acceleration`: c̈ over the last tick, world, m/s² (zero at the start).
     /// * `gravity`: magnitude, m/s².
     ///
-    /// What carries besides the floor counts after [`Self::rest_on`].
+    /// Supports other than the floor count only after [`Self::rest_on`].
     ///
     /// No allocation for bodies with at most [`MAX_CONTACTS`] contact points.
     pub fn update(&mut self, terms: &Terms, body: &Body, com_acceleration: Vec3, gravity: f64) {
@@ -74,8 +74,8 @@ impl Support {
         let points = self.contacts.points();
         let pull = com_acceleration + Vec3::Z * gravity;
         self.ratio = ratio::support_ratios(points.iter().map(Into::into), terms.com, pull);
-        // Ratios (2) hardly tell a foot that carries everything from one that carries nothing; S follows statics
-        // instead.
+        // Ratios (2) hardly distinguish a foot that carries everything from one that carries nothing, so S follows
+        // statics instead.
         self.load = [0.0; SEGMENT_COUNT];
         let force = pull * terms.mass;
         if self
@@ -101,8 +101,8 @@ impl Support {
         self.polygon.reduce_thin();
     }
 
-    /// Adds what the figure leans on besides the floor: each gets its ratio (2). Seats and tables widen the polygon: as
-    /// far as balance goes, what is over them is carried. Call after [`Self::update`]. Allocates nothing for up to
+    /// Adds the rests, on which the figure leans besides the floor, each with its ratio (2). Seats and tables widen the
+    /// polygon, because they carry whatever is above them. Call after [`Self::update`]. Allocates nothing for up to
     /// [`MAX_TOUCHES`] of them.
     ///
     /// * `com`: world, m. `pull`: a_m = c̈ − g, world axes, m/s².
@@ -124,23 +124,23 @@ impl Support {
         }
     }
 
-    /// True if something that it rests on keeps the body from falling this `way` (horizontal).
+    /// Whether one of the rests keeps the body from falling this `way` (horizontal).
     pub fn holds(&self, way: Vec3) -> bool {
         self.rests().iter().any(|rest| rest.holds(way))
     }
 
-    /// What carries it besides the floor.
+    /// The supports other than the floor.
     pub fn rests(&self) -> &[Rest] {
         &self.rests
     }
 
-    /// Everything that can carry: touching points of the floor as in [`Self::points`], then places by which parts rest
-    /// on other things.
+    /// All points that can carry: those on the floor, as in [`Self::points`], then those at which parts rest on other
+    /// things.
     pub fn carriers(&self) -> &[SupportPoint] {
         &self.carriers
     }
 
-    /// Finds out which parts the motion takes off what they rest on.
+    /// Determines which resting parts the motion is about to lift off.
     ///
     /// * `desired`: where the motion has a point of a segment (segment frame, m), world, m.
     pub fn plan_rests(&mut self, terms: &Terms, desired: impl Fn(SegmentId, Vec3) -> Vec3) {
@@ -165,13 +165,13 @@ impl Support {
         self.contacts.points()
     }
 
-    /// Support ratio (2) per segment, on the floor and on what it rests on; 0 where it does not support.
+    /// Support ratio (2) per segment, on the floor and on the rests; 0 for a segment that does not support.
     pub fn ratio(&self) -> &[f64; SEGMENT_COUNT] {
         &self.ratio
     }
 
-    /// Share of the normal force per support that balanced sharing gives the last tick's motion of the centre of mass;
-    /// 0 where nothing touches, slightly negative for a foot that would have to pull.
+    /// Share of the normal force per support, from balanced sharing for the last tick's motion of the centre of mass.
+    /// It is 0 where nothing touches, and slightly negative for a foot that would have to pull.
     pub fn load(&self) -> &[f64; SEGMENT_COUNT] {
         &self.load
     }
@@ -181,7 +181,7 @@ impl Support {
         self.main
     }
 
-    /// Ground polygon: hull over all supports, those that are not on the ground from above; thin sets are edges and
+    /// Ground polygon: hull of all supports, with those off the ground projected from above. Thin sets become edges and
     /// vertices.
     pub fn polygon(&self) -> &Polygon {
         &self.polygon

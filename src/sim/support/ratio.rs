@@ -1,19 +1,20 @@
-//! Support ratios, Eq. (2): which support carries most, and which one is taken as the root.
+//! Support ratios, Eq. (2): which support carries most, and which one serves as the root.
 
 use super::contact_set::SupportPoint;
 use crate::body::{SEGMENT_COUNT, SegmentId};
 use crate::math::Vec3;
 
-/// The main support is kept while its share is within this much of the largest (else it flickers in symmetric stance).
+/// The main support is kept while its share is within this much of the largest. Otherwise it would flicker in symmetric
+/// stance.
 pub const MAIN_HYSTERESIS: f64 = 0.1;
 
-/// Shares that differ by less are equal; the first support is taken then.
+/// Shares that differ by less count as equal, and the first support is taken.
 const TIE: f64 = 1e-9;
 
-/// Something that a segment touches: the floor, a slope, a table, a wall, somebody else.
+/// A surface that a segment touches: the floor, a slope, a table, a wall, another figure.
 #[derive(Clone, Copy, Debug)]
 pub struct Touching {
-    /// The support that it counts for.
+    /// The support to which it counts.
     pub support: SegmentId,
     /// World, m.
     pub position: Vec3,

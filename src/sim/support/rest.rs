@@ -1,4 +1,4 @@
-//! What carries a figure besides the floor: parts that lean on things that do not give way.
+//! Supports other than the floor: parts of the body that lean on immovable things.
 
 use super::contact_set::SupportPoint;
 use crate::body::SegmentId;
@@ -10,35 +10,35 @@ use serde::{Deserialize, Serialize};
 pub struct Rest {
     /// The part.
     pub segment: SegmentId,
-    /// Where, world, m.
+    /// Its position, world, m.
     pub position: Vec3,
     /// Unit vector from the obstacle to the part, world axes.
     pub normal: Vec3,
-    /// Reaction that can be counted on, world axes, N: that of the last ticks.
+    /// Reaction that can be relied on, taken from the last ticks, world axes, N.
     pub force: Vec3,
-    /// How much farther from the surface the motion has the part, as seen from the pelvis, m: a hand that is to leave
-    /// the seat.
+    /// How much farther from the surface the motion places the part, as seen from the pelvis, m; positive for a hand
+    /// that is about to leave the seat.
     pub lift: f64,
 }
 
-/// Vertex of a support point that is no contact point of its segment.
+/// Vertex of a support point that is not a contact point of its segment.
 pub const NO_VERTEX: usize = usize::MAX;
 
-/// Least height of the normal of a surface that weight can be put on (60° of slope).
+/// Smallest vertical component of the normal of a surface that can bear weight (60° of slope).
 const LEVEL: f64 = 0.5;
 
 impl Rest {
-    /// True if weight can be put there: a seat or a table, not a wall.
+    /// Whether it can bear weight: a seat or a table can, a wall cannot.
     pub fn is_level(&self) -> bool {
         Self::level(self.normal)
     }
 
-    /// True if it keeps a body from falling this `way` (horizontal): a seat does, and a wall on that side.
+    /// Whether it keeps a body from falling this `way` (horizontal): a seat does, and so does a wall on that side.
     pub fn holds(&self, way: Vec3) -> bool {
         self.is_level() || self.normal.dot(way) <= 0.0
     }
 
-    /// The same as a point of a support that the reaction can be shared with.
+    /// This rest as a support point, among which the reaction can be shared.
     pub fn as_point(&self) -> SupportPoint {
         SupportPoint {
             segment: self.segment,
@@ -66,7 +66,7 @@ impl Rest {
         })
     }
 
-    /// The same of a surface with this normal.
+    /// Whether a surface with this normal can bear weight.
     pub fn level(normal: Vec3) -> bool {
         normal.z > LEVEL
     }

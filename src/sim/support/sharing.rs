@@ -1,10 +1,10 @@
 //! Sharing of the ground reaction between contact points: balanced (S2) and the paper's (`docs/equations.md#repairs`).
 //!
-//! Balanced sharing looks, among all point forces with the right total wrench W, for the least ones in a norm weighted
-//! by the support ratios: f = D Aᵀ (A D Aᵀ)⁺ W with A = [… [p_k]×; 1 …]. Only the wrench per segment matters
+//! Among all point forces with the right total wrench W, balanced sharing finds those that are smallest in a norm
+//! weighted by the support ratios: f = D Aᵀ (A D Aᵀ)⁺ W with A = [… [p_k]×; 1 …]. Only the wrench per segment matters
 //! afterwards, so the point forces are never formed: with the Gram matrix G_s of the points of segment s, that wrench
-//! is G_s G⁺ W, G = Σ G_s. Everything is referred to the centroid of the points, so that it does not matter where in
-//! the world the figure stands.
+//! is G_s G⁺ W, G = Σ G_s. Everything is referred to the centroid of the points, so the result does not depend on where
+//! in the world the figure stands.
 
 use super::contact_set::SupportPoint;
 use super::rest::NO_VERTEX;
@@ -21,12 +21,12 @@ const MOMENT_LENGTH: f64 = 0.3;
 const CUT_OFF: f64 = 1e-6;
 /// Weight of toe points relative to points of the foot.
 const TOE_WEIGHT: f64 = 0.2;
-/// Weight of forces along the surface of what a part rests on, relative to the force into it: a hand pushes on a table,
-/// and friction does not carry what soles could.
+/// Weight of forces along the surface on which a part rests, relative to the force into it: a hand pushes on a table,
+/// and its friction cannot carry as much as that of a sole.
 pub const ALONG_REST: f64 = 0.1;
 /// Least weight of a support, so that a ratio of zero does not remove it.
 pub const LEAST_WEIGHT: f64 = 0.02;
-/// Most solutions on the way to forces that only push.
+/// Largest number of solutions in the search for forces that only push.
 pub const MOST_ROUNDS: usize = 8;
 /// A point pulls if its normal force is below minus this part of the total.
 const PULL_TOLERANCE: f64 = 1e-3;
@@ -34,7 +34,7 @@ const PULL_TOLERANCE: f64 = 1e-3;
 /// Linear map from the total ground wrench to the wrench on each touching segment.
 #[derive(Clone, Debug)]
 pub struct Sharing {
-    /// Point that wrenches are taken about, world, m.
+    /// Point about which wrenches are taken, world, m.
     pub reference: Vec3,
     gram: [Mat6; SEGMENT_COUNT],
     active: [bool; SEGMENT_COUNT],
@@ -71,8 +71,8 @@ fn along(p: &SupportPoint) -> f64 {
 }
 
 impl Sharing {
-    /// Balanced sharing over the points that are not `excluded` (by index). No allocation. Returns false if none is
-    /// left.
+    /// Balanced sharing over the points that are not `excluded` (by index). No allocation. Returns false if no point
+    /// remains.
     ///
     /// Repair S2.
     pub fn set_balanced(
@@ -144,13 +144,13 @@ impl Sharing {
         true
     }
 
-    /// Balanced sharing in which points that would have to pull on what they touch carry nothing.
+    /// Balanced sharing in which points that would have to pull carry nothing.
     ///
-    /// The least forces may be negative where the load is near an edge; a foot that is asked for such a wrench rolls
-    /// over its edge. So the worst puller is left out and the rest solved again, as long as the others can still give
-    /// any wrench that the set could give.
+    /// The smallest forces may be negative when the load is near an edge, and a foot that has to supply such a wrench
+    /// rolls over its edge. Therefore the point that pulls most is left out and the rest is solved again, as long as
+    /// the others can still give every wrench that the whole set could give.
     ///
-    /// * `excluded`: points that carry nothing from the start (by index); those left out are added.
+    /// * `excluded`: points that carry nothing from the start (by index); points that are left out are added.
     /// * `total`: wrench (moment, force) to be shared, about the given world point.
     /// * Returns false if there is no point. At most [`MOST_ROUNDS`] solutions; no allocation.
     ///
@@ -188,7 +188,7 @@ impl Sharing {
         true
     }
 
-    /// True if the segment has points that carry load.
+    /// Whether the segment has points that carry load.
     pub fn carries(&self, s: usize) -> bool {
         self.active[s]
     }
@@ -402,7 +402,8 @@ mod tests {
             }
             assert!(least > -0.05 * 700.0, "round {round}: {least}");
         }
-        // Above the middle of the left foot: the far edge of the right one would pull, and is left out.
+        // With the weight above the middle of the left foot, the far edge of the right foot would pull, so it is left
+        // out.
         let mut out = [false; 8];
         let at = vec3(0.05, 0.1, 0.0);
         s.set_unilateral(&points, &ratio, &mut out, |p| {

@@ -168,7 +168,7 @@ pub(crate) fn mannequin() -> Body {
     body
 }
 
-/// Joint torques that a person of this size can give, N·m (constant; strength curves are tested elsewhere).
+/// Joint torques of a person of this size, N·m (constant; strength curves are tested elsewhere).
 pub(crate) fn strength(scale: f64) -> ([f64; DOF_COUNT], [f64; DOF_COUNT]) {
     let mut upper = [60.0; DOF_COUNT];
     for s in 1..SEGMENT_COUNT {
@@ -221,7 +221,7 @@ pub(crate) fn on_floor(body: &Body, mut posture: Posture) -> Posture {
     posture
 }
 
-/// Random joint angles within limits and random rates; feet wherever they come to be.
+/// Random joint angles within limits and random rates; the feet may be anywhere.
 pub(crate) fn random_state(body: &Body, rng: &mut Rng, spread: f64, rate: f64) -> State {
     let mut state = standing(body);
     let step: [f64; NV] = std::array::from_fn(|_| spread * rng.unit());
@@ -232,7 +232,7 @@ pub(crate) fn random_state(body: &Body, rng: &mut Rng, spread: f64, rate: f64) -
 }
 
 /// A random posture near standing whose feet stay flat on the floor: only joints above the hips differ, and the pelvis
-/// keeps still.
+/// stays still.
 pub(crate) fn random_stance(body: &Body, rng: &mut Rng, spread: f64, rate: f64) -> State {
     let mut state = standing(body);
     let mut step = [0.0; NV];

@@ -31,7 +31,7 @@ fn standing_figure_has_two_supports_with_equal_ratios() {
             .iter()
             .all(|p| p.support == L_FOOT || p.support == R_FOOT)
     );
-    // Toes that touch with their foot are no support: they count with it.
+    // Toes that touch together with their foot are not a separate support: they count with the foot.
     let is_support = |segment| s.points().iter().any(|p| p.support == segment);
     assert!(is_support(L_FOOT) && !is_support(L_TOES));
     assert!((s.ratio()[L_FOOT.index()] - 0.5).abs() < 1e-12);
@@ -39,7 +39,7 @@ fn standing_figure_has_two_supports_with_equal_ratios() {
     assert!(s.polygon().has_area());
 }
 
-/// Equation (2) of the paper, on planes of any slope: written with angles, and turned with everything in it.
+/// Equation (2) of the paper, on planes of any slope: once written with angles, and once with the whole scene rotated.
 #[test]
 fn ratios_follow_the_normal_of_each_support() {
     let mut rng = Rng::new(2);
@@ -133,7 +133,7 @@ fn a_hand_stops_the_rotation_that_would_push_it_into_what_it_rests_on() {
         assert!(!stopped(-0.3, front), "backward, away from it");
     }
     assert!(!stopped(0.3, &behind) && stopped(-0.3, &behind));
-    // Only what turns about the edge counts, and nothing that stays.
+    // Only rotation about the edge counts; a part that does not move is not blocked.
     assert!(!is_stopped(
         &edge,
         vec3(0.3, 0.0, 0.5),
@@ -143,7 +143,7 @@ fn a_hand_stops_the_rotation_that_would_push_it_into_what_it_rests_on() {
     assert!(!is_stopped(&edge, Vec3::Y, std::iter::empty()));
 }
 
-/// Equation (2) of the paper: a rest is a support like any other, to share and to be reported.
+/// Equation (2) of the paper: a rest is a support like any other; it shares the reaction and is reported.
 #[test]
 fn what_it_rests_on_shares_the_reaction() {
     let (t, mut s) = supported(&standing(&mannequin()));
@@ -269,7 +269,7 @@ fn force_is_mass_times_com_acceleration_minus_gravity() {
     }
 }
 
-/// What the shank does to the right foot (with its toes), from Newton's and Euler's equations of all *other* segments.
+/// Load of the shank on the right foot (with its toes), from Newton's and Euler's equations of all *other* segments.
 fn foot_load(links: &Links, t: &Terms, a: &[f64; NV], foot: &[usize]) -> FootLoad {
     let shank_end = t.segment_position(foot[0]);
     // Momentum rates of each segment by its point accelerations.
@@ -301,7 +301,7 @@ fn foot_load(links: &Links, t: &Terms, a: &[f64; NV], foot: &[usize]) -> FootLoa
     let spin_rate = foot
         .iter()
         .fold(Vec3::zero(), |sum, s| sum + rates(*s, com).1);
-    // The rest of the body is carried by the foot alone: ground reaction of the others is what the ankle passes on.
+    // The foot alone carries the rest of the body, so the ankle transmits the ground reaction of all other segments.
     let (mut force, mut moment) = (Vec3::zero(), Vec3::zero());
     for s in (0..SEGMENT_COUNT).filter(|s| !foot.contains(s)) {
         let (rate, l, c) = rates(s, shank_end);
@@ -387,8 +387,8 @@ fn a_tilted_figure_pivots_on_what_touches() {
 #[test]
 fn a_corner_that_would_sink_holds_the_rotation() {
     // The figure leans far out over the right edge and slightly over the front one. About the corner alone it would
-    // turn mostly to the right, which takes the front-left corner up and the back-right one down or up with the way it
-    // leans.
+    // turn mostly to the right, which lifts the front-left corner and moves the back-right corner down or up, depending
+    // on the direction of the lean.
     let body = mannequin();
     let t = terms(&body, &standing(&body));
     let (f, n) = t.ground_wrench(&[0.0; NV]);

@@ -6,10 +6,10 @@ use crate::dynamics::Terms;
 use crate::math::dense::solve_up_to_2;
 use crate::math::{Vec3, vec3::vec3};
 
-/// A corner that goes down faster than this holds the rotation, m/s.
+/// A corner that moves down faster than this blocks the rotation, m/s.
 const BLOCKED: f64 = 1e-9;
 
-/// Where a support tips, and about which axes.
+/// The point at which a support tips, and the axes about which it does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pivot {
     /// The minimum-moment point, world, m.
@@ -45,7 +45,7 @@ impl Pivot {
             .iter()
             .fold(Vec3::zero(), |s, u| s + *u * u.dot(w))
     }
-    /// Distance of a point from what stays on the floor: the edge line, or the vertex, m.
+    /// Distance of a point from the part that stays on the floor, which is the edge line or the vertex, m.
     pub fn distance(&self, p: Vec3) -> f64 {
         let mut r = p - self.point;
         if self.count == 1 {
@@ -56,10 +56,10 @@ impl Pivot {
 }
 
 /// The pivot of a figure whose zero-moment point, evaluated with the support at rest, is `zmp`; `None` if the support
-/// holds still.
+/// does not move.
 ///
 /// Outside the polygon the pivot is its closest point (minimum-moment point). On an edge or a vertex the figure is
-/// tilted already, and it pivots on what touches, whichever side the zero-moment point is.
+/// already tilted, and pivots on the touching edge or vertex, on whichever side the zero-moment point lies.
 ///
 /// Repair S1.
 pub fn pivot(polygon: &Polygon, zmp: Vec3) -> Option<Pivot> {
@@ -76,7 +76,7 @@ pub fn pivot(polygon: &Polygon, zmp: Vec3) -> Option<Pivot> {
 }
 
 /// As [`pivot`], for support `s` of the state in `terms`: a rotation about a vertex that would push a neighbouring
-/// corner into the floor is held by that corner, so that the edge between the two remains.
+/// corner into the floor is blocked by that corner, so that only rotation about the edge between the two remains.
 ///
 /// * `force`, `moment` (about the world origin): the ground wrench that the accelerations with the support *at rest*
 ///   would need; its zero-moment point is `zmp`.
@@ -107,7 +107,7 @@ pub fn unblocked_pivot(
     Some(out)
 }
 
-/// True if a rotation about the pivot would push a part into something that it rests on: a hand on a wall or a table
+/// Whether a rotation about the pivot would push a part into something that it rests on. A hand on a wall or a table
 /// stops the rotation about the foot's edge (figure 3 of the paper).
 ///
 /// * `spin`: angular velocity that the support is about to have, rad/s. Only its part along the free axes counts.

@@ -15,12 +15,12 @@ pub fn zmp(force: Vec3, moment: Vec3) -> Option<Vec3> {
     zmp_above(LEAST_NORMAL_FORCE, force, moment).filter(|z| z.is_finite())
 }
 
-/// [`zmp`] of a ground that has to push by more than `least`, N; forces that are not finite have none that is.
+/// [`zmp`] for a ground that must push with more than `least`, N. Forces that are not finite give no finite point.
 pub fn zmp_above(least: f64, force: Vec3, moment: Vec3) -> Option<Vec3> {
     (force.z > least).then(|| vec3(-moment.y / force.z, moment.x / force.z, 0.0))
 }
 
-/// What acts on a supporting foot besides the ground, and how the foot itself moves. World axes.
+/// Forces on a supporting foot other than the ground's, and the motion of the foot itself. World axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FootLoad {
     /// Ankle, m.
@@ -39,9 +39,9 @@ pub struct FootLoad {
     pub spin_rate: Vec3,
 }
 
-/// Force and moment about `point` that the ground must give one foot, Eq. (3).
+/// Force and moment about `point` that the ground must exert on one foot, Eq. (3).
 ///
-/// n₀ = n₁ + l₀₁×f₁ + l_g×f_g is the moment that presses on the ground; what the ground returns is −n₀ plus the foot's
+/// n₀ = n₁ + l₀₁×f₁ + l_g×f_g is the moment that presses on the ground; the ground's reaction is −n₀ plus the foot's
 /// own inertial terms, which the paper leaves out because its foot holds still.
 ///
 /// * `gravity`: magnitude, m/s².

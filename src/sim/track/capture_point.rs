@@ -1,4 +1,4 @@
-//! The capture point and where to step so that its error is gone when the foot lands.
+//! The capture point, and the foothold that removes its error when the foot lands.
 //!
 //! The body is a linear inverted pendulum of height `z` about the zero-moment point `p`: `c̈ = ω²(c − p) + a` with
 //! `ω² = (g + z̈)/z` and the acceleration `a` by outside forces. Its unstable part is the capture point `ξ = c + ċ/ω`
@@ -7,12 +7,12 @@
 //! `ξ(t) = p + (ξ − p) e^{ωt}`.
 //!
 //! The error `e = ξ − ξ_ref` against the motion's is driven out by `p = p_ref + (1 + k) e` as far as the support
-//! allows. That takes care of a part `d` of it; `(e − d) e^{ωt} + d` is left at the touch-down in `t` seconds.
+//! allows. That removes a part `d` of it; `(e − d) e^{ωt} + d` remains at the touch-down in `t` seconds.
 //!
-//! A foothold displaced by `δ` takes the plan along, but not the foot that stands behind. While the weight passes on,
-//! the zero-moment point is off the plan's by `−δ` times the share that the foot behind still carries. If that falls
-//! evenly from all to nothing in the double support `D`, an error `e` at the touch-down is gone at the end of `D` with
-//! `δ = e x/(1 − e^{−x})`, `x = ωD` ([`Capture::displacement_gain`]).
+//! A foothold displaced by `δ` moves the plan, but not the foot that stands behind. While the weight shifts forward,
+//! the zero-moment point differs from the plan's by `−δ` times the share that the foot behind still carries. If that
+//! share falls evenly from one to zero in the double support `D`, an error `e` at the touch-down is gone at the end of
+//! `D` with `δ = e x/(1 − e^{−x})`, `x = ωD` ([`Capture::displacement_gain`]).
 
 use super::filter_gain;
 use super::foot_places::{FootPlace, turn};
@@ -33,7 +33,7 @@ use crate::plan::params::common::ZMP_INSET;
 use crate::support::Polygon;
 use serde::{Deserialize, Serialize};
 
-/// Corners that a support polygon has room for.
+/// Capacity for corners of a support polygon.
 const CORNERS: usize = 64;
 
 /// The capture point against the motion's. Points and directions are horizontal, world axes.
@@ -41,7 +41,7 @@ const CORNERS: usize = 64;
 pub struct Capture {
     /// Error `e` of the capture point, m.
     pub error: [f64; 2],
-    /// Part `d` of it that the zero-moment point can take care of, m.
+    /// Part `d` of it that the zero-moment point can remove, m.
     handled: [f64; 2],
     /// Frequency `ω` of the pendulum, 1/s.
     omega: f64,
@@ -62,13 +62,13 @@ pub struct Capture {
     kin: Kinematics<f64>,
 }
 
-/// Share of the way to a new foothold in `dt` seconds.
+/// Filter gain towards a new foothold in `dt` seconds.
 pub(super) fn smoothing(dt: f64) -> f64 {
     filter_gain(dt, SMOOTHING_TIME)
 }
 
 impl Capture {
-    /// For figures with this body.
+    /// A capture point for figures with this body.
     pub fn new(body: &Body) -> Self {
         Self {
             error: [0.0; 2],
@@ -84,7 +84,7 @@ impl Capture {
         }
     }
 
-    /// Adds what follows from the body to what was read from a checkpoint.
+    /// Adds the values that follow from the body, after reading from a checkpoint.
     pub(super) fn complete(&mut self, body: &Body) {
         self.links = Links::new(body);
     }
@@ -100,7 +100,7 @@ impl Capture {
         })
     }
 
-    /// The capture point of a motion as it is planned, which is without loads, m.
+    /// The capture point of a planned motion, which carries no loads, m.
     pub(super) fn point_of(&mut self, target: &Target) -> [f64; 2] {
         let links = &self.links;
         self.kin.set_posture(links, &target.posture);
@@ -114,10 +114,10 @@ impl Capture {
     /// Updates outside forces and angular momentum.
     ///
     /// * `planned`: angular momentum of the motion, N·m·s, if the body's counts. Pushes seldom go through the centre of
-    ///   mass. A body that gives up the angular momentum `L` that it got pays with the capture point, because about the
-    ///   foot angular momentum is kept: `Δξ = (L_y, −L_x)/(m z ω)`.
-    /// * `steps`: a body that steps goes with a push; one that stands gives way with its trunk until the push is over,
-    ///   so outside forces do not count for it.
+    ///   mass. When a body gives up the angular momentum `L` that it received, its capture point moves, because angular
+    ///   momentum about the foot is conserved: `Δξ = (L_y, −L_x)/(m z ω)`.
+    /// * `steps`: a stepping body moves with a push. A standing body yields with its trunk until the push is over, so
+    ///   outside forces are ignored for it.
     pub(super) fn update_disturbance(&mut self, terms: &Terms, planned: Option<Vec3>, steps: bool) {
         self.momentum_offset = [0.0; 2];
         if let Some(planned) = planned {
@@ -129,7 +129,7 @@ impl Capture {
             let per = 1.0 / (terms.mass * terms.com.z.max(LEAST_HEIGHT) * self.omega);
             self.momentum_offset = [(of(1) - planned.y) * per, (planned.x - of(0)) * per];
         }
-        // `M v̇ + h` is what the floor gives; the rows of the force in `h` hold the outside forces.
+        // `M v̇ + h` is the floor's force; the force rows of `h` contain the outside forces.
         let (bias, h) = (terms.com_bias, &terms.h);
         let pushed = [bias.x - h[3] / terms.mass, bias.y - h[4] / terms.mass];
         self.disturbance = if steps { pushed } else { [0.0; 2] };
@@ -211,7 +211,7 @@ impl Capture {
         let planned = [r.x - ff.x / w2, r.y - ff.y / w2];
         self.inner.set_inset(polygon, ZMP_INSET);
         let can = self.within(std::array::from_fn(|k| planned[k] + (1.0 + GAIN) * e[k]));
-        // What the zero-moment point takes care of lies along the error, and is at most all of it.
+        // The part that the zero-moment point removes lies along the error, and is at most the whole error.
         let along = (can[0] - planned[0]) * e[0] + (can[1] - planned[1]) * e[1];
         let share = (along / (e[0] * e[0] + e[1] * e[1]).max(1e-12)).clamp(0.0, 1.0);
         self.handled = e.map(|x| share * x);
@@ -238,17 +238,18 @@ impl Capture {
         self.within(self.point)
     }
 
-    /// How far the capture point is inside the hull of `points`, m.
+    /// Distance of the capture point inside the hull of `points`, m.
     pub(super) fn margin(&mut self, points: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
         self.stance.set_hull(points);
         self.stance.closest(self.point).map(|c| c.margin)
     }
 
     /// The wanted acceleration `a` of the centre of mass (m/s²) with its zero-moment point brought back into the
-    /// support, because what lies beyond would only turn the trunk; its horizontal part. `None` without a support.
+    /// support, because a point beyond it would only turn the trunk. Returns the horizontal part. `None` without a
+    /// support.
     ///
-    /// `momentum_rate`, N·m, is the rate of the motion's angular momentum. A leg that is braked before it lands moves
-    /// the zero-moment point by centimetres.
+    /// `momentum_rate`, N·m, is the rate of the motion's angular momentum. It matters because a leg that brakes before
+    /// it lands moves the zero-moment point by centimetres.
     pub(super) fn feasible(
         &self,
         terms: &Terms,
@@ -273,11 +274,11 @@ impl Capture {
         Some(std::array::from_fn(|k| w2 * (middle[k] - p[k]) + push[k]))
     }
 
-    /// By how much a foothold is to be displaced for each metre of error at its touch-down, so that the error is gone
-    /// after the `double_support` (s) that follows: after the touch-down `ė = ω (e + δ (1 − t/D))` from `e − δ`.
+    /// Displacement of a foothold per metre of error at its touch-down, such that the error is gone after the following
+    /// `double_support` (s): after the touch-down `ė = ω (e + δ (1 − t/D))` from `e − δ`.
     pub(super) fn displacement_gain(&self, double_support: f64) -> f64 {
         let x = self.omega * double_support;
-        // Nearer to 0 the quotient, which tends to 1, loses its digits.
+        // Closer to 0 the quotient, which tends to 1, loses its digits.
         if x > f64::EPSILON.sqrt() {
             x / (1.0 - exp(-x))
         } else {
@@ -285,7 +286,7 @@ impl Capture {
         }
     }
 
-    /// Error that is left after `remaining` seconds of swing, m.
+    /// Error that remains after `remaining` seconds of swing, m.
     pub fn left_over(&self, remaining: f64) -> [f64; 2] {
         let grows = exp(self.omega * remaining.min(LONGEST_FORECAST));
         std::array::from_fn(|k| {
@@ -295,8 +296,8 @@ impl Capture {
     }
 }
 
-/// Limits the displacement `d` (m) of the foothold `home` of foot `side` to what a leg can do beside the stance foot,
-/// whose ankle is at `stance`. `shorter`: by how much the step may get shorter along its heading, m.
+/// Limits the displacement `d` (m) of the foothold `home` of foot `side` to the reach of a leg beside the stance foot,
+/// whose ankle is at `stance`. `shorter`: largest reduction of the step along its heading, m.
 ///
 /// A displacement to the side is limited by the separation of the feet. A larger one may bring the foot closer, and
 /// across the stance foot, because most pushes to the side cannot be caught otherwise; the foothold then lies before or
@@ -319,7 +320,7 @@ pub(super) fn within_reach(
     } else {
         local.x.clamp(-shorter, REACH_ALONG)
     };
-    // A step that the plan itself crosses with may cross.
+    // If the planned step itself crosses, crossing is allowed.
     let least = (SEPARATION - pressed).min(planned.y * outward);
     let away = (planned.y + local.y) * outward;
     if away < least {
@@ -387,7 +388,7 @@ mod tests {
         let home = Vec3::X * 0.6 + Vec3::Y * 0.2;
         let ahead = |d: f64, shorter: f64| {
             let at = |home| within_reach([d, 0.0], place(home), Vec3::zero(), 0, shorter)[0];
-            // A step backwards gets shorter forwards.
+            // A backward step gets shorter in the forward direction.
             let back = Vec3 { x: -home.x, ..home };
             let mirrored = within_reach([-d, 0.0], place(back), Vec3::zero(), 0, shorter)[0];
             assert!((at(home) + mirrored).abs() < 1e-15);
@@ -400,7 +401,7 @@ mod tests {
 
     #[test]
     fn a_step_that_the_plan_crosses_with_goes_where_it_catches_the_body() {
-        // In a turn on the right foot the left one lands 36 cm to its right.
+        // In a turn on the right foot, the left foot lands 36 cm to the right of it.
         for ahead in [-0.2, -0.03, 0.03, 0.2] {
             let home = Vec3 {
                 x: ahead,
@@ -416,7 +417,7 @@ mod tests {
                 );
             }
         }
-        // One that does not lands beside the other foot, or passes it.
+        // A step that does not cross lands beside the other foot, or passes it.
         let home = Vec3::Y * 0.15 + Vec3::X * 0.05;
         let at = within_reach([0.0, -0.2], place(home), Vec3::zero(), 0, REACH_ALONG);
         let (x, y) = (home.x + at[0], home.y + at[1]);

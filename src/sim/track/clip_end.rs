@@ -1,4 +1,4 @@
-//! Stop after a motion that ends while the figure moves, or that is broken off: the step under way is finished, and the
+//! Stops after a motion that ends while the figure moves, or that is broken off. The present step is completed, and the
 //! last posture turns into standing at ease.
 
 use super::foot_places::{FootPlaces, middle};
@@ -13,10 +13,10 @@ use crate::math::curve::smoothstep;
 use crate::motion::{Target, TargetPair};
 use serde::{Deserialize, Serialize};
 
-/// How a figure comes to a stand.
+/// State of a figure that is coming to a stand.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Stop {
-    /// Last posture of the clip, as the map to the world puts it into place.
+    /// Last posture of the clip, as mapped to the world.
     from: Posture,
     /// Time since the end of the clip, s.
     since: f64,
@@ -48,19 +48,19 @@ impl StepTracker {
         self.is_stopping().then_some(&self.legs.at_ease)
     }
 
-    /// True from the end of a clip that ended in motion until the figure, whose centre of mass moves at `com_velocity`
-    /// (m/s), has settled.
+    /// Whether a clip has ended in motion and the figure, whose centre of mass moves at `com_velocity` (m/s), has not
+    /// yet settled.
     pub fn comes_to_stand(&self, com_velocity: Vec3) -> bool {
         self.is_stopping() && !self.is_settled(com_velocity)
     }
 
-    /// True from the end of a clip that ended in motion until another motion begins.
+    /// Whether a clip has ended in motion and no other motion has begun since.
     pub(super) fn is_stopping(&self) -> bool {
         self.followed.as_ref().is_some_and(|f| f.stop.is_some())
     }
 
-    /// Breaks off a motion that steps, in `last`, the posture that it has now (world): no step of it is to come, and
-    /// the figure comes to a stand where it is. Returns the posture of that stand (world).
+    /// Breaks off a stepping motion at `last`, its present posture (world). None of its later steps is made, and the
+    /// figure comes to a stand in place. Returns the posture of that stand (world).
     pub fn break_off(&mut self, terms: &Terms, last: &Posture) -> Posture {
         let mut planned = *last;
         self.anchor
@@ -76,13 +76,13 @@ impl StepTracker {
         stand
     }
 
-    /// Turns the motion into standing, because it is over while the figure still moves. The step under way is finished
-    /// as a recovery step for this `purpose`; more are made if the capture point asks for them.
+    /// Turns the motion into standing, because it is over while the figure still moves. The present step is completed
+    /// as a recovery step with this `purpose`, and more steps follow if the capture point requires them.
     pub(super) fn begin_stop(&mut self, terms: &Terms, last: &Posture, purpose: Purpose) {
         let now = self.places(terms);
         let poses = self.capture.feet(&self.legs.at_ease);
         let home: FootPlaces = std::array::from_fn(|k| self.place_of(k, poses[k]));
-        // The figure comes to stand at the foot that the body moves over, heading where both feet head.
+        // The figure comes to a stand at the foot over which the body moves, with the mean heading of both feet.
         let xi = self.capture.point();
         let far = |k: usize| (now[k].at - Vec3::on_floor(xi)).level();
         let side = self.only_stance();
@@ -92,7 +92,7 @@ impl StepTracker {
             (home[side].at, middle(&home).yaw),
             (now[side].at, middle(&now).yaw),
         );
-        // The same posture in the same place of the world, in coordinates of the new anchor.
+        // Express the same posture at the same place in the world in coordinates of the new anchor.
         let mut from = *last;
         let change = self.anchor.transform().power(-1.0).after(before);
         change.apply_posture(&mut from);

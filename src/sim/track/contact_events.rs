@@ -1,8 +1,8 @@
 //! Contact by events: a foot is down when it touches the floor, not when the clock says so.
 //!
-//! The plan's time goes on at a rate between 0 and [`FASTEST_RATE`]. It waits for a foot that is to be down and finds
-//! no floor, it catches up after a foot that landed early, and in the air it adapts to the time of fall. A stream
-//! cannot wait for its figure, nor run ahead of what has come: its rate is at least 1, and more only while the figure
+//! The plan's time advances at a rate between 0 and [`FASTEST_RATE`]. It waits for a foot that should be down but finds
+//! no floor, catches up after a foot that landed early, and adapts to the time of fall in the air. A stream cannot wait
+//! for its figure, nor run ahead of the frames received, so its rate is at least 1, and exceeds 1 only while the figure
 //! is behind.
 
 use super::params::contact::{
@@ -15,7 +15,7 @@ use crate::dynamics::Terms;
 use crate::motion::Target;
 
 impl StepTracker {
-    /// Lifts feet when planned and plants them when they touch. Returns the rate at which the plan goes on. `sample`:
+    /// Lifts feet when planned and plants them when they touch. Returns the rate at which the plan advances. `sample`:
     /// the motion now.
     pub(super) fn update_contacts(
         &mut self,
@@ -31,7 +31,7 @@ impl StepTracker {
             (1.0, FASTEST_RATE)
         };
         if live && let Some(side) = self.recovery.support.foot() {
-            // The foot came down before its turn. If that has come and the foot still stands, this was its step.
+            // The foot came down early. If its time has come and it still stands, this was its step.
             if self.recovery_step().is_none()
                 && let Some(f) = self.planned(side)
             {
@@ -84,7 +84,7 @@ impl StepTracker {
                     }
                 }
                 None if foot.down => {
-                    // Not before the other foot, which is due, has landed.
+                    // Wait until the other foot, which is due, has landed.
                     if self.feet[other].down || self.planned(other).is_none() {
                         self.feet[side].lift(self.clock.phase);
                         lifted[side] = true;
@@ -121,8 +121,8 @@ impl StepTracker {
         pace.map_or(rate, |pace| rate.min(pace))
     }
 
-    /// True if the plan has foot `side`, which landed early, down so soon that catching up would only jolt the body. A
-    /// plan that flies on has no time to lose for its next flight.
+    /// Whether the plan has foot `side`, which landed early, down so soon that catching up would only jolt the body.
+    /// Not before another flight, for which no time can be lost.
     fn is_due(&self, side: usize) -> bool {
         let flies_on = |p: &StepPlan, f: &Footfall| p.next_flight(f.on).is_some();
         self.next(side).is_some_and(|f| {
@@ -130,9 +130,9 @@ impl StepTracker {
         })
     }
 
-    /// Rate at which a jump goes on in the air, so that its feet are ready to land when the body comes down: earlier
-    /// than planned after a take-off that was too slow. The legs of a runner swing all the time; accelerated, they
-    /// would turn the trunk, so a plan whose feet leave one after the other keeps its rate.
+    /// Rate at which a jump plays in the air, so that its feet are ready when the body lands, which is earlier than
+    /// planned if the take-off was too slow. The legs of a runner never stop swinging, and accelerating them would turn
+    /// the trunk, so a plan whose feet leave one after the other keeps its rate.
     ///
     /// The body falls from its height `h` above the motion's with speed `v`: `v t − g t²/2` is the height of the
     /// landing at the real time `t`.

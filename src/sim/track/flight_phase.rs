@@ -7,19 +7,19 @@ use serde::{Deserialize, Serialize};
 /// The next flight phase of the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Flight {
-    /// Time until no foot is to be on the floor, s.
+    /// Time until the planned lift-off of the last foot, s.
     pub after: f64,
     /// World time of its middle, if nothing delays the plan, s.
     pub middle: f64,
 }
 
 impl StepTracker {
-    /// True if no foot is on the floor.
+    /// Whether no foot is on the floor.
     pub(super) fn is_airborne(&self) -> bool {
         self.feet.iter().all(|foot| !foot.down)
     }
 
-    /// True if the plan is about to jump from a stand: the body then falls towards its landing while both feet stay.
+    /// Whether the plan is about to jump from a stand; the body then falls towards its landing while both feet stay.
     pub(super) fn leans_to_jump(&self) -> bool {
         let next_flight = |plan: &StepPlan| plan.next_flight(self.clock.phase);
         let stands = !self.is_stopping() && !self.recovers();
@@ -27,7 +27,7 @@ impl StepTracker {
         take_off.is_some_and(|(off, _)| self.until(off) < LEANING_TIME)
     }
 
-    /// The next flight phase, if it is announced by now.
+    /// The next flight phase, if it has been announced.
     pub fn next_flight(&self) -> Option<Flight> {
         self.events.flight
     }

@@ -1,4 +1,4 @@
-//! Places of feet: where they stand, where the plan has them, and which points they stand on.
+//! Places of feet: their actual and planned places, and the points on which they stand.
 
 use super::params::contact::TOUCH_HEIGHT;
 use super::{Footfall, Legs, StepTracker};
@@ -40,8 +40,8 @@ pub(super) fn turn(yaw: f64) -> Quat {
     Quat::exp(Vec3::Z * yaw)
 }
 
-/// Touching points, on the floor, of the foot that stands while `side` swings. The swinging foot carries nothing any
-/// more, even while it still touches.
+/// Touching points, on the floor, of the foot that stands while `side` swings. The swinging foot no longer carries
+/// anything, even while it still touches.
 pub(super) fn stance_points(support: &Support, side: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
     let stance = [FEET[1 - side], TOES[1 - side]];
     let points = support.points().iter();
@@ -73,13 +73,13 @@ impl Legs {
 }
 
 impl StepTracker {
-    /// Where the feet stand: the middle between them (world, m) and the mean of their headings, rad.
+    /// The stance of the feet: the middle between them (world, m) and the mean of their headings, rad.
     pub fn stance(&self, placement: &Placement) -> (Vec3, f64) {
         let FootPlace { at, yaw } = middle(&self.places(placement));
         (at, yaw)
     }
 
-    /// The same of a posture.
+    /// The stance of the feet in a posture.
     pub fn stance_of(&self, body: &Body, posture: &Posture) -> (Vec3, f64) {
         let poses = forward(body, posture);
         let places = std::array::from_fn(|k| self.place_of(k, poses[FEET[k].index()]));
@@ -93,7 +93,7 @@ impl StepTracker {
         FootPlace { at: place, yaw }
     }
 
-    /// Where the feet are.
+    /// Places of the feet.
     pub(super) fn places(&self, placement: &Placement) -> FootPlaces {
         [0, 1].map(|side| {
             let s = FEET[side].index();
@@ -102,7 +102,7 @@ impl StepTracker {
         })
     }
 
-    /// Where the desired motion has them.
+    /// Places of the feet in the desired motion.
     pub(super) fn planned_places(&self, feet: &[FootTarget; 2]) -> FootPlaces {
         std::array::from_fn(|k| self.place_of(k, (feet[k].ankle.now, feet[k].rotation.now)))
     }
@@ -115,12 +115,12 @@ impl StepTracker {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// True if a sole touches the floor.
+    /// Whether a sole touches the floor.
     pub(super) fn touches(&self, terms: &Terms, side: usize) -> bool {
         self.lowest(terms, side) < TOUCH_HEIGHT
     }
 
-    /// A foothold of the plan where the origin of the plan puts it.
+    /// A foothold of the plan, placed by the origin of the plan.
     pub(super) fn placed(&self, f: &Footfall) -> FootPlace {
         let origin = self.followed.as_ref().map(|f| f.origin).unwrap_or_default();
         FootPlace {
@@ -129,7 +129,7 @@ impl StepTracker {
         }
     }
 
-    /// The same as it lies in the world now.
+    /// A foothold of the plan, as the map places it in the world now.
     pub(super) fn mapped(&self, f: &Footfall) -> FootPlace {
         let placed = self.placed(f);
         FootPlace {

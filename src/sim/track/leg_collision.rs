@@ -1,9 +1,9 @@
-//! The stance leg as an obstacle: where a foot may land beside, before and behind it, and how far from it a foot swings
-//! that is led across.
+//! The stance leg as an obstacle: where a foot may land beside, before and behind it, and how much clearance a crossing
+//! foot keeps.
 //!
-//! Seen from the standing ankle, `x` ahead and `y` to the side of the foot that swings, a strip must be kept free:
-//! nearer than some distance to that side, and so the whole other side, unless far enough before or behind. Legs that
-//! cross do so the higher the further across, so they have to be the further apart along `x`.
+//! Seen from the standing ankle, with `x` ahead and `y` towards the side of the swinging foot, the swinging foot must
+//! keep a minimum distance in `y`. The whole far side is blocked too, unless the foot is far enough before or behind.
+//! The further a leg crosses, the higher up the legs cross, so the further apart they must be along `x`.
 
 use super::foot_places::{FootPlace, turn};
 use super::params::leg_collision::{
@@ -22,7 +22,7 @@ pub(super) struct StanceLeg {
     outward: f64,
     /// Least distance of the ankles side by side, m.
     distance: f64,
-    /// Share of the avoidance that is done.
+    /// Share of the avoidance that is applied.
     share: f64,
 }
 
@@ -37,8 +37,8 @@ impl StanceLeg {
         }
     }
 
-    /// The same for a foot whose foothold is displaced by `shift`, and that was `release` away from the clip at
-    /// lift-off; the clip has it at `clip` now. `None` if it is not led across.
+    /// The stance leg for a foot whose foothold is displaced by `shift`, and that was `release` away from the clip at
+    /// lift-off; `clip` is its present place in the clip. `None` if the foot does not cross.
     pub(super) fn crossed(self, shift: Vec3, release: Vec3, clip: Vec3) -> Option<Self> {
         let inward = |v: Vec3| -self.local(self.place.at + v).1;
         let across = inward(shift).max(inward(release));
@@ -56,7 +56,7 @@ impl StanceLeg {
         (p.x, p.y * self.outward)
     }
 
-    /// Depth of an ankle at `p` with velocity `v` inside the room that the leg needs, m; negative outside.
+    /// Depth of an ankle at `p` with velocity `v` inside the space that the leg needs, m; negative outside.
     pub(super) fn depth(&self, p: Vec3, v: Vec3) -> f64 {
         let beyond = |d: f64| 0.5 * (d + (d * d + ROUNDING * ROUNDING).sqrt());
         let (x, y) = self.local(p);
@@ -74,8 +74,8 @@ impl StanceLeg {
     }
 }
 
-/// The foothold nearest to `(x, y)` from which a leg does not go through the other one: `beside` it (m), or else before
-/// or behind it, where it already is.
+/// The foothold nearest to `(x, y)` at which the legs do not intersect: `beside` the other foot (m), or else before or
+/// behind it, on whichever end it already is.
 pub(super) fn foothold((x, y): (f64, f64), beside: f64) -> (f64, f64) {
     let (least, slant) = (CROSSED_LENGTH, CROSSED_SLANT);
     let ahead = if x > 0.0 { 1.0 } else { -1.0 };
@@ -83,7 +83,7 @@ pub(super) fn foothold((x, y): (f64, f64), beside: f64) -> (f64, f64) {
     if y >= beside || short <= 0.0 {
         return (x, y);
     }
-    // Onto the slanted edge, or to the side, whichever is nearer.
+    // Move it onto the slanted edge or to the side, whichever is nearer.
     let n = 1.0 + slant * slant;
     let moved = (x + ahead * short / n, y + slant * short / n);
     if beside - y <= short / n.sqrt() {
@@ -143,7 +143,7 @@ mod tests {
             let p = at(x);
             let moved = p + stance.aside(p, Vec3::zero(), 1.0, 0.0);
             assert!((moved.y + SWING_DISTANCE).abs() < 0.02, "{x}: {moved:?}");
-            // A foot that was in the way when it lifted off gets out of it gradually.
+            // A foot that was inside at lift-off moves out gradually.
             let depth = stance.depth(p, Vec3::zero());
             assert!(stance.aside(p, Vec3::zero(), 0.0, depth).norm() < 1e-12);
         }

@@ -1,19 +1,19 @@
-//! Footstep tracking: a plan of stances is followed by a body whose feet land early, late and elsewhere.
+//! Footstep tracking: a body whose feet land early, late and elsewhere follows a plan of stances.
 //!
 //! **Given** are a [`StepPlan`] (when and where feet stand), the motion at any time of the plan, and the state of the
-//! body. **Sought** are, in each tick,
+//! body. **Computed** in each tick are
 //!
 //! * the time `φ` of the plan, which follows contact events instead of the clock: it waits for a foot that is late, and
 //!   catches up after one that is early ([`contact_events`]);
 //! * the map from the plan to the world, anchored at the last foothold ([`planned_to_world`]);
 //! * displacements of the next footholds, such that the error `e = ξ − ξ_ref` of the capture point `ξ = c + ċ/ω` is
 //!   gone when the foot lands ([`capture_point`], [`step_timing`], [`swing`]);
-//! * steps that no plan has, when balance is lost or feet are misplaced ([`step_decision`], [`recovery_step`],
+//! * unplanned steps, when balance is lost or feet are misplaced ([`step_decision`], [`recovery_step`],
 //!   [`support_recovery`]);
 //! * the horizontal acceleration of the centre of mass that keeps the zero-moment point in the support.
 //!
 //! The controller sees targets and contacts only. A clip whose feet never leave the floor passes unchanged, bit for
-//! bit. What was tried, and what it showed: `docs/locomotion.md`.
+//! bit. `docs/locomotion.md` lists the alternatives that were tried, with results.
 
 pub mod capture_point;
 mod clip_end;
@@ -64,7 +64,7 @@ struct Foot {
     down: bool,
     /// Landed before its time; the plan has to catch up.
     early: bool,
-    /// Time for which it has been looking for the floor, s.
+    /// Time for which it has been searching for the floor, s.
     late: f64,
     /// Clip time of its lift-off, s.
     lifted: f64,
@@ -72,7 +72,7 @@ struct Foot {
     release: Vec3,
     /// Displacement of its next foothold, m.
     shift: [f64; 2],
-    /// Depth inside the room of the stance leg at lift-off, m, once it is led around that.
+    /// Depth inside the space of the stance leg at lift-off, m, once the foot is led around that leg.
     initial_depth: Option<f64>,
 }
 
@@ -101,7 +101,7 @@ pub struct Landing {
     pub off: Vec3,
 }
 
-/// What tracking may change in a tick.
+/// The targets that tracking may change in a tick.
 #[derive(Debug)]
 pub struct TaskTargets<'a> {
     /// Desired centre of mass.
@@ -112,7 +112,7 @@ pub struct TaskTargets<'a> {
     pub momentum_rate: Vec3,
     /// Desired ankles and rotations of the feet.
     pub feet: &'a mut [FootTarget; 2],
-    /// True if steps may be made that no plan has.
+    /// Whether unplanned steps may be made.
     pub unplanned_steps: bool,
 }
 
@@ -142,9 +142,9 @@ struct FollowedPlan {
     plan: StepPlan,
     /// Clip seconds per second.
     speed: f64,
-    /// Where the plan lies in the world before any step.
+    /// Place of the plan in the world before any step.
     origin: PlanarTransform,
-    /// How the figure comes to a stand, once the plan has ended in motion.
+    /// The stop, once the plan has ended in motion.
     stop: Option<Stop>,
 }
 
@@ -166,20 +166,20 @@ struct Clock {
     phase: f64,
     /// World time that the plan is behind its schedule, s.
     lag: f64,
-    /// True once contacts are known.
+    /// Whether contacts are known.
     started: bool,
-    /// Speed of the pelvis over the floor as the motion last had it before its end, m/s.
+    /// Last speed of the pelvis over the floor in the motion before its end, m/s.
     last_speed: f64,
 }
 
-/// What happens in this tick, for the report and the controller.
+/// Events of this tick, for the report and the controller.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct TickEvents {
     landing: Option<Landing>,
     flight: Option<Flight>,
 }
 
-/// By how much the centre of mass was above the motion's in the last tick: what a fall from a flight starts from.
+/// Height of the centre of mass above the motion's in the last tick, from which a fall in a flight starts.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct HeightError {
     /// Height above the motion's, m.
@@ -190,13 +190,13 @@ struct HeightError {
     gravity: f64,
 }
 
-/// What keeps or restores balance and stance beside the plan.
+/// Actions beside the plan that keep or restore balance and stance.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Recovery {
     step: UnplannedStep,
-    /// A raised foot that was put down before its time, for which the plan waits.
+    /// A raised foot that was put down early, and for which the plan waits.
     support: SupportRecovery,
-    /// True if a foot is not where the motion has it.
+    /// Whether a foot is not where the motion has it.
     misplaced: bool,
     /// Displacement of the desired centre of mass while a foot is brought back, m.
     shift: Vec3,
@@ -205,7 +205,7 @@ struct Recovery {
 /// Footstep tracking of one figure. Remembers phase and footholds; nothing allocates in a tick.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StepTracker {
-    /// What follows from the body.
+    /// Values that follow from the body.
     #[serde(skip)]
     legs: Legs,
     /// `None` for a motion whose feet never leave the floor.
@@ -237,13 +237,13 @@ impl StepTracker {
         }
     }
 
-    /// Adds what follows from the body to a tracker that was read from a checkpoint.
+    /// Adds the values that follow from the body to a tracker read from a checkpoint.
     pub fn complete(&mut self, body: &Body) {
         self.legs = Legs::of(body);
         self.capture.complete(body);
     }
 
-    /// False if it cannot be what was written into a checkpoint: there are two feet, and times are numbers.
+    /// Whether this value is one that a checkpoint could hold: there are two feet, and times are numbers.
     pub fn is_valid(&self) -> bool {
         let times = [self.clock.phase, self.clock.lag, self.clock.last_speed];
         let follows = |f: &FollowedPlan| {
@@ -264,15 +264,15 @@ impl StepTracker {
     }
 
     /// Follows another motion from the next tick on: a clip with its plan, speed (clip seconds per second) and origin,
-    /// or, without, one whose feet stay where they are.
+    /// or, if `None`, a motion whose feet stay in place.
     pub fn follow(&mut self, plan: Option<(StepPlan, f64, PlanarTransform)>) {
         let steps = plan.filter(|(p, ..)| p.steps());
         self.followed = steps.map(FollowedPlan::new);
         self.reset();
     }
 
-    /// Goes on with another plan, with its speed and origin, in the middle of a motion: feet, places and lag stay. The
-    /// new plan's time 0 is time `begin` (s) of the present one; both origins are in the same coordinates.
+    /// Continues with another plan, with its speed and origin, in the middle of a motion; feet, places and lag stay.
+    /// The new plan's time 0 is time `begin` (s) of the present one; both origins are in the same coordinates.
     pub fn continue_with(&mut self, plan: (StepPlan, f64, PlanarTransform), begin: f64) {
         let (next, speed) = (FollowedPlan::new(plan), self.speed());
         for foot in &mut self.feet {
@@ -282,14 +282,14 @@ impl StepTracker {
         self.recovery.support.end();
     }
 
-    /// Takes over what is known now of the stream that is followed.
+    /// Takes over the present knowledge of the stream that is followed.
     pub fn follow_stream(&mut self, motion: &StreamPlan) {
         if let Some(f) = &mut self.followed {
             f.plan.refresh(motion);
         }
     }
 
-    /// Forgets the past: the motion lies where it was planned.
+    /// Forgets the past, so that the motion is at its planned place.
     pub fn reset(&mut self) {
         self.anchor = Anchor::default();
         self.feet = [Foot::default(); 2];
@@ -302,7 +302,7 @@ impl StepTracker {
         self.timing = StepTiming::default();
     }
 
-    /// The same of a figure that is frozen: what the clock has seen of its motion may not be finite.
+    /// Resets the clock only, for a frozen figure: the values that the clock keeps of the motion may not be finite.
     pub fn reset_clock(&mut self) {
         self.reset();
         self.clock = Clock::default();
@@ -328,24 +328,24 @@ impl StepTracker {
         self.events.landing.as_ref()
     }
 
-    /// The step under way that no plan has.
+    /// The unplanned step under way.
     pub fn recovery_step(&self) -> Option<&RecoveryStep> {
         self.recovery.step.swing()
     }
 
-    /// A direction of the motion as its origin is turned to where the feet are.
+    /// A direction of the motion, turned with its origin to the actual stance.
     pub fn turned(&self, v: Vec3) -> Vec3 {
         turn(self.anchor.yaw()).rotate(v)
     }
 
-    /// True while it follows a motion that steps, if only later; a stream that stands does not.
+    /// Whether it follows a motion with steps, even later ones; a standing stream has none.
     pub fn is_walking(&self) -> bool {
         let clip = |p: &StepPlan| !self.is_stopping() && !p.is_live();
         self.plan().is_some_and(clip) || self.is_stepping()
     }
 
-    /// Distance of the capture point from where a motion that steps has it, or from where that will be with the
-    /// foothold to which a foot is led, m; `None` while the figure follows no such motion.
+    /// Distance of the capture point from its place in a motion with steps, allowing for the foothold to which a foot
+    /// is being led, m; `None` while the figure follows no such motion.
     pub fn off_plan(&self) -> Option<f64> {
         let error = Vec3::on_floor(self.capture.error);
         let swings = self.feet.iter().filter(|foot| !foot.down);
@@ -353,19 +353,19 @@ impl StepTracker {
         (self.is_stepping() || self.leans_to_jump()).then(|| led.fold(self.capture.off(), f64::min))
     }
 
-    /// True while the capture point is where the motion has it.
+    /// Whether the capture point is where the motion has it.
     pub fn is_on_plan(&self) -> bool {
         self.capture.off() < SETTLED_OFFSET
     }
 
-    /// True while it makes planned steps on its way over the floor and is so far off it that those have to change.
+    /// Whether it is making planned steps and is far enough off the plan that they have to change.
     pub fn is_far_off_plan(&self) -> bool {
         let moves = self.clock.last_speed > REST_SPEED && !self.is_airborne();
         self.is_stepping() && moves && self.capture.off() > params::step_timing::ERROR
     }
 
-    /// True if it stands: no step is under way or to come, its feet are where they should be, and the body is slow
-    /// enough and near enough to its place to begin something else.
+    /// Whether it stands: no step is under way or to come, its feet are where they should be, and the body is slow
+    /// enough and near enough to its place to begin another motion.
     ///
     /// * `com_velocity`: of the centre of mass, world axes, m/s.
     pub fn is_settled(&self, com_velocity: Vec3) -> bool {
@@ -378,8 +378,8 @@ impl StepTracker {
             && self.capture.off() < SETTLED_OFFSET
     }
 
-    /// True while planned steps are made: not while a stream stands, nor while the feet of a clip stay for a while, nor
-    /// until an unplanned step is finished.
+    /// Whether planned steps are being made. They are not while a stream stands, while the feet of a clip stay for a
+    /// while, or until an unplanned step is finished.
     fn is_stepping(&self) -> bool {
         let (phase, down) = (self.clock.phase, self.feet[0].down && self.feet[1].down);
         let stands = |p: &StepPlan| {
@@ -393,7 +393,7 @@ impl StepTracker {
         plan.is_some() && !self.is_stopping() && !self.recovers()
     }
 
-    /// True while a step is made that no plan has, or the plan waits for one.
+    /// Whether an unplanned step is being made, or the plan waits for one.
     fn recovers(&self) -> bool {
         self.recovery_step().is_some() || self.recovery.support.is_active()
     }
@@ -403,7 +403,7 @@ impl StepTracker {
     /// * `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as
     ///   planned, at two world times.
     /// * `carried`: stiff motors and a pull keep the figure with its motion. The clock, the lag and the place stay, and
-    ///   what touches does not matter: that is looked up anew afterwards.
+    ///   contacts are ignored; they are looked up again afterwards.
     pub fn targets(
         &mut self,
         time: f64,
@@ -465,9 +465,9 @@ impl StepTracker {
         out
     }
 
-    /// Updates the targets of feet and centre of mass: swinging feet are led to footholds that catch the body, clear of
-    /// the floor, and unplanned steps are begun and led. Returns the horizontal acceleration of the centre of mass that
-    /// balance asks for, m/s²; `None` without a support.
+    /// Updates the targets of feet and centre of mass: swinging feet are led, clear of the floor, to footholds that
+    /// catch the body, and unplanned steps are begun and led. Returns the horizontal acceleration of the centre of mass
+    /// that balance requires, m/s²; `None` without a support.
     pub fn update_tasks(
         &mut self,
         terms: &Terms,
@@ -479,13 +479,13 @@ impl StepTracker {
         let omega = self.capture.omega();
         self.recovery.support.shift_com(tasks.com, omega, dt);
         if self.is_live() {
-            // Balance is kept where the motion goes, not where it still is. Limbs take time to get there, and the error
-            // that this makes must not be driven out over the foot that has just landed.
+            // Keep balance around the place that the motion approaches, not around its present place. Limbs take time
+            // to get there, and the foot that has just landed must not be used to remove the resulting error.
             tasks.com.shift(self.anchor.rest());
         }
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
-        // Angular momentum counts for the timing of steps only.
+        // Angular momentum matters only for the timing of steps.
         let momentum = self.timing.landing.map(|_| tasks.momentum);
         self.capture
             .update_disturbance(terms, momentum, self.is_stepping());
@@ -534,7 +534,7 @@ impl StepTracker {
         )
     }
 
-    /// True if footholds are known in advance: those of a stream are found while it is followed, and those of an
+    /// Whether footholds are known in advance. Those of a stream are found while it is followed, and those of an
     /// unplanned step while it is made.
     pub fn has_planned_footholds(&self) -> bool {
         self.recovery_step().is_none() && self.plan().is_some_and(|p| !p.is_live())
@@ -546,7 +546,7 @@ impl StepTracker {
         (left != right).then(|| usize::from(right))
     }
 
-    /// True while it follows a stream.
+    /// Whether it follows a stream.
     fn is_live(&self) -> bool {
         self.plan().is_some_and(StepPlan::is_live)
     }
@@ -565,7 +565,7 @@ impl StepTracker {
         (t - self.clock.phase) / self.speed()
     }
 
-    /// The stance of a foot that the plan has now.
+    /// The present stance of a foot in the plan.
     fn planned(&self, side: usize) -> Option<Footfall> {
         self.plan()?.current(side, self.clock.phase)
     }
@@ -576,7 +576,7 @@ impl StepTracker {
     }
 }
 
-/// Share of the way to a new value that a first-order filter with time constant `time` (s) goes in `dt` seconds.
+/// Fraction by which a first-order filter with time constant `time` (s) approaches a new value in `dt` seconds.
 fn filter_gain(dt: f64, time: f64) -> f64 {
     1.0 - exp(-dt / time)
 }

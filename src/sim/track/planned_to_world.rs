@@ -1,4 +1,4 @@
-//! The map from the plan to the world: a planar transform that follows the places where feet really landed.
+//! The map from the plan to the world: a planar transform that follows the real footholds.
 //!
 //! A point `p` of the plan lies at `a + R(ψ)(p − q)`: `q` is the last foothold as planned, `a` its place in the world,
 //! `ψ` the turn of the plan. At a touch-down `q` becomes the new foothold, and `a` and `ψ` approach the measured place
@@ -12,7 +12,7 @@ use crate::math::{Vec3, trig};
 use crate::motion::PlanarTransform;
 use serde::{Deserialize, Serialize};
 
-/// The map at one time, and what it approaches.
+/// The map at one time, and the map that it approaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Anchor {
     /// Foothold as planned, m.
@@ -40,7 +40,7 @@ impl Anchor {
         }
     }
 
-    /// What is mapped to `mapped` (world, m) now approaches `real`; the heading stays.
+    /// Lets the image that is now at `mapped` (world, m) approach `real`; the heading stays.
     pub fn pin(&mut self, mapped: Vec3, real: Vec3) {
         self.planned += turn(-self.yaw).rotate((mapped - self.at).horizontal());
         self.at = mapped.horizontal();
@@ -82,12 +82,12 @@ impl Anchor {
         self.yaw_goal = (1.0 - HEADING_RETURN) * (self.yaw + HEADING_GAIN * off);
     }
 
-    /// What is left of the way to the new anchor, m.
+    /// Remaining displacement to the new anchor, m.
     pub fn rest(&self) -> Vec3 {
         self.goal - self.at
     }
 
-    /// Moves on by `dt` seconds.
+    /// Approaches the new anchor for `dt` seconds.
     pub fn settle(&mut self, dt: f64) {
         let a = filter_gain(dt, SETTLING_TIME);
         self.at += (self.goal - self.at) * a;

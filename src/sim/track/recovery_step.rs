@@ -1,9 +1,9 @@
-//! Recovery steps: steps that no plan has, to catch a body that its feet can no longer stop (the paper's future work),
-//! and to bring the feet back to their places.
+//! Recovery steps: unplanned steps that catch a body which its feet can no longer stop (the paper's future work), or
+//! bring the feet back to their places.
 //!
-//! The foot goes where the capture point will be when it lands, `ξ(t) = p + (ξ − p) e^{ωt}` about the best zero-moment
-//! point `p` of the stance foot. The unloaded foot swings, across the other one if the body falls to that side. A step
-//! is a function of the state and of a few numbers of memory; nothing allocates.
+//! The foot goes where the capture point will be at the landing, `ξ(t) = p + (ξ − p) e^{ωt}` about the best zero-moment
+//! point `p` of the stance foot. The unloaded foot swings, and crosses the other one if the body falls to that side. A
+//! step is a function of the state and of a few numbers of memory; nothing allocates.
 
 use super::foot_places::{FootPlaces, turn};
 use super::params::capture::LONGEST_FORECAST;
@@ -23,10 +23,10 @@ use crate::plan::foot_lock::Sole;
 use crate::plan::params::common::SOLE_MIDDLE;
 use serde::{Deserialize, Serialize};
 
-/// What a step is for.
+/// Purpose of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Purpose {
-    /// To catch the body, across the stance foot if need be.
+    /// To catch the body, crossing the stance foot if necessary.
     Recover,
     /// To catch the body on the foot's own side, because feet have crossed or a clip has just ended.
     RecoverOnOwnSide,
@@ -43,17 +43,17 @@ pub struct RecoveryStep {
     pub side: usize,
     /// Time since lift-off, s.
     pub since: f64,
-    /// What it is for.
+    /// Its purpose.
     pub purpose: Purpose,
     start: Vec3,
     start_yaw: f64,
     goal: Vec3,
     goal_yaw: f64,
-    /// True if a raised foot passes the other one behind it, not before it.
+    /// Whether a raised foot passes behind the other one rather than before it.
     behind: bool,
 }
 
-/// What a step is aimed with.
+/// The data with which a step is aimed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Aim<'a> {
     /// Capture point, m.
@@ -62,16 +62,16 @@ pub(super) struct Aim<'a> {
     pub(super) zmp: [f64; 2],
     /// Frequency of the pendulum, 1/s.
     pub(super) omega: f64,
-    /// Where the feet are.
+    /// Places of the feet.
     pub(super) now: &'a FootPlaces,
-    /// Where the motion has them.
+    /// Places of the feet in the motion.
     pub(super) home: &'a FootPlaces,
     /// Length of a leg, m.
     pub(super) leg: f64,
 }
 
 impl RecoveryStep {
-    /// A step of foot `side` whose ankle (world, m) and heading (rad) are these now.
+    /// A step of foot `side`, whose present ankle (world, m) and heading (rad) are given.
     pub(super) fn new(side: usize, purpose: Purpose, ankle: Vec3, yaw: f64) -> Self {
         Self {
             side,
@@ -85,7 +85,7 @@ impl RecoveryStep {
         }
     }
 
-    /// The same of a raised foot, which passes the other one on its own side, behind or before it.
+    /// A step of a raised foot, which passes the other one on its own side, behind or before it.
     pub(super) fn of_raised_foot(side: usize, ankle: Vec3, yaw: f64, behind: bool) -> Self {
         Self {
             behind,
@@ -102,8 +102,8 @@ impl RecoveryStep {
         }
     }
 
-    /// True if it is over: the foot `touches` with its ankle at `height` (m), or the floor did not come for long after
-    /// it should have.
+    /// Whether the step is over: the foot `touches` with its ankle at `height` (m), or it has missed the floor for too
+    /// long.
     pub(super) fn has_landed(&self, sole: &Sole, height: f64, touches: bool) -> bool {
         let raised = self.purpose == Purpose::RecoverWithRaisedFoot;
         let hangs = raised && height > sole.ankle_height + HANGING_HEIGHT;
@@ -111,7 +111,7 @@ impl RecoveryStep {
         self.since > self.duration() + LATEST || (may_land && touches)
     }
 
-    /// Updates the place where it lands.
+    /// Updates the landing place.
     pub(super) fn update_goal(&mut self, aim: &Aim<'_>) {
         let (side, now, home) = (self.side, aim.now, aim.home);
         let raised = self.purpose == Purpose::RecoverWithRaisedFoot;
@@ -132,7 +132,7 @@ impl RecoveryStep {
         let stance = now[1 - side].at.horizontal();
         let back = turn(-yaw);
         let outward = outward(side);
-        // From here on as seen from the stance foot: `x` ahead, `y` to the side of the swinging foot.
+        // From here on, as seen from the stance foot: `x` ahead, `y` to the side of the swinging foot.
         let local = back.rotate(Vec3::on_floor(landing) - stance);
         let apart = back.rotate(home[side].at - home[1 - side].at).y * outward;
         let mut x = local.x - SOLE_MIDDLE;

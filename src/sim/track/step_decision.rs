@@ -1,4 +1,5 @@
-//! When a step is made that no plan has, and which: to catch the body, to uncross the feet, to bring them back.
+//! Decides when an unplanned step is made, and which one: to catch the body, to uncross the feet, or to bring them
+//! back.
 
 use super::foot_places::{FootPlace, FootPlaces, stance_points};
 use super::params::common::SETTLED_OFFSET;
@@ -16,25 +17,25 @@ use crate::plan::params::common::{MISPLACED_BY, MISPLACED_TURN, REST_SPEED, SOLE
 use crate::support::Support;
 use serde::{Deserialize, Serialize};
 
-/// The step that no plan has.
+/// The unplanned step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) enum UnplannedStep {
     /// None is made.
     #[default]
     None,
-    /// The weight goes off this foot, to the other one, so that it can be brought back.
+    /// The weight shifts from this foot to the other one, so that this foot can be brought back.
     Unloading(usize),
     /// A foot swings.
     Swinging {
         /// Its step.
         step: RecoveryStep,
-        /// The foot that the weight went off before.
+        /// The foot that was unloaded before.
         unloaded: Option<usize>,
     },
 }
 
 impl UnplannedStep {
-    /// False if it cannot be what was written into a checkpoint: there are two feet.
+    /// Whether this value is one that a checkpoint could hold: there are two feet.
     pub(super) fn is_valid(&self) -> bool {
         match self {
             Self::None => true,
@@ -51,7 +52,7 @@ impl UnplannedStep {
         }
     }
 
-    /// The same to change it.
+    /// The step to change it, while the foot swings.
     pub(super) fn swing_mut(&mut self) -> Option<&mut RecoveryStep> {
         match self {
             Self::Swinging { step, .. } => Some(step),
@@ -68,7 +69,7 @@ impl UnplannedStep {
         }
     }
 
-    /// Begins a step. Weight that went off a foot stays off it.
+    /// Begins a step. A foot that was unloaded stays unloaded.
     pub(super) fn begin(&mut self, step: RecoveryStep) {
         *self = Self::Swinging {
             step,
@@ -83,8 +84,8 @@ fn sole_middle(foot: &FootPlace) -> Vec3 {
 }
 
 impl StepTracker {
-    /// Updates the step that no plan has: one is made when the capture point has left the feet, and then the feet are
-    /// brought back. `places`: where the feet are, and where the motion has them.
+    /// Updates the unplanned step: one is made when the capture point has left the feet, and afterwards the feet are
+    /// brought back. `places`: the places of the feet, actual and in the motion.
     pub(super) fn update_recovery_step(
         &mut self,
         terms: &Terms,
@@ -100,7 +101,7 @@ impl StepTracker {
         if self.recovery_step().is_none() {
             self.recovery.step = self.decide_step(terms, support, [now, home], &nearest);
         }
-        // The centre of mass goes over the foot that is to stand alone, and back.
+        // The centre of mass moves over the foot that will stand alone, and back.
         let over = self.recovery.step.unloaded().map(|k| &now[1 - k]);
         let wanted = over.map(|foot| sole_middle(foot) - tasks.com.now);
         let way = (wanted.unwrap_or_default() - self.recovery.shift).horizontal();
@@ -142,8 +143,8 @@ impl StepTracker {
         }
     }
 
-    /// The step that the body needs, while none is under way; `nearest`: the point of the support that is nearest to
-    /// the capture point.
+    /// The step that the body needs, while none is under way; `nearest`: the point of the support nearest to the
+    /// capture point.
     fn decide_step(
         &self,
         terms: &Terms,
@@ -169,11 +170,11 @@ impl StepTracker {
         let uncrosses = self.uncrossing_foot(now, xi);
         let side = uncrosses.unwrap_or_else(|| usize::from(carried(1) <= carried(0)));
         let beside = now[1 - side].local(now[side].at).y * outward(side);
-        // Feet that a clip is about to move again stay where it has them, if they hold the body.
+        // Feet that a clip will move again stay where it has them, if they hold the body.
         let goes_on = |p: &StepPlan| !p.is_live() && !p.is_over(self.clock.phase);
         let own = !self.is_stopping() && self.plan().is_some_and(goes_on);
         let crossed = !own && beside < 0.5 * FOOTHOLD_DISTANCE;
-        // A motion that walks has its capture point leave the feet; a body off its plan does not mean to.
+        // In walking the capture point leaves the feet on purpose; for a body off its plan it does not.
         let meant = own && self.capture.off() < ASTRAY;
         let lost = if uncrosses.is_some() {
             0.0
@@ -205,7 +206,7 @@ impl StepTracker {
     }
 }
 
-/// True if a foot is not where it is meant to be.
+/// Whether a foot is not where it is meant to be.
 pub(super) fn is_misplaced(is: &FootPlace, meant: &FootPlace) -> bool {
     (is.at - meant.at).norm() > MISPLACED_BY
         || trig::wrapped(is.yaw - meant.yaw).abs() > MISPLACED_TURN

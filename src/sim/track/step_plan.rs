@@ -1,4 +1,4 @@
-//! Step plans: when and where the feet of a clip or of a stream stand, in order, also over the seam of a loop.
+//! Step plans: when and where the feet of a clip or of a stream stand, in order, including across the seam of a loop.
 
 use super::params::step_plan::{
     FALLING_LOAD, LOAD_SAMPLES, NEAR_FLOOR, PAUSE_AFTER, PAUSE_BEFORE, STREAM_REST_AFTER,
@@ -33,7 +33,7 @@ pub struct Footfall {
 }
 
 impl Footfall {
-    /// The same `seconds` later.
+    /// This stance, `seconds` later.
     fn later(self, seconds: f64) -> Self {
         Self {
             on: self.on + seconds,
@@ -48,16 +48,16 @@ impl Footfall {
 pub struct StepPlan {
     /// Of the left and the right foot.
     stances: [Vec<Footfall>; 2],
-    /// When the motion begins to move, s: 0, or before that if it has a lead-in.
+    /// Time at which the motion begins, s: 0, or earlier if it has a lead-in.
     begin: f64,
-    /// When it is over, s: with its lead-out.
+    /// Time at which it ends, including its lead-out, s.
     duration: f64,
-    /// Until when touch-downs are known, s: a stream's only as far as it has come.
+    /// Time up to which touch-downs are known, s; for a stream, the end of the frames received.
     seen: f64,
     /// Displacement of one round, if the clip repeats.
     round: Option<PlanarTransform>,
-    /// What holds instead before some time: the way into a clip that repeats, with its first round, or the one out of
-    /// another motion.
+    /// A plan that holds instead before some time: the transition into a repeating clip with its first round, or the
+    /// transition out of another motion.
     #[serde(with = "crate::saved::nested")]
     lead: Option<Box<Lead>>,
 }
@@ -66,13 +66,13 @@ pub struct StepPlan {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Lead {
     plan: StepPlan,
-    /// It holds before this time, s.
+    /// End of the time in which it holds, s.
     until: f64,
-    /// It knows of touch-downs before this time, s.
+    /// Time up to which it knows touch-downs, s.
     knows: f64,
 }
 
-/// In which of the samples without a planted foot the body falls.
+/// For each sample, whether no foot is planted and the body falls.
 fn falling(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<bool> {
     let mut falls = vec![false; samples.len()];
     let off: Vec<bool> = samples.iter().map(|s| s.1 == [false; 2]).collect();
@@ -88,9 +88,9 @@ fn falling(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<
     falls
 }
 
-/// Which feet carry the body in each sample: the planted ones, or, if there is none and the body does not fall, the
-/// lower one near the floor. The preparation declares a foot free that its leg cannot hold in place exactly; that is no
-/// flight.
+/// The feet that carry the body in each sample: the planted ones or, if there are none and the body does not fall, the
+/// lower one near the floor. The preparation labels a foot as free if its leg cannot hold it exactly in place, but that
+/// is not a flight.
 fn supporting_feet(body: &Body, samples: &[(&Posture, [bool; 2])], rate_hz: f64) -> Vec<[bool; 2]> {
     let falls = falling(body, samples, rate_hz);
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
@@ -128,7 +128,7 @@ impl StepPlan {
                 // The middle of a stance is its flattest part.
                 let poses = forward(body, samples[(start + end - 1) / 2].0);
                 let at = sole.footing(poses[FEET[side].index()]);
-                // A sample speaks for the half-interval on either side of it.
+                // A sample represents the half-interval on either side of it.
                 let time = |sample: usize| begin + (sample as f64 - 0.5) / rate;
                 Footfall {
                     on: if start == 0 { begin } else { time(start) },
@@ -157,8 +157,8 @@ impl StepPlan {
         }
     }
 
-    /// The same for a figure that comes into the clip by a way of its own; one into its lead-in leaves what is left of
-    /// that.
+    /// This plan for a figure that enters the clip by the transition `way`. A transition into the lead-in is followed
+    /// by the rest of the lead-in.
     pub fn entered_by(mut self, body: &Body, way: &TransitionClip) -> Self {
         if let Some(mut lead) = self.lead.take_if(|l| way.until < l.until) {
             lead.plan = lead.plan.entered_by(body, way);
@@ -179,7 +179,7 @@ impl StepPlan {
         self
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let times = [self.begin, self.duration, self.seen];
         self.stances.iter().all(|s| s.len() <= MAX_SAMPLES)
@@ -200,18 +200,18 @@ impl StepPlan {
         }
     }
 
-    /// Ends it at once: no step of it is to come.
+    /// Ends it at once: none of its later steps is made.
     pub(super) fn break_off(&mut self) {
         (self.duration, self.round, self.lead) = (f64::NEG_INFINITY, None, None);
         self.stances.iter_mut().for_each(Vec::clear);
     }
 
-    /// True for the plan of a stream.
+    /// Whether this is the plan of a stream.
     pub fn is_live(&self) -> bool {
         self.duration == f64::INFINITY
     }
 
-    /// What is known of a stream now. No allocation.
+    /// Updates the plan with the present knowledge of a stream. No allocation.
     pub fn refresh(&mut self, motion: &StreamPlan) {
         self.seen = motion.seen();
         for (side, known) in self.stances.iter_mut().enumerate() {
@@ -230,22 +230,22 @@ impl StepPlan {
         }
     }
 
-    /// True if it is the plan of a stream that stands on both feet at time `t` (s), has done so for a while and goes on
-    /// doing so as far as is known.
+    /// Whether it is the plan of a stream that stands on both feet at time `t` (s), has done so for a while, and will
+    /// continue to as far as is known.
     pub fn rests(&self, t: f64) -> bool {
         let stands = |f: Footfall| f.on < t - STREAM_REST_BEFORE && f.off > t + STREAM_REST_AFTER;
         self.is_live() && (0..2).all(|side| self.current(side, t).is_some_and(stands))
     }
 
-    /// True if both feet have stood at time `t` (s) for longer than in any stride, and go on standing for a moment, or
-    /// for good.
+    /// Whether both feet have stood at time `t` (s) for longer than in any stride, and will stand for another moment,
+    /// or for good.
     pub fn pauses(&self, t: f64) -> bool {
         let stays = |f: &Footfall| f.off > t + PAUSE_AFTER || self.is_over(f.off);
         let stands = |f: Footfall| f.on < t - PAUSE_BEFORE && stays(&f);
         (0..2).all(|side| self.current(side, t).is_some_and(stands))
     }
 
-    /// True if a foot leaves the floor anywhere.
+    /// Whether a foot leaves the floor anywhere.
     pub fn steps(&self) -> bool {
         self.is_live()
             || self.lead.as_ref().is_some_and(|l| l.plan.steps())
@@ -255,17 +255,17 @@ impl StepPlan {
                 .any(|s| s.len() != 1 || s[0].on > self.begin || s[0].off < self.duration)
     }
 
-    /// True once a clip that does not repeat has played to its end.
+    /// Whether a clip that does not repeat has played to its end.
     pub fn is_over(&self, t: f64) -> bool {
         self.round.is_none() && t >= self.duration
     }
 
-    /// The plan that holds on the way in.
+    /// The plan that holds during the transition in.
     fn lead_at(&self, t: f64) -> Option<&Lead> {
         self.lead.as_deref().filter(|l| t < l.until)
     }
 
-    /// Round of a loop that time `t` falls into, and the time within it.
+    /// Round of a loop that contains time `t`, and the time within it.
     fn round_of(&self, t: f64) -> (f64, f64) {
         if self.round.is_none() || self.duration <= 0.0 {
             return (0.0, t);
@@ -274,7 +274,7 @@ impl StepPlan {
         (round, t - round * self.duration)
     }
 
-    /// How long so many rounds of a loop take, s; 0 for what does not repeat, however long it is: a stream has no end.
+    /// Duration of `count` rounds of a loop, s; 0 for a motion that does not repeat, because a stream has no end.
     fn rounds(&self, count: f64) -> f64 {
         self.round.map_or(0.0, |_| count * self.duration)
     }
@@ -289,7 +289,7 @@ impl StepPlan {
         }
     }
 
-    /// True if the stance over the seam goes on in the next round.
+    /// Whether the stance at the seam continues in the next round.
     fn wraps(&self, side: usize) -> bool {
         let s = &self.stances[side];
         self.round.is_some()
@@ -336,14 +336,14 @@ impl StepPlan {
         Some(self.unrolled(*f, round))
     }
 
-    /// The next time in which no foot stands after time `t`, at which one does: from and to, s, of a stream as far as
-    /// it is seen; `None` if a foot lands before the others have left.
+    /// The next interval without a standing foot after time `t`, at which one stands: start and end, s; for a stream,
+    /// within the frames received. `None` if a foot lands before the other has left.
     pub fn next_flight(&self, t: f64) -> Option<(f64, f64)> {
         let stands_until = |side: usize| {
             let now = self.current(side, t)?;
             let (round, _) = self.round_of(t);
             let goes_on = self.wraps(side) && now.off >= (round + 1.0) * self.duration;
-            // A foot that stands on the way in only has no stance in the rounds.
+            // A foot that stands only during the transition in has no stance in the rounds.
             Some(match self.stances[side].first() {
                 Some(first) if goes_on => self.unrolled(*first, round + 1.0).off,
                 _ => now.off,
@@ -437,7 +437,7 @@ mod tests {
 
     #[test]
     fn a_walk_has_no_flight_not_even_over_the_seam() {
-        // The left stance goes on over the seam.
+        // The left stance continues across the seam.
         let walk = plan(&[(0.0, 0.4), (0.8, 1.0)], &[(0.3, 0.9)], true);
         for i in 0..300 {
             let t = f64::from(i) * 0.01;
@@ -459,7 +459,7 @@ mod tests {
             live.advance(t);
             plan.refresh(&live);
             for side in (0..2).filter(|s| t > 0.0 && plan.current(*s, t).is_none()) {
-                // It has left the floor, and in half a second it will have landed.
+                // It has left the floor, and will have landed half a second later.
                 let off = plan.last_off(side, t);
                 assert!(off <= t && off > t - 1.0, "{t}: {off}");
                 match plan.next(side, t) {

@@ -1,15 +1,15 @@
-//! Step timing: steps that come sooner than the clip has them, with time and place chosen together.
+//! Step timing: steps that come sooner than in the clip, with time and place chosen together.
 //!
 //! An error of the capture point grows nearly threefold in a third of a second, and a clip's own step takes half a
-//! second. People who are pushed hard put the swinging foot down at once, and take the next step quickly too (Hof,
+//! second. After a hard push, people put the swinging foot down at once, and take the next step quickly too (Hof,
 //! Vermerris & Gjaltema 2010; Vlutters et al. 2016). So the plan is played faster until the foot lands.
 //!
 //! For each rate `ρ` the landing comes after `t = t₀/ρ`. The zero-moment point `p`, within the sole, is chosen such
 //! that `ξ(t) = p + (ξ − p) e^{ωt}` comes as near as it can to its place relative to the planned foothold; the foothold
-//! `f` that is as far from `ξ(t)` as the motion has it catches the body, displaced by a little more for the double
-//! support that follows ([`super::capture_point`]). What a foot reaches is within the leg's reach and its speed. The
-//! rate with the least `|f − reached| + h (ρ − 1) + w |reached − planned|` is taken (Koolen et al. 2012). The centre of
-//! mass meanwhile follows the pendulum about `p`, because the motion's would run away from the body.
+//! `f` with the motion's distance from `ξ(t)` catches the body, displaced by a little more for the following double
+//! support ([`super::capture_point`]). The foothold that is `reached` is limited by the leg's length and speed. The
+//! rate with the least `|f − reached| + h (ρ − 1) + w |reached − planned|` is taken (Koolen et al. 2012). Until then
+//! the centre of mass follows the pendulum about `p`, because the motion's would run away from the body.
 
 use super::StepTracker;
 use super::capture_point::within_reach;
@@ -26,7 +26,7 @@ use crate::motion::Target;
 use crate::support::Support;
 use serde::{Deserialize, Serialize};
 
-/// Where the motion has its capture point at a touch-down.
+/// The motion's capture point at a touch-down.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct PlannedLanding {
     /// Foot: 0 left, 1 right.
@@ -48,14 +48,14 @@ pub(super) struct EarlyStep {
     pub(super) rate: f64,
     /// The foothold, world, m.
     pub(super) place: Vec3,
-    /// Where the zero-moment point is wanted, world, m.
+    /// Desired zero-moment point, world, m.
     pub(super) zmp: [f64; 2],
 }
 
-/// The next landing and what is decided about it.
+/// The next landing, and the decision about it.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct StepTiming {
-    /// What the motion has at the landing, while that matters.
+    /// The motion's state at the landing, while it matters.
     pub(super) landing: Option<PlannedLanding>,
     /// The step, if it comes sooner than planned.
     pub(super) early: Option<EarlyStep>,
@@ -69,8 +69,8 @@ impl StepTiming {
 }
 
 impl StepTracker {
-    /// The next touch-down: its foot and its stance. `None` for a stream, which cannot be played faster than it comes,
-    /// and before a flight, in which the body is no pendulum.
+    /// The next touch-down: its foot and its stance. `None` for a stream, which cannot be played faster than it
+    /// arrives, and before a flight, in which the body is not a pendulum.
     fn coming_step(&self) -> Option<(usize, Footfall)> {
         let (plan, phase) = (self.plan()?, self.clock.phase);
         let flies = self.is_airborne() || plan.next_flight(phase).is_some();
@@ -84,8 +84,7 @@ impl StepTracker {
             .min_by(|a, b| a.1.on.total_cmp(&b.1.on))
     }
 
-    /// Looks up where the motion has its capture point at the next touch-down. `sample`: the motion so many seconds
-    /// from now.
+    /// Looks up the motion's capture point at the next touch-down. `sample`: the motion at a time from now, s.
     pub(super) fn predict_landing(&mut self, sample: impl Fn(f64) -> Target) {
         let known = self.timing.landing.take();
         if !self.is_stepping() || (self.timing.early.is_none() && self.capture.off() < ERROR) {
@@ -106,7 +105,7 @@ impl StepTracker {
         });
     }
 
-    /// Decides whether the next foot lands sooner than planned, and where then.
+    /// Decides whether the next foot lands sooner than planned, and if so, where.
     pub(super) fn update_step_timing(&mut self, terms: &Terms, support: &Support) {
         let before = self.timing.early.take();
         let Some(((side, f), landing)) = self.coming_step().zip(self.timing.landing) else {
@@ -139,7 +138,8 @@ impl StepTracker {
             let xi = self.capture.after(self.capture.within(zmp), time);
             let d = Vec3::on_floor([xi[0] - goal.x, xi[1] - goal.y]) * gain;
             let catches = home.at + d;
-            // A body off its plan by a walking speed cannot keep its stride: along it, too, the leg's reach counts.
+            // A body that is off its plan by a walking speed cannot keep its stride, so the leg's reach also limits the
+            // step along its heading.
             let mut place = home.at
                 + Vec3::on_floor(within_reach([d.x, d.y], home, stance, side, REACH_ACROSS));
             let (way, air) = (place - swing, (time - stands / rate).max(0.0));

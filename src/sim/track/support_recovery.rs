@@ -1,12 +1,12 @@
 //! Support recovery: balance lost in a long stance on one foot.
 //!
 //! When the stance foot cannot keep the capture point, and the planned step comes too late or cannot reach far enough,
-//! the raised foot is put down early and where it catches the body, and is lifted again when the body is back over the
-//! other one. Meanwhile the plan waits: its pace `r` goes from 1 to 0 and back, and its raised leg turns into a
-//! standing one. A stream does not wait; its foot stands until its own step is due.
+//! the raised foot is put down early, at a place where it catches the body. It is lifted again when the body is back
+//! over the other foot. Until then the plan waits: its pace `r` goes from 1 to 0 and back, and its raised leg turns
+//! into a standing one. A stream does not wait; its foot stands until its own step is due.
 //!
-//! A motion that stands still has its capture point under its centre of mass, so it stands at `c + (1 − r) ċ/ω`: where
-//! its capture point was, and from where it can go on.
+//! A motion that stands still has its capture point under its centre of mass, so it stands at `c + (1 − r) ċ/ω`, which
+//! was its capture point and from which it can continue.
 
 use super::StepTracker;
 use super::capture_point::within_reach;
@@ -34,7 +34,7 @@ use serde::{Deserialize, Serialize};
 /// The foot that was put down, and the plan that waits for it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct SupportRecovery {
-    /// The foot that was put down before its turn, or is about to be, and the time since that began, s.
+    /// The foot that was put down early, or is about to be, and the time since that began, s.
     foot: Option<(usize, f64)>,
     /// Time for which the stance foot has not been able to keep the body, s.
     lost: f64,
@@ -65,27 +65,27 @@ impl Default for SupportRecovery {
 }
 
 impl SupportRecovery {
-    /// False if it cannot be what was written into a checkpoint: there are two feet.
+    /// Whether this value is one that a checkpoint could hold: there are two feet.
     pub(super) fn is_valid(&self) -> bool {
         self.leg < 2 && self.foot.is_none_or(|(side, _)| side < 2)
     }
 
-    /// True while a foot stands that the plan has raised.
+    /// Whether a foot stands that is raised in the plan.
     pub(super) fn is_active(&self) -> bool {
         self.foot.is_some()
     }
 
-    /// Ends it: the plan goes on.
+    /// Ends it, so that the plan continues.
     pub(super) fn end(&mut self) {
         self.foot = None;
     }
 
-    /// The foot that stands although the plan has raised it.
+    /// The foot that stands although it is raised in the plan.
     pub(super) fn foot(&self) -> Option<usize> {
         self.foot.map(|(side, _)| side)
     }
 
-    /// Where the feet of a body that waits belong: the raised one beside the other. `leg`: length of a leg, m.
+    /// Places for the feet of a waiting body: the raised one beside the other. `leg`: length of a leg, m.
     pub(super) fn home(&self, mut planned: FootPlaces, leg: f64) -> FootPlaces {
         if let Some(raised) = self.foot() {
             let stance = planned[1 - raised];
@@ -110,8 +110,8 @@ impl SupportRecovery {
         self.pace = (self.pace + change).clamp(0.0, 1.0);
     }
 
-    /// Turns the motion of a tick into that of a plan with this pace: its velocities, and its raised leg, which stands
-    /// as in `at_ease` while the plan waits.
+    /// Adapts the motion of a tick to this pace: its velocities, and its raised leg, which stands as in `at_ease` while
+    /// the plan waits.
     pub(super) fn slow(&self, out: &mut TargetPair, at_ease: &Posture, dt: f64) {
         let (now, next) = (self.last_pace, self.pace);
         if (now, next) == (1.0, 1.0) {
@@ -135,7 +135,7 @@ impl SupportRecovery {
         }
     }
 
-    /// Shifts the desired centre of mass to where the capture point of the motion is at full pace.
+    /// Shifts the desired centre of mass to the capture point of the motion at full pace.
     pub(super) fn shift_com(&mut self, com: &mut PointTarget, omega: f64, dt: f64) {
         if self.last_pace > OBSERVED_PACE {
             self.velocity = com.now_velocity * (1.0 / self.last_pace);
@@ -153,14 +153,14 @@ impl SupportRecovery {
         (self.velocity * ((1.0 - self.pace) / omega)).horizontal()
     }
 
-    /// Begins the shift where the body is: `off` its place as the motion has it, m.
+    /// Begins the shift at the actual place of the body, which is `off` from its place in the motion, m.
     pub(super) fn begin_shift_at(&mut self, off: Vec3) {
         if self.is_active() {
             self.shift = off.horizontal();
         }
     }
 
-    /// What is left of the shift, m.
+    /// Remaining shift, m.
     fn rest(&self, omega: f64) -> f64 {
         (self.wanted_shift(omega) - self.shift).norm()
     }
@@ -172,7 +172,8 @@ impl SupportRecovery {
 }
 
 impl StepTracker {
-    /// Begins to put the raised foot down if the stance foot has lost the body for a while. `now`: where the feet are.
+    /// Begins to put the raised foot down if the stance foot has been unable to hold the body for a while. `now`:
+    /// places of the feet.
     pub(super) fn begin_support_recovery(
         &mut self,
         terms: &Terms,
@@ -228,8 +229,8 @@ impl StepTracker {
         (too_far && margin < -OUTSIDE).then_some(side)
     }
 
-    /// The foot that uncrosses legs which a raised foot has crossed, if it lies on the side to which the body falls:
-    /// the capture point is at `xi`, m.
+    /// The foot that uncrosses legs crossed by a raised foot, if it is on the side to which the body falls; `xi`: the
+    /// capture point, m.
     pub(super) fn uncrossing_foot(&self, now: &FootPlaces, xi: [f64; 2]) -> Option<usize> {
         let raised = self.recovery.support.foot()?;
         let side = 1 - raised;
@@ -304,8 +305,8 @@ mod tests {
         }
     }
 
-    /// The capture point of a plan that waits, or has waited, is where it is at full pace: there it can go on at any
-    /// time.
+    /// The capture point of a plan that waits, or has waited, is where it is at full pace, so the plan can continue at
+    /// any time.
     #[test]
     fn a_plan_that_slows_down_keeps_its_capture_point() {
         let point = |com: &PointTarget| com.now + com.now_velocity * (1.0 / OMEGA);
@@ -324,7 +325,7 @@ mod tests {
             least = least.min(wait.pace);
             stood += usize::from((wait.pace, wait.last_pace) == (0.0, 0.0));
             let off = point(&com) - meant;
-            // While it slows down the shift is no faster than a body.
+            // While the plan slows down, the shift is no faster than a body.
             let follows = !(10..=60).contains(&tick);
             let most = if follows { 0.02 } else { 0.08 };
             assert!(off.level() < most, "{tick}: {off:?}");

@@ -1,9 +1,9 @@
-//! Swinging feet: led to displaced footholds, clear of the floor, around the stance leg, in the air about the centre of
-//! mass.
+//! Swinging feet are led to displaced footholds, clear of the floor, around the stance leg, and, in a flight, with the
+//! centre of mass.
 //!
-//! With `s(u)` from 0 to 1 (minimum jerk) over the swing, the target of the ankle is that of the clip plus
-//! `r (1 − t/T)²` (the offset `r` at lift-off, given up in `T`) plus `s d` (the displacement `d` of the foothold) plus
-//! what the sole lacks of its clearance.
+//! With `s(u)` from 0 to 1 (minimum jerk) over the swing, the target of the ankle is that of the clip plus `r (1 −
+//! t/T)²` (the offset `r` at lift-off, given up in `T`) plus `s d` (the displacement `d` of the foothold) plus the
+//! missing clearance of the sole.
 
 use super::capture_point::{smoothing, within_reach};
 use super::foot_places::{FootPlace, turn};
@@ -24,7 +24,7 @@ use crate::math::curve::smootherstep;
 use crate::math::{Quat, Vec3, trig};
 
 impl StepTracker {
-    /// Gives planted feet the heading they landed with: they could only be turned by scraping.
+    /// Gives planted feet the heading with which they landed, because they could be turned only by scraping.
     pub(super) fn keep_headings(&self, terms: &Terms, feet: &mut [FootTarget; 2]) {
         for (side, foot) in feet.iter_mut().enumerate() {
             let swings = self.recovery_step().is_some_and(|s| s.side == side)
@@ -82,7 +82,7 @@ impl StepTracker {
         let target = &mut target.ankle;
         let clip = target.now;
         if let Some(early) = self.timing.early.filter(|_| remaining > 0.0) {
-            // In an early step a foot lags by a tenth of a second unless its target has the velocity of the shift.
+            // In an early step, a foot lags by a tenth of a second unless its target has the velocity of the shift.
             let ahead = |t: f64| share(since + t * early.rate);
             let (next, after) = (ahead(dt), ahead(2.0 * dt));
             let way = Vec3::on_floor(foot.shift);
@@ -111,7 +111,7 @@ impl StepTracker {
         }
     }
 
-    /// Lowers the target of a foot that landed before its time, and which the plan still has in the air.
+    /// Lowers the target of a foot that landed early and is still in the air in the plan.
     fn lower_early(&self, side: usize, target: &mut FootTarget) {
         let ankle = &mut target.ankle;
         let low = ankle.next.z + self.legs.soles[side].lowest(target.rotation.next, 0.0);
@@ -119,9 +119,9 @@ impl StepTracker {
         ankle.next.z -= low.max(0.0);
     }
 
-    /// Displacement of the foothold `f` of foot `side` for each metre of error at its touch-down. 1 where that or the
-    /// end of the double support is further ahead than the pendulum predicts: feet that stand together for so long
-    /// leave time to bring the body to its place.
+    /// Displacement of the foothold `f` of foot `side` for each metre of error at its touch-down. 1 if that, or the end
+    /// of the double support, is beyond the forecast of the pendulum: feet that stand together for that long leave time
+    /// to bring the body to its place.
     pub(super) fn displacement_gain(&self, side: usize, f: &Footfall) -> f64 {
         let stance = self.planned(1 - side).filter(|_| self.feet[1 - side].down);
         let both = stance.map_or(0.0, |s| (s.off - f.on) / self.speed());
@@ -158,8 +158,8 @@ impl StepTracker {
     }
 }
 
-/// Leads a foot that is to cross, or has crossed, around the stance leg, `since` seconds after it lifted off `initial`
-/// metres inside the room of that.
+/// Leads a foot that will cross, or has crossed, around the stance leg, `since` seconds after it lifted off `initial`
+/// metres inside the space of that leg.
 fn avoid(leg: &StanceLeg, initial: f64, since: f64, dt: f64, target: &mut PointTarget) {
     let (v0, v1) = (target.now_velocity, target.next_velocity);
     let aside = |p: Vec3, v: Vec3, t: f64| leg.aside(p, v, since + t, initial);
@@ -172,8 +172,8 @@ fn avoid(leg: &StanceLeg, initial: f64, since: f64, dt: f64, target: &mut PointT
     target.next_velocity += (after - next) * (1.0 / dt);
 }
 
-/// Shifts the feet of a body in flight with its centre of mass, whose path nothing changes. Feet led to where the
-/// motion has them would pull the legs up or stretch them, and turn the trunk.
+/// Shifts the feet of a body in flight with its centre of mass, whose path cannot be changed. Feet led to their places
+/// in the motion would bend or stretch the legs, and turn the trunk.
 pub(super) fn follow_com(terms: &Terms, dt: f64, tasks: &mut TaskTargets<'_>) {
     let off = terms.com - tasks.com.now;
     let drift = terms.com_velocity - tasks.com.now_velocity;

@@ -1,16 +1,17 @@
-//! The whole state of a world as a value: written between two ticks, read into a new world that goes on bit for bit.
+//! The whole state of a world as a value: written between two ticks, and read into a new world that continues bit for
+//! bit.
 //!
-//! [`World::capture`] is what the thread of the world does: it writes what passes from tick to tick, and notes the
-//! bodies and clips that figures share. [`Capture::checkpoint`] writes those once each, wherever there is time for it,
-//! and adds what is checked first when the value is read: format, numerics, length, checksum.
+//! [`World::capture`] runs on the thread of the world: it writes the state that passes from tick to tick, and notes the
+//! bodies and clips that figures share. [`Capture::checkpoint`] writes each of those once, on any thread with time for
+//! it, and adds the fields that are checked first when the value is read: format, numerics, length, checksum.
 //!
 //! ```text
 //!   magic 8 │ format u16 │ kind u16 │ numerics u64 │ tick u64 │ length u64 │ checksum u64 │ content
-//!   content: definitions (kind, hash, bytes), state, what the caller has beside it; by `postcard`, little-endian
+//!   content: definitions (kind, hash, bytes), state, the caller's data beside it; by `postcard`, little-endian
 //! ```
 //!
-//! The state refers to definitions by their place in the list, which has a hash of what each consists of: a store keeps
-//! each once ([`Checkpoint::without_definitions`]), for all checkpoints of all worlds.
+//! The state refers to definitions by their place in the list, which has a hash of the content of each. A store
+//! therefore keeps each definition once ([`Checkpoint::without_definitions`]), for all checkpoints of all worlds.
 
 use super::collisions::{CollisionReport, Neighbourhood};
 use super::{World, WorldError, WorldParams, validate};
@@ -27,39 +28,40 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
-/// Version of the format. Another one is not read: a checkpoint lives as long as the program that wrote it, and a log
-/// of inputs beside it longer (`docs/checkpoints.md`).
+/// Version of the format. No other version is read: a checkpoint lives only as long as the program that wrote it, but
+/// the log of inputs beside it lives longer (`docs/checkpoints.md`).
 pub const FORMAT: u16 = 7;
 /// First bytes of a checkpoint.
 const MAGIC: [u8; 8] = *b"SINEWCKP";
 /// Bytes before the content.
 const HEADER: usize = 44;
-/// Largest checkpoint that is read, bytes: 1,000 figures with half an hour of clips take about half of it.
+/// Largest checkpoint that is read, bytes; 1,000 figures with half an hour of clips take about half of it.
 pub const MAX_BYTES: usize = 1 << 30;
-/// Most figures of a world that is read.
+/// Largest number of figures in a world that is read.
 const MAX_FIGURES: usize = 100_000;
-/// Latest tick: its time is exact, and a world of 1000 Hz comes there in 285,000 years.
+/// Latest tick: up to here time is exact, and a world at 1000 Hz needs 285,000 years to reach it.
 const MAX_TICK: u64 = 1 << 53;
 
-/// The hashes of the golden scenes say what arithmetic this program does.
+/// The hashes of the golden scenes identify the arithmetic of this program.
 static GOLDEN: &[u8] = include_bytes!("../../../tests/golden/hashes.txt");
 
-/// What this program computes: two programs of the same numerics go on from a checkpoint with the same bits.
+/// Identifies the arithmetic of this program: two programs with the same numerics continue from a checkpoint with the
+/// same bits.
 pub fn numerics() -> u64 {
     xxh3_64(GOLDEN)
 }
 
-/// Hash of what a definition consists of.
+/// Hash of the content of a definition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct DefinitionHash(pub [u8; 16]);
 
-/// Why bytes are not a checkpoint, or not one that can be read.
+/// Reason why bytes are not a checkpoint, or not one that can be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CheckpointError {
-    /// It does not begin like one.
+    /// It does not begin like a checkpoint.
     #[error("these bytes are not a checkpoint")]
     NotACheckpoint,
-    /// It is larger than what is read.
+    /// It is larger than the limit.
     #[error("a checkpoint of {0} bytes, at most {MAX_BYTES} are read")]
     TooLarge(usize),
     /// It was written by another version of the program.
@@ -68,12 +70,12 @@ pub enum CheckpointError {
         /// Its format.
         found: u16,
     },
-    /// It ends too soon, or goes on too long.
+    /// It is too short or too long.
     #[error("a checkpoint of {expected} bytes has {found}")]
     Length {
-        /// What its header says.
+        /// Length stated in its header.
         expected: u64,
-        /// What is there.
+        /// Actual length.
         found: u64,
     },
     /// Bits of it have changed since it was written.
@@ -112,7 +114,7 @@ struct SavedWorld<'a> {
 struct SavedDefinition {
     kind: Kind,
     hash: DefinitionHash,
-    /// `None`: it is kept elsewhere.
+    /// `None` if it is kept elsewhere.
     bytes: Option<Bytes>,
 }
 
@@ -134,7 +136,7 @@ struct Content {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Bytes(#[serde(with = "crate::saved::bytes")] Vec<u8>);
 
-/// The state of a world at one tick, not yet a value of its own: it holds on to the bodies and clips.
+/// The state of a world at one tick, not yet an independent value, because it still shares the bodies and clips.
 pub struct Capture {
     tick: u64,
     hash: u64,
@@ -152,11 +154,11 @@ impl std::fmt::Debug for Capture {
     }
 }
 
-/// Definitions that were written or read before, so that each is written and hashed once. Those that nobody uses any
-/// more are forgotten ([`Self::prune`]).
+/// Definitions that were written or read before, so that each is written and hashed only once. Unused ones are
+/// forgotten ([`Self::prune`]).
 #[derive(Default)]
 pub struct Definitions {
-    /// By address. The definition is held, so that nothing else comes to lie there.
+    /// By address. The definition is kept alive, so that its address is not reused.
     written: BTreeMap<usize, (Definition, SavedDefinition)>,
 }
 
@@ -184,7 +186,7 @@ impl Definitions {
         }
     }
 
-    /// Forgets those that nobody else holds.
+    /// Forgets definitions that have no other holder.
     pub fn prune(&mut self) {
         self.written.retain(|_, (d, _)| Arc::strong_count(d) > 1);
     }
@@ -251,7 +253,7 @@ fn exactly<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, CheckpointError
     }
 }
 
-/// A body that the physics can take: as valid as any, and with the contact points that it looks for.
+/// A body that the physics can use: it is valid, and has the contact points that the physics expects.
 fn body(bytes: &[u8]) -> Result<Body, CheckpointError> {
     let body: Body = exactly(bytes)?;
     body.validate().map_err(content)?;
@@ -275,15 +277,15 @@ fn body(bytes: &[u8]) -> Result<Body, CheckpointError> {
 }
 
 impl World {
-    /// The state between two ticks, for [`Capture::checkpoint`]. Short: some microseconds per figure, more for one with
+    /// The state between two ticks, for [`Capture::checkpoint`]. Fast: some microseconds per figure, more for one with
     /// a live window.
     pub fn capture(&self) -> Capture {
         self.capture_with(&())
     }
 
-    /// The same, with what the caller keeps of the world beside it; both share bodies and clips.
+    /// Also captures `beside`, the caller's data about the world; both share bodies and clips.
     pub fn capture_with(&self, beside: &impl Serialize) -> Capture {
-        // Every part is named here, so that none that is added is forgotten.
+        // Name every field, so that a new one cannot be forgotten.
         let Self {
             params,
             tick,
@@ -291,7 +293,7 @@ impl World {
             next_key,
             obstacles,
             next_obstacle,
-            planning: _, // of whoever steps it
+            planning: _, // set by the caller that steps the world
             neighbourhood,
         } = self;
         let (through, report) = neighbourhood.saved();
@@ -382,7 +384,7 @@ impl Capture {
         self.tick
     }
 
-    /// [`World::state_hash`] then.
+    /// [`World::state_hash`] at that tick.
     pub fn hash(&self) -> u64 {
         self.hash
     }
@@ -392,15 +394,15 @@ impl Capture {
         self.state.len() + self.beside.len()
     }
 
-    /// A world in this state that shares its bodies and clips, and what was captured beside it.
+    /// A world in this state that shares its bodies and clips, and the data captured beside it.
     ///
     /// # Errors
-    /// What was captured beside it is of another type.
+    /// The data captured beside it are of another type.
     pub fn restore_with<T: DeserializeOwned>(&self) -> Result<(World, T), CheckpointError> {
         restored(self.definitions.clone(), &self.state, &self.beside)
     }
 
-    /// Makes a value of it. What `known` has need not be written again; what is new is added to it.
+    /// Makes a value of it. Definitions in `known` are not written again, and new ones are added to it.
     ///
     /// # Errors
     /// None for a world of this program.
@@ -440,12 +442,12 @@ impl Checkpoint {
         self.tick
     }
 
-    /// True if this program goes on from it with the same bits as the one that wrote it.
+    /// Whether this program continues from it with the same bits as the one that wrote it.
     pub fn is_of_this_numerics(&self) -> bool {
         self.numerics == numerics()
     }
 
-    /// The same without bodies and clips, which are returned beside it.
+    /// Splits off the bodies and clips, which are returned beside the checkpoint.
     pub fn without_definitions(mut self) -> (Self, Vec<(DefinitionHash, Vec<u8>)>) {
         let taken = self.content.definitions.iter_mut();
         let taken = taken
@@ -478,7 +480,7 @@ impl Checkpoint {
         out
     }
 
-    /// Reads the value that bytes are; whether a world can be made of it shows in [`Self::restore`].
+    /// Reads the value from bytes. Only [`Self::restore`] shows whether a world can be made from it.
     ///
     /// # Errors
     /// The bytes are not a checkpoint, of another format, damaged, or cannot have been written.
@@ -514,7 +516,7 @@ impl Checkpoint {
     /// A world in this state. `find` gives the bodies and clips that are kept elsewhere.
     ///
     /// # Errors
-    /// A definition is missing or not what it should be; the state cannot have been written.
+    /// A definition is missing or of the wrong content; the state cannot have been written.
     pub fn restore(
         &self,
         find: impl Fn(&DefinitionHash) -> Option<Vec<u8>>,
@@ -522,10 +524,10 @@ impl Checkpoint {
         self.restore_with::<()>(find).map(|(world, ())| world)
     }
 
-    /// The same, and what was captured beside it.
+    /// [`Self::restore`], together with the data captured beside it.
     ///
     /// # Errors
-    /// Those of [`Self::restore`]; what was captured beside it is of another type.
+    /// Those of [`Self::restore`]; the data captured beside it are of another type.
     pub fn restore_with<T: DeserializeOwned>(
         &self,
         find: impl Fn(&DefinitionHash) -> Option<Vec<u8>>,
@@ -566,7 +568,7 @@ pub fn write_definitions(all: &[Definition]) -> Result<Vec<u8>, CheckpointError>
     postcard::to_stdvec(&all.collect::<Result<Vec<_>, _>>()?).map_err(content)
 }
 
-/// What [`write_definitions`] has written.
+/// Reads the output of [`write_definitions`].
 ///
 /// # Errors
 /// It cannot have been written.
@@ -577,7 +579,7 @@ pub fn read_definitions(bytes: &[u8]) -> Result<Vec<Definition>, CheckpointError
     all.iter().map(read).collect()
 }
 
-/// Of everything that a checkpoint says.
+/// Checksum of the whole content of a checkpoint.
 fn checksum(numerics: u64, tick: u64, body: &[u8]) -> u64 {
     let mut all = [0; 24];
     all[..8].copy_from_slice(&numerics.to_le_bytes());

@@ -36,7 +36,7 @@ pub struct WorldParams {
     pub friction: f64,
     /// Threads that step the figures, 1…64. The result does not depend on it.
     pub threads: usize,
-    /// Figures and obstacles meet. Off: figures touch nothing but the ground.
+    /// Whether figures and obstacles collide. If not, figures touch only the ground.
     pub collisions: bool,
 }
 
@@ -53,7 +53,7 @@ impl Default for WorldParams {
     }
 }
 
-/// Why a world refuses something. Nothing has changed then.
+/// Reason why a world refuses a request. The world is unchanged.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum WorldError {
     /// A number is outside its range or not finite.
@@ -71,7 +71,7 @@ pub enum WorldError {
     /// A time interval ends before it begins.
     #[error("{field} ends at {to} s, before it begins at {from} s")]
     Interval {
-        /// What it belongs to.
+        /// Field to which it belongs.
         field: &'static str,
         /// Beginning, s.
         from: f64,
@@ -81,28 +81,28 @@ pub enum WorldError {
     /// No such figure.
     #[error("no figure {0:?} in this world")]
     UnknownFigure(FigureKey),
-    /// A figure can have only so many perturbations at once.
+    /// The figure has the largest number of perturbations already.
     #[error("a figure can have {MAX_PERTURBATIONS} perturbations scheduled at once")]
     TooManyPerturbations,
-    /// A figure can have only so many constraints at once.
+    /// More constraints than a figure can have at once.
     #[error("a figure can have {MAX_CONSTRAINTS} constraints at once")]
     TooManyConstraints,
-    /// A constraint that says nothing, or what cannot be.
+    /// A constraint that is empty or impossible.
     #[error("constraints: {0}")]
     Constraint(&'static str),
-    /// The other hand can only help a hand.
+    /// The other hand can help only a hand.
     #[error("load.two_hands: the load must be in one hand, l_hand or r_hand")]
     NotInOneHand,
-    /// The other hand, which is to help with a load, holds one then.
+    /// The other hand, which should help with a load, holds another load at that time.
     #[error("load.two_hands: the other hand holds a load at that time")]
     OtherHandHoldsLoad,
     /// No such obstacle.
     #[error("no obstacle {0:?} in this world")]
     UnknownObstacle(ObstacleKey),
-    /// A world can have only so many obstacles.
+    /// The world has the largest number of obstacles already.
     #[error("a world can have {MAX_OBSTACLES} obstacles")]
     TooManyObstacles,
-    /// A plane is fixed or led.
+    /// A plane can only be fixed or led.
     #[error("obstacle.mobility: a plane cannot move freely")]
     FreePlane,
 }
@@ -142,10 +142,10 @@ impl World {
     /// Advances every figure by one tick; afterwards reports and events are those of this tick.
     ///
     /// Stages of one figure: commands (desired motion, loads, pushes) → dynamics, supports, strength → control →
-    /// motors, limits and contact → report; see [`Figure`]. Up to control figures do not see each other. Then those
-    /// that are near nothing move on alone, and the others in clusters that are near each other
-    /// (docs/adr/0009-collisions.md). Neither order nor number of threads matters to the result. With one thread
-    /// nothing is allocated once buffers have grown.
+    /// motors, limits and contact → report; see [`Figure`]. Up to and including control, figures do not see each other.
+    /// Afterwards, figures that are near nothing move alone, and the others move in clusters of nearby bodies
+    /// (docs/adr/0009-collisions.md). The result depends neither on the order nor on the number of threads. With one
+    /// thread, nothing is allocated once the buffers have grown.
     pub fn step(&mut self) {
         let context = TickContext {
             tick: self.tick,
@@ -198,33 +198,33 @@ impl World {
         self.tick += 1;
     }
 
-    /// What ticks do from now on that need a plan which is not there. Default: [`Planning::InTick`].
+    /// Sets how later ticks handle a plan that is needed but not ready. Default: [`Planning::InTick`].
     pub fn set_planning(&mut self, planning: Planning) {
         self.planning = planning;
     }
-    /// Problems that figures want to have solved by a later tick, and that no thread has accepted.
+    /// Problems that figures need solved by a later tick, and that no thread has accepted yet.
     pub fn plan_requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
         self.figures.iter().flat_map(|(_, f)| f.plan_requests())
     }
-    /// Plans that the last tick needed and that were not there: 0 with [`Planning::InTick`].
+    /// Number of plans that the last tick needed and that were not ready; 0 with [`Planning::InTick`].
     pub fn late_plans(&self) -> usize {
         self.figures
             .iter()
             .map(|(_, f)| f.late_plans().count())
             .sum()
     }
-    /// Plans that the last tick needed and that were not there, by figure.
+    /// Plans that the last tick needed and that were not ready, by figure.
     pub fn late_plans_of_figures(&self) -> impl Iterator<Item = (FigureKey, LatePlans)> + '_ {
         let all = self.figures.iter().map(|(k, f)| (*k, f.late_plans()));
         all.filter(|(_, late)| late.count() > 0)
     }
-    /// The next tick does without these plans of a figure, as if they were late: a replay repeats what threads have
-    /// decided. False if there is no such figure.
+    /// Makes the next tick do without these plans of a figure, as if they were late, so that a replay repeats the
+    /// timing of the planning threads. Returns false if there is no such figure.
     pub fn delay_plans(&mut self, key: FigureKey, late: LatePlans) -> bool {
         let figure = self.figure_mut(key);
         figure.map(|f| f.delay_plans(late)).is_some()
     }
-    /// Steps with so many threads (1…64) from now on. The result does not depend on it.
+    /// Sets the number of threads (1…64) for later steps. The result does not depend on it.
     pub fn set_threads(&mut self, threads: usize) {
         self.params.threads = threads.clamp(1, 64);
     }
@@ -257,7 +257,7 @@ impl World {
         Ok(key)
     }
 
-    /// Removes a figure; false if there is none of that key.
+    /// Removes a figure; returns false if there is none with that key.
     pub fn remove_figure(&mut self, key: FigureKey) -> bool {
         let before = self.figures.len();
         self.figures.retain(|(k, _)| *k != key);
@@ -284,7 +284,7 @@ impl World {
         self.figures.iter().map(|(k, f)| (*k, &**f))
     }
 
-    /// Checks an obstacle that is to be put into the world (`new`), or in the place of another one.
+    /// Checks an obstacle that will be added to the world (`new`) or will replace another one.
     ///
     /// # Errors
     /// As [`Self::add_obstacle`].
@@ -299,7 +299,7 @@ impl World {
     /// Puts an obstacle into the world.
     ///
     /// # Errors
-    /// [`WorldError::Range`] naming the field, a plane that is to move freely, or no room.
+    /// [`WorldError::Range`] naming the field; a plane that would move freely; or no room.
     pub fn add_obstacle(&mut self, setup: ObstacleSetup) -> Result<ObstacleKey, WorldError> {
         self.check_obstacle(&setup, true)?;
         let key = ObstacleKey(self.next_obstacle);
@@ -308,7 +308,7 @@ impl World {
         Ok(key)
     }
 
-    /// Replaces an obstacle by another under the same key: shape, mobility, pose and velocity.
+    /// Replaces an obstacle under the same key: shape, mobility, pose and velocity.
     ///
     /// # Errors
     /// As [`Self::add_obstacle`], and an unknown key.
@@ -324,7 +324,7 @@ impl World {
         Ok(())
     }
 
-    /// Removes an obstacle; false if there is none of that key.
+    /// Removes an obstacle; returns false if there is none with that key.
     pub fn remove_obstacle(&mut self, key: ObstacleKey) -> bool {
         let before = self.obstacles.len();
         self.obstacles.retain(|(k, _)| *k != key);
@@ -340,7 +340,7 @@ impl World {
     pub fn obstacles(&self) -> impl Iterator<Item = (ObstacleKey, &Obstacle)> {
         self.obstacles.iter().map(|(k, o)| (*k, o))
     }
-    /// What the collisions of the last tick came to.
+    /// Report on the collisions of the last tick.
     pub fn collisions(&self) -> &CollisionReport {
         &self.neighbourhood.report
     }
@@ -409,11 +409,11 @@ impl World {
         Ok(())
     }
 
-    /// Replaces the constraints of a figure from the next tick on. One on a part that was constrained before goes on
-    /// from there; the others come into force and fade within their `ease`.
+    /// Replaces the constraints of a figure from the next tick on. A constraint on a part that was already constrained
+    /// continues from its present state; the others come into force and fade within their `ease`.
     ///
     /// # Errors
-    /// Unknown figure, a number out of range, more than [`MAX_CONSTRAINTS`], or a constraint that says nothing.
+    /// Unknown figure, a number out of range, more than [`MAX_CONSTRAINTS`], or an empty constraint.
     pub fn set_constraints(
         &mut self,
         key: FigureKey,
@@ -444,24 +444,24 @@ impl World {
 }
 
 thread_local! {
-    /// Workspaces of the worlds that this thread steps. A tick takes them and puts them back: one that panics loses
-    /// them, and the next makes new ones.
+    /// Workspaces of the worlds that this thread steps. A tick takes them and puts them back. A tick that panics loses
+    /// them, and the next one makes new ones.
     static SLOTS: RefCell<Slots> = const { RefCell::new(Slots { slots: Vec::new(), unused: 0 }) };
 }
 
-/// Ticks after which workspaces that none of them needed are given back: each is several hundred kB, and a crowd that
-/// has gone apart may not come again.
+/// Number of consecutive ticks after which unused workspaces are freed: each is several hundred kB, and a crowd that
+/// has dispersed may not return.
 const UNUSED_TICKS: u32 = 10_000;
 
 #[derive(Default)]
 struct Slots {
     slots: Vec<Slot>,
-    /// Ticks in a row that did not need all of them.
+    /// Number of consecutive ticks that did not need all of them.
     unused: u32,
 }
 
 impl Slots {
-    /// After a tick that needed so many.
+    /// Keeps the workspaces after a tick that needed `needed` of them, and frees those that stay unused.
     fn kept(mut self, needed: usize) -> Self {
         if self.slots.len() <= needed {
             self.unused = 0;
@@ -476,7 +476,7 @@ impl Slots {
     }
 }
 
-/// Does `work` for every figure, on so many threads.
+/// Does `work` for every figure, on `threads` threads.
 fn each(
     figures: &mut [(FigureKey, Box<Figure>)],
     threads: usize,
@@ -485,7 +485,7 @@ fn each(
     each_with(figures, &mut vec![(); threads], |f, ()| work(f));
 }
 
-/// Does `work` for every figure, on as many threads as there are of `own`, each with its own one.
+/// Does `work` for every figure on one thread per element of `own`, each with its own element.
 fn each_with<T: Send>(
     figures: &mut [(FigureKey, Box<Figure>)],
     own: &mut [T],

@@ -1,4 +1,4 @@
-//! Bounds of everything a world takes in: parsed once, trusted afterwards.
+//! Bounds of all inputs of a world: checked once, trusted afterwards.
 
 use super::{WorldError, WorldParams};
 use crate::body::State;
@@ -8,9 +8,10 @@ use crate::figure::constraints::{Constrained, Constraint, MAX_CONSTRAINTS, MAX_E
 use crate::figure::{ControlParams, FigureOptions, FigureSetup, Perturbation, StrengthScale};
 use crate::math::Vec3;
 
-/// Farthest from the world origin a figure may be put, m: beyond, positions lose the precision that contact needs.
+/// Largest distance of a figure's start from the world origin, m. Farther out, positions lose the precision that
+/// contact needs.
 const FAR: f64 = 1e5;
-/// Most help, as a force over the weight: twice what carries the figure.
+/// Largest help, as a force relative to the weight: twice the force that carries the figure.
 const LARGEST_HELP: f64 = 2.0;
 
 fn range(field: &'static str, value: f64, lower: f64, upper: f64) -> Result<(), WorldError> {
@@ -104,7 +105,7 @@ pub(super) fn perturbation(p: &Perturbation) -> Result<(), WorldError> {
     Ok(())
 }
 
-/// What a perturbation does; returns from when to when, which is up to the caller.
+/// Checks the effect of a perturbation; returns its start and end, which the caller checks.
 pub(super) fn acting(p: &Perturbation) -> Result<(f64, f64), WorldError> {
     Ok(match p {
         Perturbation::Load { .. } | Perturbation::Held(_) | Perturbation::Helped { .. } => {

@@ -1,4 +1,4 @@
-//! A server under attack: starts the binary with bounded memory, asks for its health all the time, and judges.
+//! A server under attack: starts the binary with bounded memory, checks its health continuously, and judges the result.
 
 use crate::abuse::witness;
 use std::future::Future;
@@ -12,7 +12,7 @@ use tonic_health::pb::HealthCheckRequest;
 use tonic_health::pb::health_check_response::ServingStatus;
 use tonic_health::pb::health_client::HealthClient;
 
-/// Address space of the server, KiB: what `deploy/compose.yaml` gives it.
+/// Address space of the server, KiB, as in `deploy/compose.yaml`.
 const ADDRESS_SPACE_KIB: u64 = 1024 * 1024;
 /// Most memory that the server may ever have touched, KiB.
 const RESIDENT_KIB: u64 = 300 * 1024;
@@ -21,10 +21,10 @@ const HEALTH_TIME: Duration = Duration::from_secs(1);
 /// Time between health checks.
 const HEALTH_EVERY: Duration = Duration::from_millis(100);
 
-/// One attack at a time: each is judged by memory and time, which others would take.
+/// One attack at a time: each is judged by memory and time, which others would distort.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// How long an attack that repeats itself goes on: 3 s, or as many as `SINEW_ABUSE_SECONDS` says.
+/// Duration of a repeating attack: 3 s, or `SINEW_ABUSE_SECONDS`.
 pub fn attack_time() -> Duration {
     let seconds = std::env::var("SINEW_ABUSE_SECONDS").ok();
     Duration::from_secs_f64(seconds.map_or(3.0, |s| s.parse().unwrap()))
@@ -33,12 +33,12 @@ pub fn attack_time() -> Duration {
 /// The binary, serving without a demo world on a port of the system's choice.
 pub struct Server {
     child: Child,
-    /// Where it serves.
+    /// Its address.
     pub address: SocketAddr,
 }
 
 impl Server {
-    /// Starts it with settings other than the defaults; returns when it says that it serves.
+    /// Starts it with settings other than the defaults; returns when it reports that it is serving.
     pub fn start(settings: &[(&str, &str)]) -> Self {
         let binary = std::env::var("SINEW_BIN").unwrap_or(env!("CARGO_BIN_EXE_sinew").to_owned());
         let mut command = Command::new("sh");
@@ -82,7 +82,7 @@ impl Server {
         self.memory_kib("VmRSS")
     }
 
-    /// Most memory that was in use so far, KiB.
+    /// Peak memory use, KiB.
     pub fn peak_kib(&self) -> u64 {
         self.memory_kib("VmHWM")
     }
@@ -92,7 +92,7 @@ impl Server {
         self.child.try_wait().unwrap().is_none()
     }
 
-    /// Ends it and returns what it wrote to its log.
+    /// Ends it and returns its log.
     pub fn end(mut self) -> String {
         use std::io::Read as _;
         self.child.kill().unwrap();
@@ -110,7 +110,7 @@ impl Drop for Server {
     }
 }
 
-/// One health check over a connection of its own; how long it took.
+/// One health check over its own connection; returns its duration.
 ///
 /// # Errors
 /// It was refused or took longer than [`HEALTH_TIME`].
@@ -137,7 +137,7 @@ pub async fn healthy(address: SocketAddr) -> Result<Duration, String> {
         .unwrap_or_else(|_| Err(format!("no answer within {HEALTH_TIME:?}")))
 }
 
-/// Asks for health until it is told to stop: number of checks, the slowest of them, and the refusals.
+/// Checks health until told to stop; returns the number of checks, the slowest of them, and the refusals.
 async fn watch(
     address: SocketAddr,
     mut stop: oneshot::Receiver<()>,
@@ -155,8 +155,8 @@ async fn watch(
     }
 }
 
-/// Attacks a server with these settings. Afterwards, and all the time, it must live, be small and be healthy, and a
-/// world beside the attack must not be disturbed. Returns the server for what else the attack wants to look at.
+/// Attacks a server with these settings. During and after the attack it must be alive, small and healthy, and a world
+/// beside the attack must not be disturbed. Returns the server for further checks.
 pub fn survives<F>(settings: &[(&str, &str)], attack: impl FnOnce(SocketAddr) -> F) -> Server
 where
     F: Future<Output = ()>,
@@ -164,7 +164,7 @@ where
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     let mut server = Server::start(settings);
     let address = server.address;
-    // Health is asked from a thread of its own, so that what the attack computes does not delay it.
+    // Check health on a separate thread, so that the attack's own computation does not delay it.
     let (stop, stopped) = oneshot::channel();
     let watching = std::thread::spawn(move || {
         let runtime = tokio::runtime::Builder::new_current_thread()

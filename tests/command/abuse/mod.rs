@@ -1,8 +1,8 @@
-//! Attacks on the real binary in a process with little memory. During each one the server lives, stays small and
-//! answers health checks, and a world that nobody attacks has the states that it has alone.
+//! Attacks on the real binary in a process with little memory. During each attack the server stays alive, small and
+//! healthy, and a bystander world has the states that it has alone.
 //!
-//! One file per kind of attack: `net_…` sends bytes, connections and requests that are meant to exhaust; `tick_…`
-//! takes what others share: ticks, workers, places. `cargo test --test abuse` runs the short form,
+//! There is one file per kind of attack: `net_…` sends bytes, connections and requests meant to exhaust the server;
+//! `tick_…` takes shared resources: ticks, workers, places. `cargo test --test abuse` runs the short form,
 //! `tests/abuse/run.sh` the long one.
 #![cfg(target_os = "linux")] // limits of a process and its memory as Linux tells them
 

@@ -1,4 +1,4 @@
-//! HTTP/2 by hand, for what no client library sends.
+//! HTTP/2 by hand, for frames that no client library sends.
 
 use std::io;
 use std::net::SocketAddr;
@@ -25,7 +25,7 @@ pub fn frame(kind: u8, flags: u8, stream: u32, payload: &[u8]) -> Vec<u8> {
     out
 }
 
-/// The headers of a gRPC call, without compression; the request goes on.
+/// The headers of a gRPC call, without compression; the request stays open.
 pub fn call(stream: u32, path: &str) -> Vec<u8> {
     let mut block = Vec::new();
     for (name, value) in [
@@ -52,7 +52,7 @@ pub async fn open(address: SocketAddr) -> io::Result<TcpStream> {
     Ok(stream)
 }
 
-/// The kinds of frames that come until the connection ends, or until nothing comes for a second.
+/// The kinds of frames that arrive until the connection ends, or until none arrives for a second.
 pub async fn kinds(stream: &mut TcpStream) -> Vec<u8> {
     let mut kinds = Vec::new();
     let mut next = async || -> io::Result<u8> {

@@ -23,7 +23,7 @@ fn field(number: u8, inner: &[u8]) -> Vec<u8> {
     out
 }
 
-/// Calls again and again with these bytes, over four connections and as fast as the server takes them.
+/// Calls repeatedly with these bytes, over four connections and as fast as the server accepts them.
 async fn four(address: SocketAddr, path: &'static str, bytes: Vec<u8>) {
     let begun = Instant::now();
     let send = async || {
@@ -55,7 +55,7 @@ fn empty_elements_take_no_memory() {
     );
 }
 
-/// The same where large messages are taken.
+/// The same for a call that accepts large messages.
 #[test]
 fn empty_frames_of_a_clip_take_no_memory() {
     let frames = field(5, &[2 << 3 | 2, 0].repeat(8_000_000));
@@ -65,7 +65,7 @@ fn empty_frames_of_a_clip_take_no_memory() {
     );
 }
 
-/// Five bytes each that announce sixteen megabytes.
+/// Messages of five bytes that announce sixteen megabytes.
 #[test]
 fn announced_messages_take_no_memory() {
     survives(&[], |address| async move {
@@ -112,11 +112,11 @@ async fn world(client: &Client, figures: usize, paused: bool) -> String {
     world
 }
 
-/// A world that is stepped as fast as it goes, with nobody who reads the metrics.
+/// A world is stepped as fast as possible, and nothing reads the metrics.
 #[test]
 fn stepping_leaves_nothing_behind() {
     let (used, after) = std::sync::mpsc::sync_channel(1);
-    // What it may remember of these ticks is small against what they would leave.
+    // The permitted memory of these ticks is small compared with the data that they would leave.
     let settings = [("max_world_memory_bytes", "4194304")];
     let server = survives(&settings, |address| async move {
         let client = Client::connect(&address.to_string()).await.unwrap();

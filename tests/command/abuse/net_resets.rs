@@ -1,4 +1,4 @@
-//! Streams that are reset as soon as they were opened, by the client or, tricked into it, by the server.
+//! Streams that are reset as soon as they are opened, by the client or, when tricked, by the server.
 
 use crate::abuse::harness::{attack_time, survives};
 use crate::abuse::net_http2::{GOAWAY, RST_STREAM, WINDOW_UPDATE, call, frame, kinds, open};
@@ -55,7 +55,7 @@ fn resets_that_the_server_is_tricked_into_end_the_connection_and_fill_no_log() {
 fn a_connection_is_closed_after_some_resets_by_the_server() {
     survives(&[], |address| async move {
         let mut stream = open(address).await.unwrap();
-        // Fewer than the streams that may be open at a time, so that none of them is refused for that.
+        // Fewer than the limit of open streams, so that none is refused for that reason.
         for i in (1..400).step_by(2) {
             let bytes = [call(i, METHOD), overflow(i)].concat();
             if stream.write_all(&bytes).await.is_err() {

@@ -1,4 +1,4 @@
-//! Connections that say nothing, or little, and hold their places.
+//! Connections that send little or nothing, and hold their places.
 
 use crate::abuse::harness::{attack_time, survives};
 use crate::abuse::net_http2::{call, open};
@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 use tokio::io::AsyncWriteExt as _;
 use tokio::net::TcpStream;
 
-/// More connections than the server keeps.
+/// More connections than the server allows.
 const MANY: usize = 1200;
 
-/// Opens many connections and holds them; each begins with these bytes.
+/// Opens many connections and holds them; each starts by sending these bytes.
 async fn hold(address: SocketAddr, begin: &[u8]) {
     let mut held = Vec::new();
     for _ in 0..MANY {

@@ -1,4 +1,4 @@
-//! Drivers who send more than they may, and clocks that nobody can trust.
+//! Drivers that send more than they may, and untrustworthy clocks.
 
 use crate::abuse::harness::{attack_time, survives};
 use sinew_client::Client;
@@ -6,7 +6,7 @@ use sinew_wire::pb;
 use std::time::{Duration, Instant};
 use tonic::Code;
 
-/// Frames of one batch: as many as it may hold.
+/// Frames in one batch: the largest number that it may hold.
 const BATCH: i64 = 64;
 
 /// The zero pose at `t` seconds, numbered `sequence`, for these figures.
@@ -37,7 +37,7 @@ fn push(driver: &str, figures: &[String], frames: Vec<pb::MotionFrame>) -> pb::P
     }
 }
 
-/// A running world with so many figures, `figure-1` and on.
+/// A running world with `figures` figures, named from `figure-1`.
 async fn world(client: &Client, figures: usize) -> Vec<String> {
     let create = pb::CreateWorldRequest {
         world_id: "w".into(),
@@ -66,8 +66,8 @@ async fn stats(client: &Client) -> pb::WorldStats {
     stats.unwrap().into_inner().worlds.remove(0)
 }
 
-/// One driver pushes full batches of eight figures as fast as it can, by four connections; another drives a ninth at
-/// 60 Hz, and nothing of his is lost.
+/// One driver pushes full batches of eight figures as fast as it can, by four connections; another drives a ninth at 60
+/// Hz and loses no frame.
 #[test]
 fn a_driver_who_floods_harms_only_himself() {
     survives(&[("max_tick_budget", "1000")], |address| async move {
@@ -140,7 +140,7 @@ fn a_driver_who_floods_harms_only_himself() {
     });
 }
 
-/// Clocks that jump by anything, sequences that start again, times at the ends of their range.
+/// Clocks that jump by any amount, sequences that restart, times at the ends of their range.
 #[test]
 fn clocks_that_jump_are_survived_and_followed_in_the_end() {
     survives(&[], |address| async move {

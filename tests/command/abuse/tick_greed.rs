@@ -1,4 +1,4 @@
-//! Clients who ask for more than their part: of the processors, the workers, the places.
+//! Clients that ask for more than their share of processors, workers and places.
 
 use crate::abuse::harness::{attack_time, survives};
 use sinew_client::Client;
@@ -33,7 +33,7 @@ async fn figure(client: &Client, world: &str) -> Result<(), Status> {
     client.figures().create_figure(request).await.map(|_| ())
 }
 
-/// Worlds at 1000 Hz, ten times as fast, with 16 substeps and 16 figures each: none of them comes to be.
+/// Worlds at 1000 Hz, ten times as fast, with 16 substeps and 16 figures each: none is created.
 #[test]
 fn worlds_that_no_machine_could_bear_are_refused() {
     survives(&[], |address| async move {
@@ -85,8 +85,8 @@ async fn stats(client: &Client) -> pb::GetServerStatsResponse {
     stats.unwrap().into_inner()
 }
 
-/// Worlds that are filled with cheap figures up to the budget, which then become expensive: no refusal can help; they
-/// rest, and a world that needs little goes on.
+/// Worlds are filled with cheap figures up to the budget, which then become expensive. It is too late to refuse them,
+/// so they are throttled, and a cheap world continues.
 #[test]
 fn worlds_that_become_expensive_leave_time_for_others() {
     survives(&[], |address| async move {
@@ -159,7 +159,8 @@ fn worlds_that_become_expensive_leave_time_for_others() {
     });
 }
 
-/// Long simulations and uploads by four connections, some of which go away; others get theirs done meanwhile.
+/// Long simulations and uploads by four connections, some of which disconnect; the work of others is done in the
+/// meantime.
 #[test]
 fn long_work_of_some_does_not_stop_others() {
     survives(&[], |address| async move {
@@ -217,7 +218,7 @@ fn long_work_of_some_does_not_stop_others() {
                     ..Default::default()
                 };
                 client.motions().create_clip(request).await.unwrap();
-                // There is room for 256 of them, fewer than are made in half a minute.
+                // There is room for 256 clips, fewer than are made in half a minute.
                 let request = pb::DeleteClipRequest {
                     name: format!("clips/clip-of-{done}"),
                     ..Default::default()
@@ -232,10 +233,10 @@ fn long_work_of_some_does_not_stop_others() {
     });
 }
 
-/// One client takes worlds, views, viewers and drivers until it is refused; another one gets some all the same.
+/// One client takes worlds, views, viewers and drivers until it is refused; another one still gets some.
 #[test]
 fn who_takes_all_gets_half() {
-    // Few enough that processor time is not what runs out.
+    // Few enough that processor time does not run out first.
     survives(&[("max_worlds", "16")], |address| async move {
         let address = address.to_string();
         let greedy = Client::connect(&address).await.unwrap();

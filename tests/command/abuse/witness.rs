@@ -1,4 +1,4 @@
-//! A world that nobody attacks, beside every attack: a figure that walks. It has to go on as if it were alone.
+//! A bystander world beside every attack, with a walking figure. It has to continue as if it were alone.
 
 use sinew_client::Client;
 use sinew_physics::plan::cycle;
@@ -14,10 +14,10 @@ use tonic::Status;
 
 const WORLD: &str = "worlds/witness";
 const CLIP: &str = "walk";
-/// Time before the attack in which it is seen how late a world is that has the machine for itself.
+/// Time before the attack in which the lateness of a world alone on the machine is measured.
 const QUIET: Duration = Duration::from_secs(1);
 
-/// How late its ticks begin, p99 of recent ones, µs.
+/// Lateness of its ticks, p99 of recent ones, µs.
 async fn lateness(client: &Client) -> Result<f64, Status> {
     let request = pb::GetServerStatsRequest {
         world: WORLD.into(),
@@ -26,7 +26,7 @@ async fn lateness(client: &Client) -> Result<f64, Status> {
     Ok(stats.into_inner().worlds[0].stages[0].p99_us)
 }
 
-/// Lets the figure walk, from tick 0 on. Returns how late its ticks begin with nobody else there.
+/// Lets the figure walk from tick 0. Returns the lateness of its ticks without other load.
 pub async fn begin(address: SocketAddr) -> f64 {
     let client = Client::connect(&address.to_string()).await.unwrap();
     let request = pb::CreateWorldRequest {
@@ -55,7 +55,7 @@ pub async fn begin(address: SocketAddr) -> f64 {
     lateness(&client).await.unwrap()
 }
 
-/// How late it was at last, µs, and a tick with the hash of its state.
+/// Its latest lateness, µs, and a tick with the hash of its state.
 async fn last(address: SocketAddr) -> Result<(f64, i64, i64), Status> {
     let client = Client::connect(&address.to_string()).await;
     let client = client.map_err(|e| Status::unavailable(e.to_string()))?;
@@ -69,9 +69,9 @@ async fn last(address: SocketAddr) -> Result<(f64, i64, i64), Status> {
     Ok((late, frame.tick, frame.state_hash))
 }
 
-/// Compares it with what it would have done alone; `quiet_us` is what [`begin`] returned.
+/// Compares it with a world alone; `quiet_us` is the result of [`begin`].
 pub async fn judge(address: SocketAddr, quiet_us: f64) {
-    // The attack may have left every place taken, for some seconds.
+    // The attack may have left every place occupied, for some seconds.
     let mut found = last(address).await;
     for _ in 0..50 {
         if found.is_ok() {
@@ -89,7 +89,7 @@ pub async fn judge(address: SocketAddr, quiet_us: f64) {
     assert_eq!(hash, alone(tick), "the world beside it at tick {tick}");
 }
 
-/// The hash of its state after a tick, with nobody else there.
+/// The hash of its state after a tick, in a world alone.
 fn alone(tick: i64) -> i64 {
     let settings = convert::world::settings(Some(pb::World::default())).unwrap();
     let mut scene = Scene::new(settings).unwrap();

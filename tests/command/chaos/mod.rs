@@ -1,8 +1,8 @@
-//! Goal: what a client was told to be done outlives `kill -9`, and worlds come back as they were, but for the last
-//! group of inputs. Method: the real server with a data directory; a client creates and deletes worlds, figures and
-//! clips as fast as it is answered, and keeps a book of the answers; another one drives two figures at 60 Hz and notes
-//! the hash of each frame that it sees. Every few seconds the server is killed, started again, and held against both:
-//! it does again what it has recorded, and says which tick and hash that led to.
+//! Goal: confirmed requests survive `kill -9`, and worlds return in their former state, except for the last group of
+//! inputs. Method: the real server with a data directory. A client creates and deletes worlds, figures and clips as
+//! fast as it is answered, and records the answers; another one drives two figures at 60 Hz and notes the hash of each
+//! frame that it sees. Every few seconds the server is killed, restarted, and compared with both: it replays its log,
+//! and reports the resulting tick and hash.
 #![cfg(unix)]
 
 use sinew_client::Client;
@@ -17,9 +17,9 @@ use tonic::Code;
 
 /// Worlds at a time.
 const WORLDS: usize = 16;
-/// Most time that a world goes back, s: a group of 10 ms and a commit, on a disk that others use.
+/// Largest time by which a world goes back, s: a group of 10 ms and a commit, on a shared disk.
 const GROUP_S: f64 = 1.0;
-/// Where in a page the table stands.
+/// Marker in the page before the table.
 const BEGIN: &str = "<!-- kill9: begin -->";
 const END: &str = "<!-- kill9: end -->";
 /// The world whose figures are driven.
@@ -31,7 +31,7 @@ struct Server {
     log: Arc<Mutex<Vec<String>>>,
 }
 
-/// A world that came back: tick, hash, ticks that were done again.
+/// A recovered world: tick, hash, number of replayed ticks.
 type Back = (i64, i64, u64);
 
 impl Server {
@@ -77,7 +77,7 @@ impl Server {
         }
     }
 
-    /// Worlds that came back with what was recorded; and what is lost.
+    /// Recovered worlds, and losses.
     fn back(&self) -> (BTreeMap<String, Back>, Vec<String>) {
         let (mut worlds, mut lost) = (BTreeMap::new(), Vec::new());
         for line in self.log.lock().unwrap().iter() {
@@ -97,7 +97,7 @@ impl Server {
         (worlds, lost)
     }
 
-    /// The end without notice.
+    /// Kills it without notice.
     fn kill(&mut self) {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
@@ -119,19 +119,19 @@ impl Drop for Temporary {
     }
 }
 
-/// What the server has answered. A request without an answer may have been carried out or not.
+/// The server's answers. A request without an answer may have been carried out or not.
 #[derive(Default)]
 struct Book {
     /// Worlds with their figures and their grants.
     worlds: BTreeMap<String, BTreeSet<String>>,
     clips: BTreeSet<String>,
-    /// Being created or deleted when the server was killed.
+    /// Worlds being created or deleted when the server was killed.
     doubtful: BTreeSet<String>,
     next: u64,
 }
 
 impl Book {
-    /// Asks for things until the server is gone. Returns the number of answers.
+    /// Makes requests until the server is gone. Returns the number of answers.
     async fn write(&mut self, client: &Client) -> u64 {
         let mut answers = 0;
         loop {
@@ -185,7 +185,7 @@ impl Book {
     }
 
     async fn figure(&mut self, client: &Client, n: u64) -> Result<(), tonic::Status> {
-        // Few: what is tested is the disk, not the physics.
+        // Only a few, because this tests the disk, not the physics.
         let Some((world, figures)) = self.worlds.iter_mut().find(|(_, f)| f.is_empty()) else {
             tokio::time::sleep(Duration::from_millis(5)).await;
             return Ok(());
@@ -353,7 +353,7 @@ async fn ticks(client: &Client) -> BTreeMap<String, i64> {
     worlds.into_iter().map(|w| (w.name, w.tick)).collect()
 }
 
-/// What the server has, as the book has it.
+/// The server's content, in the form of the book.
 async fn found(client: &Client) -> Book {
     let mut book = Book::default();
     let worlds = client
@@ -442,7 +442,8 @@ async fn what_was_answered_outlives_kill_9() {
     while begun.elapsed() < seconds || kills < 2 {
         kills += 1;
         let client = Client::connect(&server.address).await.unwrap();
-        // Longer than the time between two states, and than that in which a second crash puts a world into quarantine.
+        // Longer than the time between two states, and than the time in which a second crash puts a world into
+        // quarantine.
         let life = Duration::from_millis(6500 + 700 * (kills % 3));
         let second = Client::connect(&server.address).await.unwrap();
         let third = Client::connect(&server.address).await.unwrap();
@@ -465,7 +466,7 @@ async fn what_was_answered_outlives_kill_9() {
         let client = Client::connect(&server.address).await.unwrap();
         let there = found(&client).await;
         let back = start.elapsed();
-        // How far worlds have gone back, s; all of them were recorded from their creation on.
+        // Time by which worlds have gone back, s; all of them were recorded from their creation.
         let (worlds_back, losses) = server.back();
         assert!(losses.is_empty(), "{losses:?}");
         let mut behind = 0.0_f64;
@@ -509,7 +510,7 @@ async fn what_was_answered_outlives_kill_9() {
         print!("{row}");
         table += &row;
         lost += worlds + clips + figures;
-        // Nothing is there that was not asked for, and what was deleted stays so.
+        // Nothing exists that was not requested, and deleted worlds stay deleted.
         let known = |n: &String| book.doubtful.contains(n);
         assert!(
             there

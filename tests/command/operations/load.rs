@@ -4,7 +4,7 @@ use crate::operations::support::text;
 use prost_reflect::DescriptorPool;
 use std::collections::BTreeSet;
 
-/// Every unary call has a case, streams have one where ghz can send them, and no case is of a call that there is not.
+/// Every unary call has a case, streams have one if ghz can send them, and every case belongs to an existing call.
 #[test]
 fn every_unary_call_has_a_load_case() {
     let cases: Vec<serde_json::Value> =

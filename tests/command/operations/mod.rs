@@ -1,5 +1,5 @@
-//! What operators see of a running server. Method: the real binary, used a little by a real client; its pages against
-//! the manual, and the files of `deploy/` against its pages.
+//! The operator's view of a running server. Method: a real client uses the real binary briefly; its pages are compared
+//! with the manual, and the files of `deploy/` with its pages.
 
 mod load;
 mod soak;
@@ -14,7 +14,7 @@ use support::{Page, Server, text};
 /// Playout delay of the driver of these tests, s.
 const DELAY: f64 = 0.05;
 
-/// Does something of everything that is counted.
+/// Makes at least one request of every counted kind.
 async fn use_it(client: &Client) {
     let world = client
         .worlds()
@@ -147,7 +147,7 @@ async fn a_running_server_exports_what_manual_rules_and_dashboard_name() {
         }
     }
 
-    // What happened was counted, once.
+    // Each event was counted once.
     assert_eq!(page.get("sinew_worlds"), 1.0);
     assert_eq!(page.get("sinew_checkpoints"), 1.0);
     assert!(page.get("sinew_checkpoint_bytes") > 1000.0);
@@ -174,19 +174,19 @@ async fn a_running_server_exports_what_manual_rules_and_dashboard_name() {
             "{stage}: {counted} of {ticks}"
         );
     }
-    // Every frame that was sent was shown once, not before its delay was over.
+    // Every sent frame was shown once, and not before its delay was over.
     let shown = page.get("sinew_input_to_frame_seconds_count");
     assert!((30.0..=60.0).contains(&shown), "{shown}");
     let mean = page.get("sinew_input_to_frame_seconds_sum") / shown;
     assert!(mean >= DELAY, "{mean}");
 
-    // Series that can be named beforehand are there before anything happens.
+    // Series whose names are known in advance exist before anything happens.
     let late = "sinew_motion_frames_dropped_total{reason=\"overflow\"}";
     assert_eq!(unused.get(late), 0.0);
     assert_eq!(unused.get("sinew_tick_lateness_seconds_count"), 0.0);
 }
 
-/// What a page holds does not grow with what is asked.
+/// The content of a page does not grow with the requests.
 #[tokio::test(flavor = "multi_thread")]
 async fn strangers_make_no_series() {
     let server = Server::start(&[]);

@@ -1,9 +1,9 @@
-//! Goal: a server that is used for hours holds no more than one that is used for a minute. Method: the real server
-//! with a data directory; clients create worlds, drive, watch, perturb, upload, checkpoint, restore and delete without
-//! end, over connections of their own. Memory, descriptors, threads and tasks are looked at again and again; their
-//! trend (the median slope of all pairs, Theil–Sen) must not lead anywhere. When everybody has gone, nothing is left.
+//! Goal: a server used for hours holds no more resources than one used for a minute. Method: the real server with a
+//! data directory; clients create worlds, drive, watch, perturb, upload, checkpoint, restore and delete endlessly, each
+//! over its own connections. Memory, descriptors, threads and tasks are sampled repeatedly; their trend (the median
+//! slope of all pairs, Theil–Sen) must be flat. When all clients have gone, nothing is left.
 //!
-//! `SINEW_SOAK_SECONDS` says for how long; `tests/soak.sh` runs half an hour and prints the table.
+//! `SINEW_SOAK_SECONDS` sets the duration; `tests/soak.sh` runs half an hour and prints the table.
 
 use crate::operations::support::{Page, Server, Temporary, arm_frame};
 use sinew_client::Client;
@@ -17,12 +17,13 @@ use tonic::{Code, Status};
 const CLIENTS: u64 = 6;
 /// Interval of samples, s.
 const EVERY: f64 = 2.0;
-/// Part of the time that is left out of the trend: caches fill, history grows to its limit.
+/// Part of the time that is left out of the trend, while caches fill and history grows to its limit.
 const WARM_UP: f64 = 0.25;
-/// Time from which on trends are judged, s: in a shorter one a single world is a trend.
+/// Shortest run in which trends are judged, s: in a shorter one, a single world is a trend.
 const JUDGED: f64 = 600.0;
 
-/// What is looked at, and by how much its trend may grow over the measured time: a part of its mean, at least so much.
+/// Sampled quantities, each with the largest growth of its trend over the measured time: a share of its mean, and a
+/// minimum.
 const LOOKED_AT: [(&str, f64, f64); 6] = [
     ("process_resident_memory_bytes", 0.05, 4e6),
     ("process_open_fds", 0.05, 3.0),
@@ -32,7 +33,7 @@ const LOOKED_AT: [(&str, f64, f64); 6] = [
     ("sinew_store_history_bytes", 0.10, 4e6),
 ];
 
-/// A round of everything that one client does.
+/// One round of all actions of a client.
 async fn round(address: &str, id: &str) -> Result<(), Status> {
     let client = Client::connect(address)
         .await
@@ -181,7 +182,7 @@ async fn a_server_that_is_used_without_end_holds_no_more() {
     let dir = Temporary::new("soak");
     let settings = ["--data-dir", dir.path(), "--set", "max_client_share=1"];
     let server = Server::start(&settings);
-    // Once, so that what is made for the first use of anything is there.
+    // Run once, so that everything created on first use exists.
     round(&server.address, "first").await.unwrap();
     tokio::time::sleep(Duration::from_secs(1)).await;
     let quiet = Page::of(&server).await;
@@ -255,7 +256,7 @@ async fn a_server_that_is_used_without_end_holds_no_more() {
         assert!(leads_somewhere.is_empty(), "{leads_somewhere:?}");
     }
 
-    // Everybody has gone: what there is, is what there was.
+    // All clients have gone, so usage must be as before.
     let gone = async || {
         let page = Page::of(&server).await;
         let named = [

@@ -57,7 +57,7 @@ impl Drop for Server {
     }
 }
 
-/// A directory that goes away.
+/// A directory that is removed when dropped.
 pub struct Temporary(PathBuf);
 
 impl Temporary {

@@ -55,13 +55,13 @@ fn errors(f: &Fit, counts: &dyn Fn(&[f64], usize) -> bool) -> Errors {
 fn trunk_head_and_arms_turn_as_recorded() {
     for f in fits().filter(|f| f.dialect.zero != Zero::AlongX) {
         let e = errors(f, &|_, _| true);
-        // Clean files: rounding, and the low-pass of 6 Hz that takes the tops off the fastest swings of the arms.
-        // Noise leaves what lies below 6 Hz of it.
+        // Clean files show only rounding and the effect of the low-pass of 6 Hz, which flattens the fastest swings of
+        // the arms. Noise below 6 Hz remains.
         let fast = matches!(f.motion.script.kind, "run" | "jump");
         let (rms, most) = match (f.noisy(), fast, f.motion.script.kind) {
             (true, ..) => (0.5, 3.5),
             (_, true, _) => (0.5, 2.5),
-            // Sitting with the knees up takes the hips past the body's limit: the trunk may take the rest.
+            // Sitting with the knees up would exceed the hip limits of the body, so the trunk may take the rest.
             (.., "floor") => (1.5, 6.0),
             _ => (0.12, 0.5),
         };
@@ -80,8 +80,9 @@ fn trunk_head_and_arms_turn_as_recorded() {
 
 #[test]
 fn without_a_zero_pose_trunk_head_and_arms_vary_as_recorded() {
-    // A file whose bones all lie along x does not say which orientation of a bone is neutral: a frame of the motion
-    // is taken for it. The angles are right but for what that frame has: at most the actor's easy stance.
+    // A file whose bones all lie along x does not state the neutral orientation of a bone, so a frame of the motion is
+    // used instead. The angles are correct except for an offset, the angles in that frame: at most those of the actor's
+    // easy stance.
     for f in fits().filter(|f| f.dialect.zero == Zero::AlongX) {
         let e = errors(f, &|_, _| true);
         for k in UPPER {
@@ -114,7 +115,7 @@ fn without_a_zero_pose_trunk_head_and_arms_vary_as_recorded() {
 fn hips_spread_and_turn_as_recorded() {
     for f in fits() {
         let e = errors(f, &|_, _| true);
-        // Hips of another width, feet that are locked where noisy ones slide, and the pelvis shifted for balance.
+        // The hips have another width, noisy sliding feet are locked, and the pelvis is shifted for balance.
         let (rms, most) = if f.noisy() { (2.2, 7.5) } else { (1.4, 3.5) };
         for k in HIPS {
             assert!(

@@ -1,6 +1,6 @@
-//! Boundary conditions of plans: where a motion begins and ends, and how it is joined to another. Method: walks that
-//! are cut out of their recordings in full stride, their stops at moments spread over each, their loops, and the ways
-//! from walk to walk, held against the motions that they join.
+//! Boundary conditions of plans: where a motion begins and ends, and how it is joined to another. Method: walks cut out
+//! of their recordings in full stride, their stops at moments spread over each, their loops, and the transitions from
+//! walk to walk, compared with the motions that they join.
 
 use crate::corpus::plans::{Continued, moments, repeated, stop, strides, walks, way_over};
 use crate::corpus::preparation::{sole, soles};
@@ -14,7 +14,7 @@ use sinew_physics::motion::leg_ik::{center_of_mass, forward};
 use sinew_physics::motion::target::Target;
 use std::sync::Arc;
 
-/// The same posture but for rounding, m and rad.
+/// Difference of equal postures, caused by rounding, m and rad.
 const SAME: f64 = 1e-6;
 /// A body slower than this is at rest, m/s and rad/s: it moves by less than 1 mm in a tick.
 const REST: f64 = 0.05;
@@ -22,10 +22,10 @@ const REST: f64 = 0.05;
 const LEAVES_ITS_FEET: f64 = 0.3;
 /// Height over or under the floor at which a sole stands on it, m.
 const ON_FLOOR: f64 = 1e-3;
-/// Differences of velocity that a motion shows where it is sampled anew: pelvis, m/s and rad/s, and joints, rms, rad/s.
-/// Where somebody walks, they are 1 m/s and 1 to 2 rad/s.
+/// Velocity differences that resampling a motion causes: pelvis, m/s and rad/s, and joints, rms, rad/s. The velocities
+/// of a walk are 1 m/s and 1 to 2 rad/s.
 const AS_FAST: (f64, f64) = (0.05, 0.5);
-/// What the plan keeps from the edge of a sole, m.
+/// Distance that the plan keeps from the edge of a sole, m.
 const INSET: f64 = 0.04;
 
 /// Largest difference of two postures, m and rad.
@@ -52,7 +52,8 @@ fn as_fast(a: &Target, b: &Target, what: &str) {
     );
 }
 
-/// It is at rest, both feet touch the floor, and its centre of mass is well over what touches.
+/// Checks that it is at rest, that both feet touch the floor, and that its centre of mass is well inside the contact
+/// area.
 #[track_caller]
 fn stands(body: &Body, target: &Target, what: &str) {
     let fastest = target.velocity.iter().fold(0.0f64, |m, v| m.max(v.abs()));
@@ -82,7 +83,7 @@ fn highest(body: &Body, posture: &Posture) -> f64 {
     all.map(|p| p.z).fold(0.0, f64::max)
 }
 
-/// Up to where it may leave a motion, a plan is that motion, and it leaves it as fast as it was.
+/// Until it may leave a motion, a plan equals that motion, and it leaves it at the same velocity.
 #[track_caller]
 fn continues(plan: &Continued, what: &str) {
     const TICK: f64 = 1.0 / 60.0;
@@ -95,7 +96,7 @@ fn continues(plan: &Continued, what: &str) {
     as_fast(&is, &was, what);
 }
 
-/// The first and the last moment of a whole clip in which it is not yet, or no longer, held.
+/// The first and the last moment of a whole clip, at which its posture is not yet, or no longer, held.
 fn first_and_last(clip: &Clip) -> [Target; 2] {
     let edge = 0.01 / clip.rate_hz();
     [
@@ -122,7 +123,7 @@ fn a_walk_begins_and_ends_standing_at_ease_and_is_joined_to_both() {
         }
         let high = highest(&body, &last.posture);
         assert!(high < ON_FLOOR, "{name} ends with a sole {high} m up");
-        // The recording goes on as fast as it is come to, and is left as fast as it goes.
+        // The velocity is continuous where the recording is entered and where it is left.
         let h = 1.0 / clip.rate_hz();
         for seam in [0.0, clip.duration()] {
             let [before, at, after] = [-h, 0.0, h].map(|d| clip.sample(seam + d));
@@ -141,7 +142,7 @@ fn a_stop_begins_as_the_motion_was_and_ends_at_rest_on_both_feet() {
         for at in moments(&clip, 6) {
             let what = format!("{name} stopped at {at:.2} s");
             let Some(plan) = stop(&body, &clip, at) else {
-                // It stands in the step to come, and does not leave its feet.
+                // It would stand in the coming step, and does not leave its feet.
                 let soon = clip.sample(at + 0.5);
                 let slow = soon.velocity[3].hypot(soon.velocity[4]) < LEAVES_ITS_FEET;
                 let stands = soon.planted == [true; 2] && slow;
@@ -181,7 +182,7 @@ fn a_loop_has_no_seam() {
             pelvis < 1e-2 && joints < 1e-2,
             "{name}: the velocity jumps by {pelvis} and {joints}"
         );
-        // A foot that stands across the seam stays where it is.
+        // A foot that stands across the seam stays in place.
         for i in 0..(0.2 / h) as usize {
             let [a, b] = [0.0, h].map(|d| clip.sample_looped(period - 0.1 + i as f64 * h + d));
             for side in (0..2).filter(|s| a.planted[*s] && b.planted[*s]) {
@@ -219,6 +220,6 @@ fn a_transition_begins_on_the_one_motion_and_ends_on_the_other() {
             }
         }
     }
-    // Where nothing is alike enough, a figure comes to a stand in between.
+    // If no moments are similar enough, a figure comes to a stand in between.
     assert!(2 * found > asked, "{found} ways of {asked}");
 }

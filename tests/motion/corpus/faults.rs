@@ -1,5 +1,5 @@
-//! What is wrong with a file is left out, solved again or said: poses held before the motion, hips at their limit, a
-//! root without positions, joints cut by their limits.
+//! Faults of a file are left out, solved again or reported: poses held before the motion, hips at their limit, a root
+//! without positions, joints cut by their limits.
 
 use crate::corpus::angles::upper_errors;
 use crate::corpus::labels::{agreement, labelled};

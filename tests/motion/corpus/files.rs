@@ -1,4 +1,4 @@
-//! The folder is what the program writes, and what it writes is physical.
+//! The folder equals the output of the program, and that output is physical.
 
 use crate::corpus::actor::{LEG, MASS_SHARE};
 use crate::corpus::corpus::files_of;
@@ -65,7 +65,7 @@ fn planted_feet_do_not_move() {
             while t < until {
                 let pose = m.recorded(t);
                 let foot = m.script.feet[side].at(&m.script.actor, start + t);
-                // Flat: the ankle stands over its point. On the heel or the toes: that point does.
+                // On a flat foot, the ankle stands over its point; on the heel or the toes, that point stands.
                 let a = &m.script.actor;
                 let (point, at) = if foot.pitch >= 0.0 {
                     (v3(-a.heel, 0.0, -a.ankle), -a.heel)
@@ -146,7 +146,7 @@ fn the_zero_moment_point_stays_under_the_standing_feet() {
         let mut t = start + 0.05;
         while t < end - 0.05 {
             let (_, force, zmp) = dynamics(m, t);
-            // In the instants around a landing or take-off the little force there is may act anywhere.
+            // In the instants around a landing or take-off, the small force may act anywhere.
             if let Some(p) = zmp.filter(|_| force.z > 0.4 * GRAVITY) {
                 let off = outside(m, t, p);
                 if off > worst {
@@ -157,8 +157,7 @@ fn the_zero_moment_point_stays_under_the_standing_feet() {
             }
             t += 1.0 / 60.0;
         }
-        // At the instant of a landing the little force there is acts at the toes that touch first; the jump lands
-        // hardest.
+        // At the instant of a landing, the small force acts at the toes, which touch first; the jump lands hardest.
         let bound = if m.script.kind == "jump" { 0.08 } else { 0.03 };
         assert!(
             worst < bound,

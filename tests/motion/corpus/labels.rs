@@ -1,5 +1,4 @@
-//! When feet stand: the labels of a recording, and the planted feet of the motion that is made of it, against the
-//! truth.
+//! Stance of the feet: the labels of a recording, and the planted feet of the motion made from it, against the truth.
 
 use crate::corpus::recorded::{Fit, fits};
 use sinew_physics::plan::contact_labels::ContactPhase;
@@ -7,7 +6,8 @@ use std::collections::BTreeMap;
 
 /// Samples per second at which contact is compared.
 const RATE: f64 = 240.0;
-/// A touch-down or lift-off that is farther off is in another phase of the gait, s: double support takes 0.1 to 0.2 s.
+/// A touch-down or lift-off with a larger error belongs to another phase of the gait, s: double support takes 0.1 to
+/// 0.2 s.
 const ON_TIME: f64 = 0.1;
 /// Speeds this near to the ends of a cut recording are not those of its motion, s.
 const END: f64 = 0.05;
@@ -17,17 +17,17 @@ fn planted(phases: &[ContactPhase], t: f64) -> [bool; 2] {
     phase.map_or([false; 2], |p| p.planted)
 }
 
-/// What the labels of a recording say at a time.
+/// The labels of a recording at a time.
 pub fn labelled(f: &Fit, t: f64) -> [bool; 2] {
     planted(&f.fitted.report.feet.phases, t)
 }
 
-/// What the prepared motion has on the floor at a time.
+/// The planted feet of the prepared motion at a time.
 fn prepared(f: &Fit, t: f64) -> [bool; 2] {
     f.fitted.clip.sample(t).planted
 }
 
-/// Contact time of feet, s: in both, as found, and in truth.
+/// Contact time of feet, s: in both, as found, and in the truth.
 #[derive(Clone, Copy, Default)]
 pub struct Overlap {
     both: f64,
@@ -49,16 +49,16 @@ impl Overlap {
     }
 }
 
-/// What was found about the contacts of a recording.
+/// Agreement of the contacts of a recording with the truth.
 pub struct Agreement {
     pub overlap: Overlap,
-    /// Touch-downs and lift-offs of the truth: found minus truth, s; none where no contact overlaps with the true one.
+    /// Touch-downs and lift-offs of the truth: found minus truth, s; `None` if no contact overlaps with the true one.
     pub events: [Vec<Option<f64>>; 2],
-    /// Contacts that overlap with none of the truth.
+    /// Contacts that overlap with no true contact.
     invented: usize,
 }
 
-/// Stretches in which `on` holds, s.
+/// Intervals in which `on` holds, s.
 fn contacts(on: impl Fn(f64) -> bool, end: f64) -> Vec<(f64, f64)> {
     let count = (end * RATE) as usize;
     let (mut out, mut from) = (Vec::new(), None);
@@ -136,8 +136,8 @@ fn standing_feet_are_labelled_as_planted() {
 fn feet_in_the_air_are_not_labelled_as_planted() {
     for f in fits() {
         let precision = agreement(f, labelled).overlap.precision();
-        // A foot is low and slow for up to a tenth of a second before its touch-down and after its lift-off. The feet
-        // that turn on the spot are so all the time.
+        // A foot is low and slow for up to a tenth of a second before its touch-down and after its lift-off. Feet that
+        // turn on the spot always are.
         let least = match f.motion.script.kind {
             "turn" => 0.75,
             "stand" | "floor" => 0.997,
@@ -148,12 +148,11 @@ fn feet_in_the_air_are_not_labelled_as_planted() {
     }
 }
 
-/// Contact time of each kind of motion as a figure is told of it: nine tenths of it are true, and nine tenths of the
-/// truth are told.
+/// Contact time of each kind of prepared motion: nine tenths of it are true, and nine tenths of the truth are found.
 #[test]
 fn prepared_feet_stand_when_they_stood() {
     let mut kinds: BTreeMap<&str, Overlap> = BTreeMap::new();
-    // The feet of a body that lies down carry nothing, and the prepared motion says so.
+    // The feet of a body that lies down carry nothing, and the prepared motion labels them so.
     for f in fits().filter(|f| f.motion.script.kind != "floor") {
         let kind = kinds.entry(f.motion.script.kind).or_default();
         kind.add(agreement(f, prepared).overlap);
@@ -203,7 +202,7 @@ fn flights_are_labelled_and_only_flights() {
     for f in fits() {
         let phases = &f.fitted.report.feet.phases;
         let flights = f.truth().flights();
-        // A noisy file may lose its feet for some frames where one foot takes over from the other.
+        // A noisy file may lose both feet for some frames where one foot takes over from the other.
         let shortest = if f.noisy() { 0.10 } else { 0.04 };
         for p in phases
             .iter()

@@ -1,13 +1,13 @@
-//! Goal: recordings whose truth is known are read, retargeted, labelled, prepared and followed as they should be.
-//! Method: the synthesised corpus of this folder (README.md), written by `tools/corpus`. The program's modules are
-//! compiled into this test, so that every frame of every file can be compared with the pose it came from; contacts,
-//! footholds, flights, centre of mass and joint angles come from the truth files.
+//! Goal: recordings with known truth are read, retargeted, labelled, prepared and followed correctly. Method: the
+//! synthesised corpus of this folder (README.md), written by `tools/corpus`. The program's modules are compiled into
+//! this test, so that every frame of every file can be compared with its original pose; contacts, footholds, flights,
+//! centre of mass and joint angles come from the truth files.
 //!
-//! * `files`: the folder is what the program writes, and the motions are physical.
-//! * `faults`: what is wrong with a file is left out, solved again or said.
+//! * `files`: the folder equals the output of the program, and the motions are physical.
+//! * `faults`: faults of a file are left out, solved again or reported.
 //! * `reading`: joint positions, unit, axes, rate, held poses.
 //! * `angles`: joint angles and centre of mass of the fitted motion.
-//! * `labels`: when feet stand: touch-downs, lift-offs, contact time.
+//! * `labels`: stance of the feet: touch-downs, lift-offs, contact time.
 //! * `preparation`: feet that stand still where they should, zero-moment point.
 //! * `symmetry`: mirrored and turned files and motions give mirrored and turned plans.
 //! * `boundaries`: where starts, stops, loops and transitions begin and end.

@@ -1,4 +1,4 @@
-//! Stops, transitions and loops of corpus motions, as a figure asks for them.
+//! Stops, transitions and loops of corpus motions, as a figure requests them.
 
 use crate::common::corpus::piece;
 use crate::corpus::recorded::{RetargetOptions, man, motion, motions};
@@ -12,15 +12,15 @@ use sinew_physics::plan::stream;
 use sinew_physics::retarget::retarget;
 use std::sync::Arc;
 
-/// What a figure knows of its motion before the moment at which it is told to stop, and after it, s.
+/// Known time of its motion before and after the moment at which a figure is told to stop, s.
 const STOP_KNOWN: [f64; 2] = [1.4, 0.8];
 /// The same for a transition, s, and its samples per second.
 const TRANSITION_KNOWN: [f64; 2] = [0.5, 1.55];
 const TRANSITION_RATE: f64 = 120.0;
-/// Ticks of 1/60 s in which a plan is worked out, s: the motion goes on so long as it was.
+/// Time in which a plan is computed, in ticks of 1/60 s, s; until then the motion continues unchanged.
 const LEAD: f64 = 4.0 / 60.0;
 
-/// A plan that continues a motion from some moment on.
+/// A plan that continues a motion from some moment.
 pub struct Continued {
     /// The motion that it continues, in the time of the plan, s.
     pub before: Box<dyn Fn(f64) -> Target>,
@@ -38,7 +38,7 @@ fn known(of: &impl Fn(f64) -> Target, rate: f64, [before, after]: [f64; 2]) -> V
     samples.map(|t| (t.posture, t.planted)).collect()
 }
 
-/// The stop of `clip` at time `at`, s; `None` if it stands there anyway.
+/// The stop of `clip` at time `at`, s; `None` if it already stands there.
 pub fn stop(body: &Arc<Body>, clip: &Arc<Clip>, at: f64) -> Option<Continued> {
     let clip = Arc::clone(clip);
     let of = move |t: f64| clip.sample(at + t);
@@ -52,13 +52,13 @@ pub fn stop(body: &Arc<Body>, clip: &Arc<Clip>, at: f64) -> Option<Continued> {
     })
 }
 
-/// A way from one clip into another, with the motion that is left put into the place of the second one.
+/// A transition from one clip into another, with the first motion moved to the place of the second.
 pub struct WayOver {
     pub left: Continued,
     pub way: TransitionClip,
 }
 
-/// The first way that a body can go from `clip` at time `at`, s, into `next`; `None` if there is none.
+/// The first possible transition from `clip` at time `at`, s, into `next`; `None` if there is none.
 pub fn way_over(body: &Arc<Body>, clip: &Arc<Clip>, at: f64, next: &Arc<Clip>) -> Option<WayOver> {
     let clip = Arc::clone(clip);
     let of = move |t: f64| clip.sample(at + t);
@@ -98,7 +98,7 @@ pub fn walks() -> Vec<&'static str> {
     all.map(|m| m.script.name.as_str()).collect()
 }
 
-/// The middle of a recorded walk: it begins and ends in full stride, and so has a way in and a way out.
+/// The middle of a recorded walk: it begins and ends in full stride, and so has a lead-in and a lead-out.
 pub fn strides(name: &str) -> Arc<Clip> {
     let long = motion(name).duration();
     let part = piece(&format!("{name}.vrm"), 0.3 * long, 0.7 * long);
@@ -116,7 +116,7 @@ pub fn moments(clip: &Clip, count: u32) -> impl Iterator<Item = f64> + use<> {
     (0..count).map(move |k| long * (f64::from(k) + 0.5) / f64::from(count))
 }
 
-/// The clip made to repeat; as it is if it does so anyway.
+/// The clip made to repeat; unchanged if it already does.
 pub fn repeated(clip: &Arc<Clip>) -> Arc<Clip> {
     cycle(&man(), clip).map_or_else(|| Arc::clone(clip), Arc::new)
 }

@@ -11,7 +11,7 @@ use sinew_physics::motion::leg_ik::forward;
 use sinew_physics::motion::target::Target;
 use sinew_physics::plan::foot_lock::Sole;
 
-/// For which motions are prepared, m/s².
+/// Gravity for which motions are prepared, m/s².
 const GRAVITY: f64 = 9.81;
 /// Height below which a point of a sole touches the floor, m.
 const TOUCHES: f64 = 0.005;
@@ -50,8 +50,8 @@ fn a_point_of_each_planted_foot_stands_still() {
                 }
             }
         }
-        // While a foot rolls, the point that it turns about moves from the heel's edge to the toe joint and passes
-        // between contact points.
+        // While a foot rolls, its centre of rotation moves from the heel's edge to the toe joint and passes between
+        // contact points.
         let most = if f.motion.script.kind == "run" {
             0.15
         } else {
@@ -88,7 +88,7 @@ fn swinging_feet_clear_the_floor() {
     let body = man();
     let soles = soles(&body);
     let mut swings = 0;
-    // In a noisy file a foot may lose the floor for a moment where it stands.
+    // In a noisy file, a standing foot may lose the floor for a moment.
     for f in fits().filter(|f| f.motion.script.kind == "walk" && !f.noisy()) {
         let clip = &f.fitted.clip;
         for side in 0..2 {
@@ -100,7 +100,7 @@ fn swinging_feet_clear_the_floor() {
                     top = top.max(low);
                     continue;
                 }
-                // A swing that the clip begins in is not whole.
+                // A swing at the start of the clip is not whole.
                 if stood && top > 0.0 {
                     assert!(top > CLEARANCE, "{}: foot {side} by {top} m", f.what());
                     swings += 1;
@@ -208,15 +208,15 @@ fn pressure_point(links: &Links, target: &Target) -> (f64, [f64; 2]) {
     (fz / weight, p)
 }
 
-/// How far a motion asks the floor to pull.
+/// Extent to which a motion requires the floor to pull.
 struct Outside {
-    /// How long its zero-moment point is outside the support polygon, s.
+    /// Time during which its zero-moment point is outside the support polygon, s.
     time: f64,
     /// Farthest that this drives the capture point within half a second, m.
     drift: f64,
 }
 
-/// Measures a motion with its ways in and out, on the points of planted feet that touch the floor.
+/// Measures a motion with its lead-in and lead-out, on the points of planted feet that touch the floor.
 fn outside(body: &Body, clip: &Clip) -> Outside {
     let (links, soles) = (Links::new(body), soles(body));
     let (h, lead) = (1.0 / clip.rate_hz(), clip.lead_in());
@@ -246,20 +246,20 @@ fn outside(body: &Body, clip: &Clip) -> Outside {
     }
 }
 
-/// Time around each touch-down and each lift-off in which smoothing at 6 Hz mixes what is before and after it, s.
+/// Time around each touch-down and each lift-off in which smoothing at 6 Hz mixes the motion before and after it, s.
 const BLURRED: f64 = 0.05;
-/// Most time that the zero-moment point of a motion may be outside by that, s.
+/// Longest time for which the zero-moment point of a motion may be outside because of that, s.
 fn most_outside(name: &str) -> f64 {
     let holds = Truth::of(name).footholds();
     let steps = holds.iter().filter(|h| h.from > 0.0).count();
     2.0 * BLURRED * steps as f64
 }
 
-/// What the plan keeps from the edge of a sole, m: an error of the capture point that the soles can correct.
+/// Distance that the plan keeps from the edge of a sole, m: an error of the capture point that the soles can correct.
 const INSET: f64 = 0.04;
 
-/// The floor is asked to pull only while one foot takes over from the other, and never for so long or so far that steps
-/// would have to be placed otherwise.
+/// The floor would have to pull only while one foot takes over from the other, and never long or far enough to require
+/// other footholds.
 #[test]
 fn the_zero_moment_point_stays_inside_the_support_polygon() {
     let body = man();
@@ -268,7 +268,7 @@ fn the_zero_moment_point_stays_inside_the_support_polygon() {
         ..RetargetOptions::default()
     };
     let mut seen = 0;
-    // What lies is not carried by its feet, and what runs asks for more than feet give (docs/limits.md).
+    // A lying body is not carried by its feet, and running needs more than feet can give (docs/limits.md).
     for f in fits().filter(|f| !["floor", "run"].contains(&f.motion.script.kind)) {
         let what = f.what();
         let o = outside(&body, &f.fitted.clip);
@@ -283,7 +283,7 @@ fn the_zero_moment_point_stays_inside_the_support_polygon() {
         seen += 1;
     }
     assert!(seen > 30, "{seen}");
-    // The measure sees what balance does.
+    // The measure detects the effect of balance.
     let unbalanced = Preparation {
         balance: false,
         ..Preparation::default()

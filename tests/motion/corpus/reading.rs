@@ -1,4 +1,4 @@
-//! What a file says is what was written: joint positions, unit, axes, rate, bones.
+//! The content of a file is read back as it was written: joint positions, unit, axes, rate, bones.
 
 use crate::corpus::dialect::{Dialect, file_axes, joint_points};
 use crate::corpus::recorded::{Truth, all_fits, bvh, fits, man, motion, recordings};
@@ -11,7 +11,7 @@ use sinew_physics::retarget::UpAxis;
 /// Rounding of the files (0.005° and up to 0.5 mm) over the length of a limb, m.
 const ROUNDING: f64 = 1e-3;
 
-/// Places of the file's joints in one frame, m, world axes, and of the actor's points that they are.
+/// Places of the file's joints in one frame, m, world axes, and of the corresponding points of the actor.
 fn places(name: &str, d: &Dialect, file: &Bvh, frame: usize) -> Vec<(String, Vec3, Vec3)> {
     let m = motion(name);
     let pose = m.recorded((frame - d.held) as f64 / d.rate);
@@ -134,7 +134,7 @@ fn the_floor_is_found() {
     let ankle = Sole::new(&man(), 0).ankle_height;
     for f in fits() {
         let r = &f.fitted.report;
-        // The report counts from where the body's ankle would be in the recording's size; the actor's is higher.
+        // The report measures from the height of the body's ankle at the recording's size; the actor's ankle is higher.
         let expected = f.dialect.faults.floor + f.motion.script.actor.ankle - ankle / r.size.scale;
         let off = r.place.floor_offset - expected;
         assert!(

@@ -67,12 +67,12 @@ impl Fit {
         format!("{}.{}", self.motion.script.name, self.dialect.name)
     }
 
-    /// What is true of it.
+    /// Its truth.
     pub fn truth(&self) -> Truth {
         Truth::of(&self.motion.script.name)
     }
 
-    /// True if the file has noise and slides.
+    /// Whether the file has noise and sliding feet.
     pub fn noisy(&self) -> bool {
         self.dialect.faults.noise.0 > 0.0
     }
@@ -99,7 +99,7 @@ pub fn all_fits() -> &'static [Fit] {
 }
 
 /// The fits of the recordings without held frames and with a place of the root. The others are in
-/// `after_reading_fixes.rs`: a held pose that fewer than four bones show is taken for motion today.
+/// `after_reading_fixes.rs`: a held pose visible in fewer than four bones is still taken for motion.
 pub fn fits() -> impl Iterator<Item = &'static Fit> {
     all_fits()
         .iter()

@@ -1,5 +1,5 @@
-//! Symmetries: what is prepared does not depend on which side is left, nor on where north is. Method: mirrored and
-//! turned files, and stops, transitions and loops of the motions that come of them, sample by sample.
+//! Symmetries: a prepared motion depends neither on which side is left nor on the direction of north. Method: mirrored
+//! and turned files, and stops, transitions and loops of the resulting motions, sample by sample.
 
 use crate::corpus::dialect::{self, dialect};
 use crate::corpus::plan::Motion;
@@ -16,15 +16,15 @@ use std::sync::Arc;
 
 /// Differences that rounding in a file leaves, and that preparation does not enlarge: pelvis, m, and angles, degrees.
 const SAME: (f64, f64) = (2e-3, 0.3);
-/// The same of runs: whether a foot of a runner carries in a sample is decided by its load, and a sample more or less
-/// of a stance moves the foot that pushes off.
+/// The same for runs: the load decides whether a runner's foot carries in a sample, and one more or less sample of
+/// stance moves the foot that pushes off.
 const SAME_RUN: (f64, f64) = (5e-3, 2.0);
 
 fn fit(bvh: &Bvh) -> Retargeted {
     retarget(bvh, &man(), &RetargetOptions::default()).unwrap()
 }
 
-/// The posture that a mirror shows: y against −y, left against right.
+/// The mirror image of a posture: y and −y, left and right are exchanged.
 fn mirrored(p: &Posture) -> Posture {
     let a = anatomical_angles(p);
     let other = |name: &str| match name.split_at(2) {
@@ -57,7 +57,7 @@ fn mirrored(p: &Posture) -> Posture {
     out
 }
 
-/// The motion that a mirror shows.
+/// The mirror image of a motion.
 fn mirror(clip: &Clip) -> Clip {
     let (postures, planted) = clip
         .samples()
@@ -98,7 +98,7 @@ fn difference(p: &Posture, q: &Posture) -> (f64, f64) {
     ((p.root_position - q.root_position).norm(), most)
 }
 
-/// The two motions are the same, with their ways in and out.
+/// Checks that the two motions are the same, with their lead-in and lead-out.
 #[track_caller]
 fn same(a: &Clip, b: &Clip, what: &str) {
     same_within(a, b, SAME, what);
@@ -143,7 +143,7 @@ fn a_mirrored_recording_gives_the_mirrored_motion() {
         let name = m.script.name.as_str();
         let file = bvh(name, "vrm");
         let (plain, mirrored) = (fit(&file), fit(&file.mirrored()));
-        // The names stay: what is called left is on the right.
+        // The names stay, so segments named left are on the right.
         assert!(mirrored.report.skeleton.sides_swapped, "{name}");
         same_within(&mirror(&plain.clip), &mirrored.clip, most(m), name);
     }
@@ -165,7 +165,7 @@ fn a_turned_recording_gives_the_same_motion() {
     }
 }
 
-/// A clip as it is, mirrored, and turned and moved, with what undoes that.
+/// A clip unchanged, mirrored, and turned and moved, each with its inverse.
 fn images(clip: &Clip) -> [(&'static str, Arc<Clip>, fn(&Clip) -> Clip); 2] {
     const YAW: f64 = 2.1;
     const BY: Vec3 = Vec3 {

@@ -76,7 +76,7 @@ fn the_jump_ends_on_its_feet() {
 /// Fastest walk that figures follow today, m/s (docs/limits.md).
 const BRISK: f64 = 1.4;
 
-/// Walks that are cut out of their recordings begin and end with steps that nobody recorded.
+/// Walks cut out of their recordings begin and end with steps that were not recorded.
 #[test]
 fn strides_are_walked_from_standing_to_standing() {
     let body = Arc::new(man());

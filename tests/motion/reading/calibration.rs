@@ -1,4 +1,4 @@
-//! Which way the bones of a file carry the segments, where its zero pose does not say so.
+//! Orientation of segments relative to the bones of a file whose zero pose does not define it.
 
 use crate::reading::dof;
 use crate::reading::file::{File, bare, bones_along_one_axis, motion, turned};
@@ -72,7 +72,7 @@ fn hands_that_are_turned_over_for_a_whole_clip_leave_forearms_within_their_limit
     let truth = motion(&body, "wave");
     for twist in [-160.0f64, 100.0, 170.0] {
         let mut file = File::new(&body, &truth);
-        // The hand's own rotation includes a twist that the zero pose has not.
+        // The hand's own rotation includes a twist that the zero pose lacks.
         for row in &mut file.rows {
             for s in [L_HAND, R_HAND] {
                 row[3 + 3 * s.index() + 2] += twist;
@@ -107,7 +107,7 @@ fn hands_that_are_turned_over_for_a_whole_clip_leave_forearms_within_their_limit
 
 #[test]
 fn a_head_that_is_turned_is_turned() {
-    // What a calibration by the zero pose knows is not averaged away.
+    // Knowledge from a calibration by the zero pose is not averaged away.
     let body = Body::adult_man();
     let mut file = File::new(&body, &motion(&body, "idle"));
     for row in &mut file.rows {

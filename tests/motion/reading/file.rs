@@ -1,4 +1,4 @@
-//! Motions of the body written as BVH files of any kind, and what is read back of them.
+//! Motions of the body written as BVH files of any kind, and read back.
 
 use sinew_physics::body::topology::SEGMENT_COUNT;
 use sinew_physics::body::topology::{
@@ -64,7 +64,7 @@ impl File {
         Self::with_axes(body, postures, &[Quat::identity(); SEGMENT_COUNT])
     }
 
-    /// The same with other bone axes: `axes` are `segment_from_bone`, so the zero pose of the file is another one.
+    /// [`Self::new`] with other bone axes: `axes` are `segment_from_bone`, so the zero pose of the file differs.
     pub fn with_axes(body: &Body, postures: &[Posture], axes: &[Quat; SEGMENT_COUNT]) -> Self {
         let mut head = String::from("HIERARCHY\n");
         let mut open: Vec<usize> = Vec::new();
@@ -138,14 +138,14 @@ impl File {
         text
     }
 
-    /// A pose in which all rotations are 0 and the root is where it is in the first frame.
+    /// A pose in which all rotations are 0 and the root is at its place in the first frame.
     pub fn rest_row(&self) -> Vec<f64> {
         let mut row = vec![0.0; self.rows[0].len()];
         row[..3].copy_from_slice(&self.rows[0][..3]);
         row
     }
 
-    /// Takes the position channels of the root out.
+    /// Removes the position channels of the root.
     pub fn without_positions(mut self) -> Self {
         self.head = self.head.replace("6 Xposition Yposition Zposition", "3");
         self.rows.iter_mut().for_each(|r| {
@@ -192,7 +192,7 @@ pub fn turned(postures: &[Posture], turn: Quat) -> Vec<Posture> {
     postures.iter().map(of).collect()
 }
 
-/// Only what the recording shows: no steps before or after it.
+/// Options that keep only the recording itself: no steps before or after it.
 pub fn bare() -> RetargetOptions {
     RetargetOptions {
         preparation: Preparation {

@@ -46,7 +46,7 @@ fn names_that_joints_share_are_named_and_never_guessed_between() {
     let two = file
         .head
         .replace("JOINT rightLowerArm", "JOINT leftLowerArm");
-    // The right one has another name then, so that every segment has a bone by name.
+    // Give the right one another name, so that every segment has a bone by name.
     let two = two.replace("JOINT rightHand", "JOINT RightForeArm");
     let e = refuse(
         &File {
@@ -64,7 +64,7 @@ fn names_that_joints_share_are_named_and_never_guessed_between() {
         "{e}"
     );
 
-    // A name that no segment is read from may be there twice.
+    // A name from which no segment is read may occur twice.
     let harmless = file.head.replace("JOINT spine", "JOINT chest");
     let text = File {
         head: harmless,
@@ -129,7 +129,7 @@ fn damaged_files_are_refused_by_line_or_frame_and_never_panic() {
                 refused += 1;
             }
             Ok(bvh) if read < 60 => {
-                // What can be read gives a clip or a reason.
+                // A readable file gives a clip or a reason.
                 if let Err(e) = retarget(&bvh, &body, &RetargetOptions::default()) {
                     assert!(!e.to_string().is_empty());
                 }

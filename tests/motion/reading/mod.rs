@@ -1,5 +1,5 @@
-//! Goal: recordings are read for what they are, and what is odd about them is said.
-//! Method: BVH files written from postures that are known, damaged or written in an odd way, read back.
+//! Goal: recordings are read correctly, and their oddities are reported. Method: BVH files written from known postures,
+//! damaged or written in an odd way, are read back.
 
 mod calibration;
 mod file;

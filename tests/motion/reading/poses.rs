@@ -1,4 +1,4 @@
-//! Poses at the start that are no part of the motion.
+//! Poses at the start that are not part of the motion.
 
 use crate::reading::file::{File, bare, motion, turned};
 use sinew_physics::body::Body;

@@ -1,4 +1,4 @@
-//! Limits, and what is said of them; runs and what only is as fast.
+//! Limits and their reports; runs, and motions that are merely as fast.
 
 use crate::reading::dof;
 use crate::reading::file::{File, RATE, bare, lower_soles, motion, range};
@@ -11,8 +11,8 @@ use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::leg_ik::{forward, solve_leg};
 use sinew_physics::retarget::{Preparation, RetargetOptions};
 
-/// Stands, squats down so far that the pelvis is `height` m over the floor and leans by `lean` rad, and stands up
-/// again; the feet stay.
+/// Stands, squats down until the pelvis is `height` m over the floor and leans by `lean` rad, and stands up again; the
+/// feet stay in place.
 fn squat(body: &Body, height: f64, lean: f64) -> Vec<Posture> {
     let start = motion(body, "idle")[0];
     let poses = forward(body, &start);

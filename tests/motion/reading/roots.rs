@@ -1,4 +1,4 @@
-//! Files that do not say where the figure is.
+//! Files that do not contain the position of the figure.
 
 use crate::reading::file::{File, bare, lower_soles, motion, range};
 use sinew_physics::body::Body;

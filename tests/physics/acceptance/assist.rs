@@ -1,5 +1,4 @@
-//! Goal: assist holds the pelvis on its path, is bounded, is reported to the last newton, and is nothing when it is
-//! off.
+//! Goal: assist holds the pelvis on its path, is bounded, is reported to the last newton, and is zero when it is off.
 
 use crate::common::{Scene, authored, bent, figure, man, still};
 use sinew_evaluate::audit::audit;
@@ -90,7 +89,7 @@ fn no_assist_is_bit_for_bit_what_there_was() {
     let run = |touch: bool| {
         let mut scene = walking(ControllerKind::Modern, 0.0);
         if touch {
-            // On for a moment before anything moves, then off again.
+            // Switch it on for a moment before anything moves, then off again.
             for assist in [1.0, 0.0] {
                 let options = FigureOptions {
                     assist,

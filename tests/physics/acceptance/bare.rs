@@ -1,5 +1,5 @@
 //! The torque stepper alone: a body with a share of its strength and no controller, one substep per step, so that every
-//! step is seen.
+//! step is visible.
 
 use sinew_physics::body::angles::{angles_of, swings};
 use sinew_physics::body::{Body, DOF_COUNT, Links, NV, State};
@@ -28,7 +28,7 @@ pub(crate) struct Bare {
 }
 
 impl Bare {
-    /// With `share` of its strength, steps of `dt` seconds.
+    /// A body with `share` of its strength and steps of `dt` seconds.
     pub fn new(body: Arc<Body>, share: f64, gravity: f64, dt: f64) -> Self {
         let scale = StrengthScale {
             all: share,
@@ -46,7 +46,7 @@ impl Bare {
         }
     }
 
-    /// Motors that are to hold what they have; with stretched tissue, if it is given.
+    /// Steps with motors that hold the present joint angles, and with stretched tissue if it is given.
     pub fn step(&mut self, state: &mut State, tissue: Option<&Tissue>) {
         self.terms.compute(&self.links, state, &[], self.gravity);
         let rates: [f64; DOF_COUNT] = std::array::from_fn(|j| state.velocity[6 + j]);

@@ -1,6 +1,6 @@
-//! Goal: a person who is felled lands on hands or forearms first, the head, if it touches at all, slowly, and then
-//! lies. Method: pushes that fell, at the chest, from eight directions; which part of the body touches the floor when,
-//! how fast the head is in the tick before it does, and how far the body goes after it has landed.
+//! Goal: a felled person lands on hands or forearms first; the head, if it touches at all, touches slowly; and then the
+//! person lies still. Method: felling pushes at the chest, from eight directions; the time at which each part touches
+//! the floor, the speed of the head in the tick before its touch, and the distance that the body moves after landing.
 
 use crate::acceptance::vec3;
 use crate::common::{Scene, authored, figure, still};
@@ -14,19 +14,19 @@ use sinew_physics::figure::{ControllerKind, Perturbation};
 use sinew_physics::math::Vec3;
 use std::sync::Arc;
 
-/// Of the push, s.
+/// Duration of the push, s.
 const PUSH: f64 = 0.1;
-/// Seconds after it.
+/// Observed time after it, s.
 const SECONDS: f64 = 4.0;
 /// Head speed below which its touch counts as harmless, m/s.
 const HARMLESS: f64 = 1.5;
-/// A centre of mass lower than this has landed, m, and comes to rest within so long, s.
+/// A body whose centre of mass is lower than this has landed, m; and the time in which it comes to rest, s.
 const LANDED: f64 = 0.2;
 const SETTLES: f64 = 0.5;
 const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 const ARM: [SegmentId; 4] = [L_FOREARM, L_HAND, R_FOREARM, R_HAND];
 
-/// What came of a push.
+/// Result of a push.
 #[derive(Debug)]
 struct Outcome {
     fell: bool,
@@ -35,9 +35,9 @@ struct Outcome {
     head: Option<f64>,
     /// Speed of the head's centre of mass before its fastest touch, m/s.
     head_speed: f64,
-    /// How far the body rolls or slides after it has landed, m.
+    /// Distance that the body rolls or slides after landing, m.
     goes_on: f64,
-    /// Which parts touched in which order.
+    /// Parts that touched, in order.
     order: Vec<&'static str>,
 }
 
@@ -106,8 +106,8 @@ fn felled(body: &Arc<Body>, direction: Vec3, impulse: f64) -> Outcome {
     out
 }
 
-/// Falls from eight directions: how many, in how many of them the head arrives slowly, and those in which it arrives
-/// before the arms.
+/// Falls from eight directions: the number of falls, the number in which the head arrives slowly, and a list of those
+/// in which it arrives before the arms.
 fn from_all_sides(name: &str, body: Body, impulses: &[f64]) -> (usize, usize, Vec<String>) {
     let body = Arc::new(body);
     let (mut falls, mut slow, mut head_first) = (0, 0, Vec::new());
@@ -124,7 +124,7 @@ fn from_all_sides(name: &str, body: Body, impulses: &[f64]) -> (usize, usize, Ve
                 o.head_speed,
                 o.order,
             );
-            // Outstretched arms do not roll it on.
+            // Outstretched arms stop the body from rolling.
             assert!(o.goes_on < 0.2, "{what}: goes on for {:.2} m", o.goes_on);
             falls += usize::from(o.fell);
             slow += usize::from(o.fell && o.head_speed < HARMLESS);
@@ -156,7 +156,7 @@ fn children_and_old_people_brace_themselves_too() {
         ("old woman", Sex::Female, 75.0),
     ] {
         let body = Body::humanoid(Profile::ordinary(sex, age)).unwrap();
-        // As fast as 60 and 80 N·s make the man.
+        // Same speed as that of the man after 60 and 80 N·s.
         let impulse = 0.8 * Links::new(&body).total_mass();
         let (falls, _, head_first) = from_all_sides(name, body, &[impulse, 1.3 * impulse]);
         assert!(falls >= 8, "{name}: these pushes fell");

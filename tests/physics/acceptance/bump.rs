@@ -1,6 +1,6 @@
-//! Goal: people who bump into each other at walking pace, or into a wall, stagger and stay up; who is in nobody's way
-//! walks as ever. Method: meetings of two who walk, or of one who walks and one who stands, in ten ways, each in five
-//! phases of the stride; counted, not looked at one by one: whether a single one ends well is chance.
+//! Goal: figures that bump into each other at walking pace, or into a wall, stagger and stay up; an unobstructed figure
+//! walks as usual. Method: encounters of two walkers, or of a walker and a standing figure, in ten ways, each in five
+//! phases of the stride. They are counted, not judged one by one, because the outcome of a single one is chance.
 
 use crate::acceptance::vec3;
 use crate::common::collisions::obstacle;
@@ -14,12 +14,12 @@ use sinew_physics::motion::{Clip, PlanarTransform};
 use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
 use std::sync::Arc;
 
-/// Somebody on the way to a meeting at the world's origin.
+/// A participant of an encounter at the world's origin.
 #[derive(Clone, Copy)]
 struct Comer {
     /// Heading, degrees.
     heading: f64,
-    /// How far its way passes the origin on the left, m.
+    /// Distance by which its path passes the origin on the left, m.
     aside: f64,
     walks: bool,
 }
@@ -53,7 +53,7 @@ const MEETINGS: [(&str, [Comer; 2]); 10] = [
     ("into a shoulder", [walks(0.0, 0.2), stands(180.0)]),
 ];
 
-/// Distances from which they set out, m, beyond two: what they meet in is another phase of the stride each.
+/// Starting distances in excess of two metres, m, each of which gives another phase of the stride at the encounter.
 const PHASES: [f64; 5] = [0.0, 0.14, 0.28, 0.42, 0.56];
 
 /// A person and its walk.
@@ -68,7 +68,7 @@ fn woman() -> Arc<Body> {
     Arc::new(Body::humanoid(Profile::ordinary(Sex::Female, 30.0)).unwrap())
 }
 
-/// Adds somebody who walks from `back` m before the origin on, or stands there.
+/// Adds a figure that walks from `back` m before the origin, or stands there.
 fn add(world: &mut World, (body, clip): &Person, comer: Comer, back: f64) -> FigureKey {
     let yaw = comer.heading.to_radians();
     let ahead = Quat::exp(Vec3::Z * yaw);
@@ -104,7 +104,7 @@ fn add(world: &mut World, (body, clip): &Person, comer: Comer, back: f64) -> Fig
     key
 }
 
-/// What became of those who met.
+/// Result of an encounter.
 #[derive(Default)]
 struct Outcome {
     met: bool,
@@ -131,7 +131,7 @@ fn run(world: &mut World, keys: &[FigureKey]) -> Outcome {
     out
 }
 
-/// Of the meetings of two people: how many both stay up in.
+/// Counts the encounters of two people in which both stay up.
 fn count(people: [&Person; 2]) -> usize {
     let mut up = 0;
     for (name, comers) in MEETINGS {
@@ -162,7 +162,7 @@ fn a_woman_and_a_man_who_bump_stay_up_in_eight_of_ten_meetings() {
     assert!(count([&woman, &man]) >= 40);
 }
 
-/// Straight and at an angle: who walks into a wall stands before it at last, and has told why.
+/// A figure that walks into a wall, straight or at an angle, finally stands in front of it, and has reported why.
 #[test]
 fn who_walks_into_a_wall_stands_before_it() {
     let man = person(man());
@@ -202,7 +202,8 @@ fn who_meets_nobody_walks_on() {
     assert!(!o.met && !o.barred && !o.fell && o.speed > 0.7);
 }
 
-/// Pushes of 0.1 s at the chest from four sides, at ten phases of the stride: of each 40, how many the walker survives.
+/// Pushes of 0.1 s at the chest from four sides, at ten phases of the stride: the number out of each 40 that the walker
+/// survives.
 #[test]
 fn pushes_fell_the_synthesised_walker_soon() {
     let man = person(man());

@@ -1,7 +1,7 @@
-//! Goal: figures and obstacles that meet push each other, as much as they are pushed; nothing passes through, nothing
-//! comes from nowhere, and whoever is not touched does not notice. Method: a ball thrown at a figure, two figures
-//! pushed into each other, one falling onto another, two that dance; books of momentum and of the work of contacts by
-//! the tick, overlaps, and the hashes of bystanders.
+//! Goal: colliding figures and obstacles push each other equally; nothing passes through, no momentum or energy appears
+//! from nowhere, and untouched figures are unaffected. Method: a ball thrown at a figure, two figures pushed into each
+//! other, one falling onto another, two that dance; the balance of momentum and the work of contacts in each tick,
+//! overlaps, and the hashes of bystanders.
 
 use crate::acceptance::vec3;
 use crate::common::actors::in_both_hands;
@@ -27,7 +27,7 @@ fn ball(position: Vec3, velocity: Vec3) -> ObstacleSetup {
     }
 }
 
-/// Someone who stands at `x`, `y`, turned by `yaw`.
+/// A figure standing at `x`, `y`, turned by `yaw`.
 fn stander(body: &Arc<Body>, kind: ControllerKind, x: f64, y: f64, yaw: f64) -> FigureSetup {
     let posture = authored(body, "idle").posture(0).to_owned();
     let mut setup = figure(body, kind, still(posture));
@@ -38,8 +38,8 @@ fn stander(body: &Arc<Body>, kind: ControllerKind, x: f64, y: f64, yaw: f64) -> 
     setup
 }
 
-/// A ball of 5 kg at 5 m/s from three sides, for every controller. Books of the ball: its momentum changes by what it
-/// is pushed and by gravity.
+/// A ball of 5 kg at 5 m/s from three sides, for every controller. Balance of the ball: its momentum changes by the
+/// contact force and by gravity.
 #[test]
 fn a_ball_hits_a_figure() {
     let body = man();
@@ -146,7 +146,7 @@ fn a_figure_falls_onto_another() {
     }
 }
 
-/// Someone within arm's length of a collision, and someone out of reach, have the bits that they have alone. The number
+/// A figure within arm's length of a collision and a figure out of reach keep the bits that they have alone. The number
 /// of threads changes nothing.
 #[test]
 fn bystanders_and_threads_do_not_matter() {
@@ -189,9 +189,8 @@ fn bystanders_and_threads_do_not_matter() {
     assert!(hashes.iter().all(|h| *h == hashes[0]));
 }
 
-/// So it is beside a wall that stands on the floor by itself, near and not touched, while both hands hold a load, and
-/// while help carries somebody who was pushed along it: what a substep starts from does not depend on how often it is
-/// opened.
+/// The same holds beside a free-standing wall that is near but not touched, while both hands hold a load, and while
+/// help carries a figure that was pushed along it: the start of a substep does not depend on how often it is opened.
 #[test]
 fn a_wall_that_is_near_changes_nothing_for_full_hands_or_with_help() {
     let body = man();
@@ -245,7 +244,7 @@ fn a_wall_that_is_near_changes_nothing_for_full_hands_or_with_help() {
     }
 }
 
-/// A tower of a ball-shaped, a box-shaped and a long thing comes to rest and stays.
+/// A tower of a ball, a box and a long object comes to rest and stays.
 #[test]
 fn things_come_to_rest() {
     let mut world = World::new(WorldParams::default()).unwrap();
@@ -280,7 +279,7 @@ fn things_come_to_rest() {
     }
 }
 
-/// What is wrong with an obstacle is named, and nothing has changed.
+/// An invalid obstacle is refused with its fault named, and changes nothing.
 #[test]
 fn bad_obstacles_are_refused() {
     let mut world = World::new(WorldParams::default()).unwrap();
@@ -328,7 +327,7 @@ fn bad_obstacles_are_refused() {
     assert_eq!(gone, Err(WorldError::UnknownObstacle(key)));
 }
 
-/// Prescribed accelerations know no forces: torques take over from them before something is met, and only then.
+/// Prescribed accelerations ignore forces, so torques take over before a contact, and only then.
 #[test]
 fn a_kinematic_figure_is_handed_over_when_a_ball_comes() {
     let body = man();

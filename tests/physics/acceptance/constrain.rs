@@ -1,5 +1,5 @@
-//! Goal: a part that a client constrains goes where it is told, and stays there, while the figure goes on with its
-//! motion; what cannot be reached is approached without harm. Method: the state after a while against the constraint.
+//! Goal: a part constrained by a client goes to its target and stays there, while the figure continues its motion; a
+//! target out of reach is approached without harm. Method: the state after a while against the constraint.
 
 use crate::acceptance::symmetry::{flip, flip_rotation, mirrored_state, opposite};
 use crate::acceptance::vec3;
@@ -130,7 +130,7 @@ fn a_hand_is_held_and_turned() {
         println!("{text}");
         assert!(off.norm() < 0.01 && turn.to_degrees() < 2.0, "{text}");
         assert!(fastest < 1.5, "{text}");
-        // Taken off it goes back to what the motion asks for, as smoothly.
+        // Once released, it returns to the motion just as smoothly.
         scene.world.set_constraints(scene.key, &[]).unwrap();
         let mut fastest = 0.0f64;
         scene.run(3.0, |s| {
@@ -144,8 +144,8 @@ fn a_hand_is_held_and_turned() {
     }
 }
 
-/// Who walks on and on reaches for a place that moves with its body, or holds a hand for a second at a place of the
-/// world that it passes, and walks on.
+/// A figure that walks endlessly reaches for a place that moves with its body, or holds a hand for a second at a place
+/// in the world that it passes, and keeps walking.
 #[test]
 fn a_hand_is_held_while_walking() {
     let body = man();
@@ -163,7 +163,7 @@ fn a_hand_is_held_while_walking() {
         scene.figure_mut().set_drive(Drive::Clip(playback));
         let (mut worst, mut nearest) = (0.0f64, f64::INFINITY);
         let (mut joints, mut ticks) = (0.0, 0.0);
-        // Where the motion had the pelvis: its pace is that of the last cycle.
+        // Positions of the pelvis: its pace is that of the last cycle.
         let mut way = Vec::new();
         let cycle_ticks = scene.ticks(walk.duration()) as usize;
         for _ in 0..scene.ticks(20.0) {
@@ -180,7 +180,7 @@ fn a_hand_is_held_while_walking() {
                         .set_constraints(scene.key, &[hand(beside(0.40, -0.20, 0.15))])
                         .unwrap();
                 }
-                // Once every four seconds, for one, where the hand passes in half of it.
+                // Once every four seconds for one second, at the place that the hand passes half-way through.
                 Held::World
                     if way.len() > cycle_ticks && scene.figure().constraints().is_empty() =>
                 {
@@ -226,7 +226,7 @@ fn a_hand_is_held_while_walking() {
             1e3 * worst
         );
         println!("{text}");
-        // A place that moves with the body is followed; one of the world is within reach for half a second only.
+        // A place that moves with the body is followed; a place in the world is within reach for only half a second.
         let most = if held == Held::Body { 0.06 } else { 0.6 };
         assert!(worst < most && joints < 3.0, "{text}");
         assert!(held != Held::World || nearest < 0.1, "{text}");

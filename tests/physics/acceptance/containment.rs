@@ -1,4 +1,4 @@
-//! Goal: what a world takes in is checked and named when refused; a figure that runs away is frozen and harms nobody.
+//! Goal: a world checks its input, and names the fault when it refuses; a runaway figure is frozen and harms no other.
 //! Method: one bad number at a time; the hash of the neighbours.
 
 use crate::acceptance::vec3;
@@ -179,7 +179,7 @@ fn worlds_refuse_bad_changes_of_figures() {
 fn a_figure_that_is_torn_apart_is_braked_and_harms_nobody() {
     let body = man();
     let clip = authored(&body, "lift");
-    // The neighbour's hashes, with and without somebody who is torn apart beside it.
+    // The neighbour's hashes, with and without a figure torn apart beside it.
     let run = |torn: bool| {
         let mut world = World::new(WorldParams::default()).unwrap();
         let state = still(clip.posture(0).to_owned());
@@ -228,7 +228,7 @@ fn a_figure_that_is_torn_apart_is_braked_and_harms_nobody() {
     assert_eq!(alone, beside);
     assert!(braked > 10, "{braked} ticks");
     let victim = victim.unwrap();
-    // A reset takes it back from where it was thrown to.
+    // A reset brings it back from the place to which it was thrown.
     world
         .reset_figure(victim, still(clip.posture(0).to_owned()))
         .unwrap();

@@ -1,6 +1,6 @@
-//! Goal: a figure that holds its posture with its motors and tips over an edge of its feet falls like the rigid body it
-//! looks like. Method: it starts 3° beyond balance over the edge; the time until its centre of mass is 0.5 m high is
-//! compared with the physical pendulum `I θ̈ = m g l sin θ` about that edge, integrated to rounding.
+//! Goal: a figure that holds its posture with its motors and tips over an edge of its feet falls like a rigid body of
+//! the same shape. Method: it starts 3° beyond balance over the edge; the time until its centre of mass is 0.5 m high
+//! is compared with the physical pendulum `I θ̈ = m g l sin θ` about that edge, integrated to rounding.
 
 use super::{GRAVITY, integrals, vec3};
 use crate::common::{Scene, authored, figure, man};
@@ -52,7 +52,7 @@ fn set_toes(setup: &mut FigureSetup, factor: f64) {
     }
 }
 
-/// Falls in four directions; `strength` and a further factor on that of the toes.
+/// Falls in four directions; `strength`, and a further factor `toes` for the toes.
 fn falls_like_a_pendulum(strength: f64, toes: f64) {
     let body = man();
     let posture = authored(&body, "idle").posture(0).to_owned();
@@ -108,7 +108,7 @@ fn falls_like_a_pendulum(strength: f64, toes: f64) {
         );
         println!("{text}");
         let dt = scene.world.dt();
-        // The end of the tick in which it passes is seen.
+        // Only the end of the tick in which it passes the height is visible.
         assert!(fell - want > -dt && fell - want < 2.0 * dt, "{text}");
         assert!(bent < 3f64.to_radians(), "{text}: not rigid");
         let along = moved.dot(direction);
@@ -121,8 +121,8 @@ fn falls_like_a_pendulum(strength: f64, toes: f64) {
     }
 }
 
-/// Toes as strong as the tables say cannot carry the body on their tips, and a figure whose toes give is no rigid body:
-/// forward it falls three ticks early. All other joints hold at human strength.
+/// Toes of human strength cannot carry the body on their tips, and a figure whose toes yield is not a rigid body: it
+/// falls forward three ticks early. All other joints hold at human strength.
 #[test]
 fn at_human_strength_with_strong_toes() {
     falls_like_a_pendulum(1.0, 4.0);
@@ -135,18 +135,18 @@ fn at_twenty_times_human_strength() {
 
 /// How a figure fell.
 struct Fall {
-    /// When the centre of mass was low, s, and when the pendulum's is.
+    /// Time at which the centre of mass was low, and that of the pendulum, s.
     time: f64,
     pendulum: f64,
     /// Largest joint error until then, rad.
     bent: f64,
     /// Least and largest change of energy until then, as a share of the start.
     energy: (f64, f64),
-    /// Way of the centre of mass along and across the direction of the fall, m.
+    /// Displacement of the centre of mass along and across the direction of the fall, m.
     moved: (f64, f64),
-    /// Torques took over at, s.
+    /// Time at which torques took over, s.
     handed: Option<f64>,
-    /// Balance was given up at, s.
+    /// Time at which balance was given up, s.
     lost: Option<f64>,
     /// Largest relative residual of the equations of motion.
     residual: f64,
@@ -160,7 +160,7 @@ const DIRECTIONS: [(&str, f64, f64); 4] = [
     ("right", 0.0, -1.0),
 ];
 
-/// Leans 3° over the edge that faces (x, y), falls; factors on the strength of all joints and of the toes.
+/// Falls from a lean of 3° over the edge that faces (x, y), with factors on the strength of all joints and of the toes.
 fn fall(
     (name, x, y): (&str, f64, f64),
     kind: ControllerKind,
@@ -255,7 +255,7 @@ fn prescribed_accelerations_turn_a_stiff_figure_about_its_edge() {
                 rate_hz,
             );
             let (late, tick) = (f.time - f.pendulum, 1.0 / rate_hz);
-            // The end of the tick in which it passes is seen.
+            // Only the end of the tick in which it passes the height is visible.
             assert!(late > -tick && late < 2.0 * tick, "{}", f.text);
             assert!(f.bent < 2f64.to_radians(), "{}", f.text);
             assert!(f.energy.0 > -3e-3 && f.energy.1 < 3e-3, "{}", f.text);
@@ -269,8 +269,8 @@ fn prescribed_accelerations_turn_a_stiff_figure_about_its_edge() {
     }
 }
 
-/// At human strength toes cannot carry the body on their tips, so that torques take over in the forward fall; in the
-/// other directions the support turns about its edge to the end.
+/// At human strength, toes cannot carry the body on their tips, so torques take over in the forward fall; in the other
+/// directions the support turns about its edge to the end.
 #[test]
 fn prescribed_accelerations_at_human_strength_hand_over_when_toes_give() {
     for direction in DIRECTIONS {

@@ -27,8 +27,8 @@ fn thrown() -> State {
     state
 }
 
-/// Largest distances within 0.3 s from the parabola and from the one that semi-implicit Euler has in its place (m), and
-/// changes of linear and angular momentum, relative.
+/// Largest distances within 0.3 s from the parabola and from its semi-implicit Euler counterpart (m), and relative
+/// changes of linear and angular momentum.
 fn flight(substeps: u32, moving: bool) -> [f64; 4] {
     let body = man();
     let state = thrown();
@@ -38,7 +38,7 @@ fn flight(substeps: u32, moving: bool) -> [f64; 4] {
     };
     let mut scene = Scene::with(params, figure(&body, ControllerKind::Motors, state));
     if moving {
-        // Limbs swing towards another posture: torques act, momenta may not notice.
+        // Limbs swing towards another posture, so torques act, but momenta must not change.
         let other = authored(&body, "wave").sample(2.0).posture;
         scene
             .figure_mut()
@@ -101,24 +101,25 @@ fn a_thrown_figure_keeps_parabola_and_momenta() {
     }
 }
 
-/// What a figure without strength does.
+/// Measurements of a figure without strength.
 struct Limp {
-    /// Energy after each tick, J; the first before any.
+    /// Energy before the first tick and after each tick, J.
     energy: Vec<f64>,
     /// The part of it that stretched tissue stores.
     stored: Vec<f64>,
-    /// Largest work of contacts and ligaments in one step beyond what takes a penetration back at its bounded pace, J.
+    /// Largest work of contacts and ligaments in one step, beyond the correction of a penetration at its bounded pace,
+    /// J.
     pushed: f64,
-    /// All that took penetrations back, J.
+    /// Total work that corrected penetrations, J.
     returned: f64,
-    /// Largest difference of what a controller counts on from what ligaments gave in the first step, N·m.
+    /// Largest difference between the ligament torque that a controller expects and that in the first step, N·m.
     unforeseen: f64,
     /// Ticks on the ground.
     touched: usize,
 }
 
-/// Steps a body whose motors give a millionth of a millionth of its strength, for 3 s; one substep per tick, so that
-/// every step is seen.
+/// Steps a body whose motors have 10⁻¹² of its strength, for 3 s, with one substep per tick, so that every step is
+/// visible.
 fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
     let dt = 1.0 / rate_hz;
     let body = man();
@@ -145,7 +146,7 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
         let tissue = Tissue::new(&strength, (&state, &swings(&state.posture)), 1, dt);
         bare.step(&mut state, Some(&tissue));
         let a = &bare.stepper.forces.audit;
-        // Work of the constraint forces on the way they were solved for.
+        // Work of the constraint forces along the displacement for which they were solved.
         let after = State {
             posture: a.state.posture,
             velocity: state.velocity,
@@ -160,11 +161,11 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
             let s = c.segment.index();
             let point = body.segments[s].contact_points[c.vertex];
             contacts += c.force.dot(terms.point_velocity(s, point));
-            // What rests is held in its place: its path bends while the limbs turn.
+            // A resting point is held in its place, because its path bends while the limbs turn.
             if before.point_velocity(s, point).norm() < 0.1 {
                 contacts += c.force.dot(before.point_bias(s, point)) * (0.5 * dt);
             }
-            // A fifth of what is deeper than 0.1 mm, per step.
+            // Each step corrects a fifth of the depth beyond 0.1 mm.
             returns += c.force.z * 0.2 * (-c.position.z - 1e-4).max(0.0) / dt;
         }
         let released = stored(&State { ..after }) - stored(&state);
@@ -184,9 +185,9 @@ fn limp(start: &State, rate_hz: f64, gravity: f64) -> Limp {
     out
 }
 
-/// Contacts and ligaments take energy but for what takes a penetration back, which is little; what a step returns of an
-/// overrun limit is bounded. A step may still end with a little more than it began with, since steps of fast limbs are
-/// first order; that is bounded too, and the energy stays below the start.
+/// Contacts and ligaments remove energy, except for the small work that corrects a penetration; the correction of an
+/// overrun limit per step is bounded. A step may still end with slightly more energy than at its start, because steps
+/// of fast limbs are first order. That is bounded too, and the energy stays below its initial value.
 #[test]
 fn a_limp_figure_gains_no_energy() {
     let body = man();
@@ -221,8 +222,8 @@ fn a_limp_figure_gains_no_energy() {
     }
 }
 
-/// Weightless and limp, bent as far as its joints go: what tissue stored becomes motion but for its internal friction,
-/// and nothing is gained on the way, at any step.
+/// Weightless, limp, and bent to the limits of its joints: the energy stored in tissue becomes motion, except for
+/// internal friction, and no step gains energy.
 #[test]
 fn stretched_tissue_gives_back_no_more_than_it_stored() {
     let body = man();

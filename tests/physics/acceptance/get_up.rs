@@ -1,6 +1,6 @@
-//! Goal: who lies gets up within seconds when its motion does, from the belly, the back and both sides. Method: people
-//! are laid down, straight or with bent knees, and play a synthesised motion that lies and gets up. Those who roll over
-//! take several tries, how many is chance: so each is laid down a second time, a few degrees off.
+//! Goal: a lying figure gets up within seconds when its motion does, from the belly, the back and both sides. Method:
+//! people are laid down, straight or with bent knees, and play a synthesised motion that lies and gets up. Rolling over
+//! takes a random number of tries, so each person is laid down a second time, a few degrees off.
 
 use crate::common::{Scene, authored, bent, figure, man, on_floor, people, still, synthesised};
 use sinew_physics::body::{Body, Posture, Sex};
@@ -11,14 +11,14 @@ use sinew_physics::world::{ClipPlayback, Drive};
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// A time at which `lie-down.vrm` lies, s.
+/// A time at which the body in `lie-down.vrm` is lying, s.
 const LIES: f64 = 4.0;
-/// How long one may take, s, before it counts as staying down.
+/// Time allowed, s, before the figure counts as staying down.
 const PATIENCE: f64 = 60.0;
-/// Who has stood for so long, s, is up.
+/// A figure is up once it has stood for this time, s.
 const STANDS: f64 = 2.0;
 
-/// Seconds from the first move to standing, `None` if it stays down.
+/// Seconds from the first move to standing, or `None` if it stays down.
 fn gets_up(body: &Arc<Body>, lying: Posture) -> Option<f64> {
     let mut scene = Scene::of(figure(body, ControllerKind::Modern, still(lying)));
     scene.run(1.0, |_| ());
@@ -103,7 +103,7 @@ fn people_get_up_from_belly_back_and_sides() {
         times.len()
     );
     assert!(median < 14.0, "{median} s");
-    // From the belly nothing depends on luck: the average man and the average woman.
+    // From the belly, nothing depends on luck: the average man and the average woman both get up.
     let all = times
         .chunks(8)
         .zip([true, true, false, false].into_iter().cycle());

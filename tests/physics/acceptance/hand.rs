@@ -1,7 +1,7 @@
-//! Goal: a figure that leans with a hand on a table, on a sloping desk or against a wall stands by it: part of what it
-//! weighs goes through the arm, within friction and strength; without it the figure falls, and an arm that is too weak
-//! gives way. Two figures that run into each other push equally. Method: statics of floor and hand; sums of the forces
-//! on both.
+//! Goal: a figure that leans with a hand on a table, on a sloping desk or against a wall stands by means of it: part of
+//! its weight goes through the arm, within friction and strength; without it the figure falls, and an arm that is too
+//! weak gives way. Two figures that run into each other push equally. Method: statics of floor and hand; sums of the
+//! forces on both.
 
 use crate::common::man;
 use sinew_evaluate::experiments::Pair;
@@ -49,7 +49,7 @@ fn a_hand_carries_part_of_the_weight_within_friction_and_strength() {
                 (s.floor + s.rest - s.weight).abs() < 0.03 * s.weight,
                 "{text}"
             );
-            // It leans on the hand, and on nothing else.
+            // It leans only on the hand.
             assert!((s.rest - s.force.z).abs() < 5.0, "{text}");
             // A part that lies over an edge has more than one normal in a tick: its mean force may use 1 % more.
             assert!(s.cone < 1.02 && s.record.over_limit < 1e-9, "{text}");
@@ -65,7 +65,7 @@ fn an_arm_that_is_too_weak_lets_go() {
             let strong = hand_support(&body, &pair, prop, 1.0, 0);
             let weak = hand_support(&body, &pair, prop, 0.03, 0);
             let text = say(&format!("{}, {prop:?}, weak arm", pair.name), &weak);
-            // It lets go, or it lies on the table, with a hand under it that carries next to nothing.
+            // It lets go, or it lies on the table with a hand under it that carries almost nothing.
             let lies = weak.rest > 2.0 * strong.rest && weak.pressed < 0.1 * weak.rest;
             assert!(weak.pressed < 0.2 * strong.pressed || lies, "{text}");
             assert!(weak.record.over_limit < 1e-9, "{text}");

@@ -1,5 +1,5 @@
 //! Goal: help acts only while a motion is being lost, keeps its bounds, is reported to the last newton, fades, and lets
-//! go of what it cannot hold. Streams and held postures follow one rule.
+//! go of a motion that it cannot hold. Streams and held postures follow one rule.
 
 use crate::common::{Scene, bent, corpus, figure, man, still};
 use sinew_evaluate::survey::{Conditions, Outcome, Reference, watched};
@@ -84,7 +84,7 @@ fn a_stream_that_is_lost_alone_is_kept_with_bounded_help() {
     }
 }
 
-/// A man who stands, and is pushed forwards on the chest after half a second: N·s.
+/// A standing man, pushed forwards on the chest by `push` N·s after half a second.
 fn pushed(max_help: f64, push: f64) -> Scene {
     let body = man();
     let mut setup = figure(&body, ControllerKind::Modern, still(bent(&body, 0.1)));

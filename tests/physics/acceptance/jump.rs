@@ -1,6 +1,6 @@
-//! Goal: a figure that pushes itself off the floor flies as it must and lands without gaining energy. Method: a motion
-//! that crouches, stretches until the pelvis rises at 1.5 m/s, holds its posture for the 0.3 s that this throws it up,
-//! and gives way on landing.
+//! Goal: a figure that pushes itself off the floor flies on a parabola and lands without gaining energy. Method: a
+//! motion that crouches, stretches until the pelvis rises at 1.5 m/s, holds its posture for the resulting flight of 0.3
+//! s, and yields on landing.
 
 use super::{GRAVITY, integrals};
 use crate::common::{Scene, figure, man, on_floor, play};
@@ -17,12 +17,12 @@ use std::sync::Arc;
 const FLIGHT: f64 = 0.3;
 /// Bend of the legs (hip and ankle; the knee twice that) standing, crouched, and stretched for the leap, rad.
 const BENDS: [f64; 3] = [0.25, 0.85, 0.35];
-/// Length of crouching, waiting, pushing off, giving way, and rising, s.
+/// Duration of crouching, waiting, pushing off, yielding, and rising, s.
 const TIMES: [f64; 5] = [0.8, 0.3, 0.45, 0.45, 0.8];
-/// What touching down does to the energy is seen over this time, s: within a tick muscles may give more than the floor
-/// takes.
+/// Time over which the effect of touch-down on the energy is measured, s: within one tick, muscles may supply more than
+/// the floor absorbs.
 const LANDING: f64 = 0.1;
-/// Factor on its strength: what jumps is an athlete.
+/// Factor on its strength: the jumper is an athlete.
 const STRENGTH: f64 = 3.0;
 /// The pelvis rises faster than the body before it pulls the resting feet along.
 const PULL: f64 = 1.4;
@@ -62,7 +62,7 @@ fn ease((a, va): (f64, f64), (b, vb): (f64, f64), t: f64, u: f64) -> f64 {
         + u3 * u2 * (6.0 * d - 3.0 * (p + q))
 }
 
-/// The motion, and when it leaves the floor, s.
+/// The motion, and its time of take-off, s.
 fn leap(body: &Body) -> (Arc<Clip>, f64) {
     let height = |b: f64| bent(body, b).root_position.z;
     let [stand, crouch, stretch] = BENDS.map(height);
@@ -120,7 +120,7 @@ fn leap(body: &Body) -> (Arc<Clip>, f64) {
     (Arc::new(clip), starts[3])
 }
 
-/// One leap at 240 Hz; true if it ends in a fall. `allowed`: largest distance from the parabola, m.
+/// Performs one leap at 240 Hz and returns whether it ends in a fall. `allowed`: largest distance from the parabola, m.
 fn leaps(kind: ControllerKind, stepper: StepperKind, allowed: f64) -> bool {
     let rate_hz = 240.0;
     let body = man();
@@ -182,7 +182,8 @@ fn leaps(kind: ControllerKind, stepper: StepperKind, allowed: f64) -> bool {
     fell
 }
 
-/// Limbs that move make the steps' error, which halves with the step (`flight.rs` shows that what remains is nothing).
+/// The error of the steps comes from moving limbs and halves with the step size (`flight.rs` shows that it tends to
+/// zero).
 #[test]
 fn leaps_follow_the_parabola_and_land_without_gaining_energy() {
     let fell = leaps(ControllerKind::Modern, StepperKind::Torque, 1e-3);

@@ -1,6 +1,6 @@
 //! Goal: the paper's three regimes of lifting with an arm that is 2 % too weak for 3 kg. Method: the built-in
-//! semi-squat lift; the strength of the right arm is scaled to 98 % of what the highest demand of the motion at 3 kg
-//! needs when it is held still.
+//! semi-squat lift; the strength of the right arm is scaled to 98 % of that needed to hold the most demanding posture
+//! of the motion still with 3 kg.
 
 use crate::common::{Scene, figure, man, play};
 use sinew_evaluate::experiments::Pair;
@@ -17,16 +17,16 @@ use std::sync::Arc;
 /// Height of the centre of mass below which it has fallen, m.
 const LOW: f64 = 0.55;
 
-/// What happened in a lift, until the end or the fall.
+/// Measurements of a lift, until the end or the fall.
 struct Lifted {
     mass: f64,
-    /// When the centre of mass was low, s.
+    /// Time at which the centre of mass was low, s.
     fell: Option<f64>,
     /// Joint error, rms, degrees.
     rms: f64,
     /// Time during which a DOF of the arm was at its limit, s.
     arm_saturated: f64,
-    /// True if any was.
+    /// Whether any DOF of the arm was.
     saturated: bool,
     /// Largest error of ankles, knees, hips and back, degrees.
     others: f64,
@@ -36,7 +36,7 @@ struct Lifted {
     speed: f64,
     /// Mean change of torque per tick, as a share of the range.
     chatter: f64,
-    /// How far the arm sank below its place, largest joint error of the arm, degrees.
+    /// Sag of the arm: its largest joint error, degrees.
     arm: f64,
     /// Largest excess of a torque over its limit, relative.
     over: f64,
@@ -136,7 +136,7 @@ fn lift(mass: f64, kind: ControllerKind, stepper: StepperKind, rate_hz: f64) -> 
     out
 }
 
-/// Ankles, knees, hips and back: what gives when the arm is too weak.
+/// Ankles, knees, hips and back, which yield when the arm is too weak.
 fn helps(j: usize) -> bool {
     ["ankle", "knee", "hip", "waist", "thorax"]
         .iter()
@@ -152,15 +152,15 @@ fn tracked(l: &Lifted) {
     assert!(l.over < 1e-9, "{}", l.text);
 }
 
-/// The paper's account: the arm at its limit, others give a little, balance kept.
+/// The paper's account: the arm is at its limit, other joints yield slightly, and balance is kept.
 fn borne(l: &Lifted) {
     assert!(l.fell.is_none() && l.arm_saturated >= 1.0, "{}", l.text);
     assert!(l.others > 1.0 && l.others < 8.0, "{}", l.text);
     assert!(l.margin > 0.03 && l.over < 1e-9, "{}", l.text);
 }
 
-/// Too heavy: it falls, no gate on when. Or the arm gives way altogether, and what hangs from it at the side is no load
-/// to fall by.
+/// Too heavy: the figure falls, at any time. Or the arm gives way altogether, and a load that hangs from it at the side
+/// does not make the figure fall.
 fn overcome(l: &Lifted) {
     let dropped = l.mass > 4.5 && l.arm > 90.0 && l.margin < 1e-3;
     assert!(l.fell.is_some() || dropped, "{}", l.text);
@@ -199,7 +199,7 @@ fn modern_keeps_its_balance_under_every_load() {
     }
 }
 
-/// Nobody's arm is cut to size: the person that the search of `sinew paper` finds, by the strength of the tables.
+/// No arm is scaled here: the person is the one found by the search of `sinew paper`, with the strength of the tables.
 #[test]
 fn a_named_person_lifts_as_the_paper_shows() {
     let candidate = Candidate {
@@ -225,6 +225,6 @@ fn a_named_person_lifts_as_the_paper_shows() {
         assert!(r.record.over_limit < 1e-9);
     }
     assert_eq!(t.shows(), [true; 4]);
-    // 3 kg is where the arm's strength ends: what follows is a jerk that 1 kg does not have.
+    // The arm's strength ends at 3 kg, which causes a jerk that 1 kg does not cause.
     assert!(t.need[0] < 0.5 && t.need[2] > 1.0 && t.results[1].jerk > 10.0 * t.results[0].jerk);
 }

@@ -75,7 +75,7 @@ fn holds_by_statics(kind: ControllerKind) {
             DOF_NAMES[d]
         );
     }
-    // What the load alone adds at shoulder and elbow: its weight times its lever.
+    // The load alone adds its weight times its lever at shoulder and elbow.
     let poses = segment_poses(&f.links().offset, &f.state().posture);
     let held = poses[R_HAND.index()].point(GRIP);
     let without = free.figure().report().unwrap();
@@ -221,7 +221,7 @@ fn held(mass: f64) -> HeldLoad {
     }
 }
 
-/// A 2 kg ball flies into one hand or between both: what the ball had, the figure has afterwards.
+/// A 2 kg ball flies into one hand or between both: the ball's momentum passes to the figure.
 #[test]
 fn a_flying_load_gives_its_momentum_to_who_catches_it() {
     for second in [None, Some((L_HAND, GRIP))] {
@@ -235,8 +235,8 @@ fn a_flying_load_gives_its_momentum_to_who_catches_it() {
             gravity: 0.0,
             ..WorldParams::default()
         };
-        // Weak muscles and a slow ball: the tick also integrates the motion after the catch, and that conserves
-        // momentum only to the order of the step.
+        // Weak muscles and a slow ball: the tick also integrates the motion after the catch, which conserves momentum
+        // only to the order of the step.
         let mut setup = figure(&body, ControllerKind::Motors, state);
         setup.strength.all = 0.1;
         let mut scene = Scene::with(params, setup);

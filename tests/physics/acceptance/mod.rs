@@ -1,23 +1,23 @@
 //! Acceptance scenarios: whole figures in whole worlds against statics, pendulums, parabolas and conservation laws.
 //!
 //! * `stand`: ten seconds of standing still.
-//! * `push`: what a standing figure survives, and where it falls when it does not.
-//! * `report`: what a tick says of the centre of mass.
+//! * `push`: the pushes that a standing figure survives, and the direction of its falls.
+//! * `report`: the centre of mass in the report of a tick.
 //! * `fall`: a stiff figure is a physical pendulum.
-//! * `bump`: who walks into somebody, or into a wall.
-//! * `bracing`: a person who falls lands on hands, not on the head.
+//! * `bump`: walking into another figure, or into a wall.
+//! * `bracing`: a falling person lands on the hands, not on the head.
 //! * `flight`: the parabola and the momenta of a thrown figure; a limp one gains no energy.
 //! * `slide`: Coulomb's law for points that slide.
 //! * `load`: a held load is inertia.
-//! * `second_hand`: the other hand helps with a load that one arm is too weak for.
+//! * `second_hand`: the other hand helps with a load that is too heavy for one arm.
 //! * `constrain`: hands, head and centre of mass at places that a client gives.
 //! * `get_up`: from belly, back and sides, within seconds.
 //! * `hand`: leaning on tables and walls; two figures that run into each other.
 //! * `people`: ages, sizes, fatigue, percentiles.
-//! * `assist`: the wrench that no body has, and its honesty.
+//! * `assist`: the external wrench, and its honest report.
 //! * `help`: the wrench that acts only while a motion is being lost.
 //! * `symmetry`: left and right, and all directions, are alike.
-//! * `containment`: bad input is refused, a figure that runs away harms nobody.
+//! * `containment`: bad input is refused, and a runaway figure harms no other.
 //!
 //! Everything is seeded or constant; nothing is timed.
 

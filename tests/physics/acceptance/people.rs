@@ -40,7 +40,7 @@ fn people_of_all_ages_and_sizes_follow_the_built_in_motions() {
             );
             println!("{text}");
             if body.profile.age > 85.0 && motion == "step" {
-                // Standing on one foot asks for more than the hip abductors have at 90: the pelvis drops.
+                // Standing on one foot needs more than the hip abductors can give at 90, so the pelvis drops.
                 assert!(
                     r.max_utilisation >= 1.0 && r.tracking_joint_rms_deg > 1.0,
                     "{text}"
@@ -48,8 +48,8 @@ fn people_of_all_ages_and_sizes_follow_the_built_in_motions() {
                 continue;
             }
             assert!(r.fell_at_s.is_none(), "{text}");
-            // At 90 the lift takes all of the shoulder's strength.
-            // Steps land where they land, so their joints follow less closely.
+            // At 90 the lift takes all of the shoulder's strength. Actual footholds differ from planned ones, so joints
+            // follow less closely in steps.
             let most = if body.profile.age > 85.0 || motion == "step" {
                 1.0
             } else {
@@ -65,7 +65,7 @@ fn people_of_all_ages_and_sizes_follow_the_built_in_motions() {
     }
 }
 
-/// A right arm held out straight with `kg` in the hand, by someone whose shoulders tire `scale` times as fast.
+/// A right arm held out straight with `kg` in the hand, by a person whose shoulders tire `scale` times as fast.
 fn arm_out(body: &Arc<Body>, kg: f64, scale: f64) -> Scene {
     use sinew_physics::body::angles::{anatomical_angles, set_anatomical_angles};
     let mut posture = bent(body, 0.2);
@@ -124,7 +124,7 @@ fn an_outstretched_arm_tires_and_sags_when_the_model_says() {
     let remaining = scene.figure().report().unwrap().joints.remaining;
     assert!(remaining[dof("l_shoulder_flexion")][0] > 0.9);
     assert!(!scene.figure().is_fallen());
-    // Rested again by a reset, and by turning fatigue off.
+    // A reset restores the strength, and so does turning fatigue off.
     scene
         .world
         .set_figure_options(scene.key, FigureOptions::default())

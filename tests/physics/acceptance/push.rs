@@ -1,6 +1,7 @@
-//! Goal: a standing figure takes a push that leaves its centre of mass stoppable over its feet, and falls the way it is
-//! pushed when not. Method: pushes at the chest of 0.1 s, in units of the bound of the linear inverted pendulum
-//! `m ω d`, with `ω² = g/h` and d the distance from the centre of mass to the edge of the support.
+//! Goal: a standing figure withstands a push after which its centre of mass can still be stopped over its feet;
+//! otherwise it falls in the direction of the push. Method: pushes at the chest of 0.1 s, in units of the bound of the
+//! linear inverted pendulum `m ω d`, with `ω² = g/h` and d the distance from the centre of mass to the edge of the
+//! support.
 
 use super::{GRAVITY, vec3};
 use crate::common::{Scene, authored, figure, man, still};
@@ -19,7 +20,7 @@ const fn vec3_const(x: f64, y: f64) -> Vec3 {
     Vec3 { x, y, z: 0.0 }
 }
 
-/// A figure that has stood for half a second, with its feet where they are or allowed to step.
+/// A figure that has stood for half a second, with feet fixed in place or allowed to step.
 fn standing(kind: ControllerKind, steps: bool) -> Scene {
     let body = man();
     let posture = authored(&body, "idle").posture(0).to_owned();
@@ -43,7 +44,7 @@ fn bound(scene: &Scene, direction: Vec3) -> f64 {
     mass * (GRAVITY / r.balance.com.z).sqrt() * (edge - r.balance.com.dot(direction))
 }
 
-/// What became of a push.
+/// Result of a push.
 struct Outcome {
     fell: bool,
     /// Displacement of the centre of mass until it fell, or until the end, m.
@@ -166,7 +167,7 @@ fn steps_catch_what_feet_in_place_cannot() {
     }
 }
 
-/// The flag of lost balance ends when motors have nothing left to save; that is no recovery.
+/// The flag of lost balance is cleared when motors can no longer save anything, but that is not a recovery.
 #[test]
 fn who_lies_on_the_ground_has_found_no_balance() {
     let mut scene = standing(ControllerKind::Modern, false);

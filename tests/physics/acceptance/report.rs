@@ -1,6 +1,5 @@
-//! Goal: what a tick reports of the centre of mass is of the state at its end, and loads in hands are where their
-//! pictures are. Method: masses and poses of the segments; the velocity by moving the posture a little along it and
-//! back.
+//! Goal: the reported centre of mass belongs to the state at the end of the tick, and loads in hands are where they are
+//! drawn. Method: masses and poses of the segments; the velocity by moving the posture a little along it and back.
 
 use crate::acceptance::vec3;
 use crate::common::{Scene, figure, man, still};
@@ -32,7 +31,7 @@ fn com(body: &Body, loads: &[(SegmentId, Vec3, f64)], posture: &Posture) -> Vec3
     moment * (1.0 / mass)
 }
 
-/// A figure that is pushed and, if `kg` > 0, takes up a load: every report against its own state.
+/// A figure is pushed and, if `kg` > 0, takes up a load; every report is compared with its own state.
 fn reports_its_own_state(kind: ControllerKind, kg: f64) {
     let body = man();
     let mut scene = Scene::of(figure(&body, kind, still(at_ease(&body))));

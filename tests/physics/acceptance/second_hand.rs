@@ -1,6 +1,6 @@
-//! Goal: the other hand helps with a load that one arm is too weak for, gets to it with its own joints alone, shares
-//! it, and lets go when it is not needed. Method: the built-in lift with loads that one arm can and cannot hold; what
-//! the figure would do with one hand is the measure.
+//! Goal: the other hand helps with a load that is too heavy for one arm, reaches it by its own joints alone, shares it,
+//! and lets go when it is not needed. Method: the built-in lift with loads that one arm can and cannot hold; the
+//! reference is the same lift with one hand.
 
 use super::{GRAVITY, vec3};
 use crate::common::{Scene, authored, figure, man, people, still};
@@ -223,7 +223,7 @@ fn a_hand_that_has_something_to_do_does_not_help() {
         helped(&body, 12.0, SecondHand::Auto),
     );
     assert!(shares(&mut free));
-    // A client leads it.
+    // A client leads the hand.
     let mut led = lifting(
         ControllerKind::Modern,
         helped(&body, 12.0, SecondHand::Auto),
@@ -240,7 +240,7 @@ fn a_hand_that_has_something_to_do_does_not_help() {
     };
     led.world.set_constraints(led.key, &[constraint]).unwrap();
     assert!(!shares(&mut led));
-    // It holds something: then it cannot be asked to help, and what it is given later makes it let go.
+    // A hand that holds a load cannot be asked to help, and a load that it is given later makes it let go.
     let in_left = |from| {
         Perturbation::Held(HeldLoad {
             segment: L_HAND,
@@ -258,7 +258,7 @@ fn a_hand_that_has_something_to_do_does_not_help() {
     assert!(free.figure().help().is_some());
     free.run(0.3, |_| ());
     assert!(free.figure().help().is_none());
-    // Only hands have another hand.
+    // Only loads in a hand can be helped.
     let on_chest = Perturbation::Helped {
         load: HeldLoad {
             segment: CHEST,

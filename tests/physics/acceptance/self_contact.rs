@@ -1,5 +1,5 @@
-//! Goal: a figure that is told so stays out of itself; who stands as its motion does moves as ever. Method: a limp body
-//! that is knocked down, with `self_contact` and without.
+//! Goal: with self-contact on, a figure does not pass through itself, and a standing figure moves as usual. Method: a
+//! limp body that is knocked down, with `self_contact` and without.
 
 use crate::common::{Scene, bent, figure, man, still};
 use sinew_physics::body::topology::CHEST;

@@ -1,6 +1,6 @@
-//! Goal: points that slide obey Coulomb's law, and not the convex one by which they would be carried by the air under
-//! them. Method: a figure that flies low over the floor without weight; the signed gaps, the cone and the direction of
-//! every contact force of a limp body that comes down fast, in each step.
+//! Goal: sliding points obey Coulomb's law, not the convex one, by which they would ride on air. Method: a figure that
+//! flies low over the floor without weight; the signed gaps, the cone and the direction of every contact force of a
+//! limp body that comes down fast, in each step.
 
 use crate::acceptance::bare::{Bare, FRICTION};
 use crate::acceptance::vec3;
@@ -63,8 +63,8 @@ fn a_figure_that_flies_low_over_the_floor_is_not_touched() {
     }
 }
 
-/// Thrown on its side, sliding and rolling: nothing pushes from a distance, friction is within its cone, and on it
-/// against the motion of what slides.
+/// Thrown on its side, sliding and rolling: nothing pushes from a distance, friction is within its cone, and, for
+/// sliding points, on the cone and opposite to the motion.
 #[test]
 fn what_slides_does_so_on_the_floor() {
     let body = man();
@@ -82,7 +82,7 @@ fn what_slides_does_so_on_the_floor() {
         (0.3, 9.81),
         360,
         |contacts, before, after| {
-            // The velocity that the step was solved for, at the places it was solved at.
+            // The velocity for which the step was solved, at the places where it was solved.
             kin.set_posture(&links, &before.posture);
             kin.set_velocity(&after.velocity);
             for c in contacts {
@@ -115,11 +115,11 @@ fn what_slides_does_so_on_the_floor() {
     println!("{text}");
     assert!(slid > 60, "{text}");
     assert!(far < 1e-6 && along < 1e-6, "{text}");
-    // What is slower than 0.1 m/s hovers by up to 0.75 mm; the rounds that are left out leave little more.
+    // Points slower than 0.1 m/s hover by up to 0.75 mm, and the omitted rounds add little more.
     assert!(of(0.99) < 0.8 && of(1.0) < 2.0, "{text}");
 }
 
-/// A body that tips over its toes: its limbs turn at 2 rad/s, and a toe whose velocity alone were held would creep by
+/// A body tips over its toes. Its limbs turn at 2 rad/s, and if only the velocity of a toe were held, it would creep by
 /// ½h²J̇v, a tenth of a millimetre in a step.
 #[test]
 fn what_rests_stays_in_its_place_while_the_body_turns_about_it() {

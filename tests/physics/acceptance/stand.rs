@@ -1,4 +1,4 @@
-//! Goal: a figure that is told to stand still on bent knees does, under both controllers and at any tick rate, and the
+//! Goal: a figure commanded to stand still on bent knees does so, under both controllers and at any tick rate, and the
 //! ground carries exactly its weight under its centre of mass. Method: statics.
 
 use super::GRAVITY;

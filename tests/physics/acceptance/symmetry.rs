@@ -1,9 +1,9 @@
 //! Goal: nothing in the simulation knows left from right, or north from east. Method: the same scene mirrored in the
-//! plane y = 0 with left and right exchanged, and turned about z; every number of every frame is taken back and
+//! plane y = 0 with left and right exchanged, and turned about z; every number of every frame is transformed back and
 //! compared.
 //!
-//! The paper's controller needs one main support. When both feet carry exactly the same it takes the left one, in the
-//! mirror too; the load is therefore in the hand from the start.
+//! The paper's controller needs one main support. When both feet carry exactly the same, it takes the left one, even in
+//! the mirror image; therefore the load is in the hand from the start.
 
 use crate::acceptance::vec3;
 use crate::common::{Scene, authored, figure, man, play, synthesised};
@@ -98,7 +98,7 @@ fn turned_state(s: &State, turn: Quat, shift: Vec3) -> State {
     out
 }
 
-/// What a figure does: who moves it, what it plays, what pushes it.
+/// A case: the controller of the figure, its motion, and its disturbances.
 struct Case {
     name: &'static str,
     controller: ControllerKind,
@@ -148,7 +148,7 @@ fn scene(
     scene
 }
 
-/// Everything a frame says about a figure, taken back to the plain scene by `vector`, `axial`, `dofs` and `segment`.
+/// Maps everything in a frame of a figure back to the plain scene, by `vector`, `axial`, `dofs` and `segment`.
 struct Back<'a> {
     state: &'a dyn Fn(&State) -> State,
     point: &'a dyn Fn(Vec3) -> Vec3,

@@ -1,11 +1,11 @@
-//! Goal: a checkpoint that a stranger has made, with a checksum that fits, is refused or gives a world that can be
-//! stepped: nothing panics, no tick runs without end, nothing asks for memory without bound. Method: states of figures
-//! that do everything are taken apart, changed where a stranger would, and put together again: bytes, floating-point
-//! numbers that are not finite, huge or tiny, numbers of things in the length that integers take, bytes left out or
-//! added, also in bodies and clips. What is restored is stepped for a second. A watch ends the process at a case that
-//! takes too long, and names it.
+//! Goal: a checkpoint made by a stranger, with a correct checksum, is refused or gives a world that can be stepped:
+//! nothing panics, no tick runs forever, nothing allocates memory without bound. Method: states of figures that do
+//! everything are taken apart, changed where a stranger would, and put together again: bytes, floating-point numbers
+//! that are not finite, huge or tiny, numbers of things in the length that integers take, bytes left out or added, also
+//! in bodies and clips. Restored worlds are stepped for a second. A watchdog ends the process at a case that takes too
+//! long, and names it.
 //!
-//! `SINEW_FORGED=100000` makes so many cases, `SINEW_FORGED_FROM` the first of them.
+//! `SINEW_FORGED` sets the number of cases, for example 100000, and `SINEW_FORGED_FROM` the first case.
 
 use super::{bytes, restored, streamed, things, transitions};
 use rand::{Rng, SeedableRng};
@@ -21,11 +21,11 @@ use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
 /// Ticks that a restored world does.
 const TICKS: u64 = 60;
-/// A case that takes longer does not end.
+/// A case that takes longer counts as endless.
 const LONGEST: Duration = Duration::from_secs(20);
 const HEADER: usize = 44;
 
-/// What a checkpoint consists of, as it is written.
+/// The content of a checkpoint, as it is written.
 #[derive(Clone, Serialize, Deserialize)]
 struct Content {
     definitions: Vec<Definition>,
@@ -127,11 +127,11 @@ fn change(bytes: &mut Vec<u8>, rng: &mut Pcg64Mcg) {
     }
 }
 
-/// States in the middle of everything that has a course of its own.
+/// States in the middle of every process that takes several ticks.
 fn states() -> Vec<Taken> {
     let mut out = Vec::new();
     for (mut scene, at) in [
-        // An exit that is planned, a clip that waits, one that is gone over to.
+        // A planned exit, a waiting clip, and a transition to another clip.
         (transitions(), &[61, 72, 90, 202, 240][..]),
         (streamed(), &[3, 40, 170]),
         (things(), &[31, 70]),
@@ -147,7 +147,7 @@ fn states() -> Vec<Taken> {
     out
 }
 
-/// Ends the process when a case does not end, and says which one.
+/// Ends the process when a case does not end, and names the case.
 fn watch(case: &Arc<AtomicU64>) -> mpsc::SyncSender<()> {
     let (done, ended) = mpsc::sync_channel(1);
     let case = Arc::clone(case);

@@ -1,7 +1,7 @@
 //! Random bodies, states and loads, seeded; shared by the tests and by `examples/dump_dynamics.rs`.
 //!
-//! The bodies have nothing human about them but the tree: skew inertias, centres of mass off every axis, joints
-//! anywhere. What holds for them holds for any body.
+//! The bodies share only the tree with humans: they have skew inertias, centres of mass off every axis, and joints
+//! anywhere. A result that holds for them holds for any body.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;

@@ -1,4 +1,4 @@
-//! Motions that can be worked out by hand: statics, free fall, pendulums, spinning bodies, flight, mirror images.
+//! Motions that can be computed by hand: statics, free fall, pendulums, spinning bodies, flight, mirror images.
 
 use super::bodies::{components, generator, loaded, random_body, random_loads, random_state};
 use super::{GRAVITY, inverse, relative, terms};
@@ -137,7 +137,7 @@ fn a_swinging_shank_keeps_the_time_of_a_physical_pendulum() {
     let body = Body::adult_man();
     let links = Links::new(&body);
     let knee = DOF_START[L_SHANK.index()];
-    // By hand: mass, centre and inertia of what hangs below the knee with ankle and toes straight.
+    // By hand: mass, centre and inertia of the chain below the knee, with ankle and toes straight.
     let (mut mass, mut moment, mut inertia) = (0.0, Vec3::zero(), body.armature[knee]);
     let mut origin = Vec3::zero();
     for s in L_SHANK.index()..L_SHANK.index() + 3 {
@@ -285,8 +285,8 @@ fn hip_and_knee_make_the_textbook_double_pendulum() {
     }
 }
 
-/// A figure in flight that pulls in its arms and kicks: whatever its torques do, the centre of mass flies a parabola
-/// and the angular momentum about it stays.
+/// A figure in flight that pulls in its arms and kicks: whatever its torques do, the centre of mass follows a parabola
+/// and the angular momentum about it is conserved.
 #[test]
 fn flight_keeps_the_parabola_and_the_angular_momentum() {
     let mut rng = generator(77);

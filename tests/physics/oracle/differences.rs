@@ -10,7 +10,7 @@ use sinew_physics::math::{Quat, Vec3};
 /// Step of central differences: truncation h² ≈ 1e-10 and rounding 1e-16/h ≈ 1e-11, times third derivatives (speeds of
 /// 5 rad/s).
 const STEP: f64 = 1e-5;
-/// What central differences resolve, relative.
+/// Relative resolution of central differences.
 const RESOLVED: f64 = 1e-7;
 
 fn case(seed: u64) -> (Links, State, rand_pcg::Pcg64Mcg) {
@@ -140,7 +140,7 @@ fn energy_changes_by_the_power_of_the_torques_in_flight() {
     for seed in 40..50 {
         let (links, state, mut rng) = case(seed);
         let a = super::bodies::components(&mut rng, 30.0);
-        // Any wrench on the pelvis and any torques: inverse dynamics says what does this motion.
+        // Any wrench on the pelvis and any torques: inverse dynamics gives the forces of this motion.
         let tau = inverse(&links, &state, &a, GRAVITY);
         let power: f64 = (0..NV).map(|i| tau[i] * state.velocity[i]).sum();
         let energy = |dt: f64| {

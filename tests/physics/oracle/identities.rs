@@ -232,8 +232,9 @@ fn the_ground_wrench_is_the_rate_of_momentum_minus_gravity() {
     });
 }
 
-/// The state `dt` seconds along the motion that starts with acceleration `a`: exact to second order in the posture,
-/// first in the velocity, which is all that first derivatives at 0 see (odd differences cancel the even terms).
+/// The state `dt` seconds along the motion that starts with acceleration `a`. It is exact to second order in the
+/// posture and first order in the velocity, which suffices for first derivatives at 0 (odd differences cancel the even
+/// terms).
 pub fn moved(state: &State, a: &[f64; NV], dt: f64) -> (State, [f64; NV]) {
     let mean: [f64; NV] = std::array::from_fn(|i| state.velocity[i] + 0.5 * dt * a[i]);
     let mut s = *state;
@@ -286,7 +287,7 @@ fn torques_do_not_depend_on_where_the_figure_stands_or_looks() {
     });
 }
 
-/// A check that cannot fail shows nothing: wrong physics must be seen, and by far.
+/// A check that cannot fail proves nothing: wrong physics must be detected, by a wide margin.
 #[test]
 fn wrong_physics_is_off_by_a_wide_margin() {
     let wide = 1e6 * ROUNDING;

@@ -1,4 +1,4 @@
-//! Eight figures in lock-step carry, each, the bits that it would have alone: every kernel, a different body and state
+//! Each of eight figures in lock-step has the bits that it would have alone: every kernel, a different body and state
 //! per lane, through the plain generic code and through the run-time dispatch to the machine's widest instructions.
 
 use super::GRAVITY;
@@ -206,7 +206,7 @@ fn every_kernel_gives_each_lane_the_bits_of_one_figure() {
                     y.lane(k)
                 );
             }
-            // What went in comes out again.
+            // The inputs are unchanged.
             assert_eq!(all.state.lane(k), input.state);
         }
         const { assert!(BALL_COUNT * 3 + HINGE_COUNT == 39) };

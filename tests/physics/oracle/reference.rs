@@ -2,7 +2,7 @@
 //! this project).
 //!
 //! The same figure with ball joints moves the same way in other coordinates: `v = A(q) u` with hinge rates `u`, so that
-//! `M_u = Aᵀ M A`, `h_u = Aᵀ (M Ȧu + h)`, `τ_u = Aᵀ τ`. A and Ȧu are tested themselves, against finite differences.
+//! `M_u = Aᵀ M A`, `h_u = Aᵀ (M Ȧu + h)`, `τ_u = Aᵀ τ`. A and Ȧu themselves are tested against finite differences.
 
 use super::bodies::{components, generator};
 use super::{GRAVITY, relative, terms};
@@ -39,7 +39,7 @@ fn vec3(v: &Value) -> Vec3 {
     }
 }
 
-/// The recorded body as links; checks that its tree and axes are ours.
+/// The recorded body as links; checks that it has Sinew's tree and axes.
 fn links(data: &Value) -> Links {
     let mut l = Links {
         offset: [Vec3::zero(); SEGMENT_COUNT],
@@ -107,14 +107,14 @@ fn ball_map(d: usize, angle: &[f64], rate: &[f64]) -> (Matrix3<f64>, Vector3<f64
         r3.inverse() * axis(d + 1),
         axis(d + 2),
     ]);
-    // Each axis, seen from the child, turns against the hinges that come after it.
+    // Each axis, seen from the child, turns opposite to the hinges after it.
     let w3 = e.column(2) * rate[2];
     let w2 = e.column(1) * rate[1] + w3;
     let bias = -w2.cross(&e.column(0)) * rate[0] - w3.cross(&e.column(1)) * rate[1];
     (e, bias)
 }
 
-/// The same posture and velocity in our coordinates, the map A (45×45) and the bias Ȧu.
+/// The same posture and velocity in Sinew's coordinates, the map A (45×45) and the bias Ȧu.
 fn ours(c: &Chain) -> (State, DMatrix<f64>, DVector<f64>) {
     let mut posture = Posture {
         root_position: c.position,

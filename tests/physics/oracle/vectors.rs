@@ -1,4 +1,4 @@
-//! States of random and human bodies, with and without loads, with the numbers that Pinocchio and MuJoCo agree on
+//! States of random and human bodies, with and without loads, with the numbers on which Pinocchio and MuJoCo agree
 //! (`data/dynamics_vectors.json`, made by `make_vectors.py`, which states the versions). No Python is needed to check
 //! them.
 
@@ -9,7 +9,7 @@ use sinew_physics::body::{DOF_COUNT, Links, NV, Posture, SEGMENT_COUNT, SegmentI
 use sinew_physics::dynamics::momentum;
 use sinew_physics::math::{Quat, Sym3, Vec3};
 
-/// Two right answers differ by rounding only; inputs read from text may be one unit in the last place off.
+/// Two correct answers differ only by rounding; inputs read from text may be off by one unit in the last place.
 const ROUNDING: f64 = 1e-12;
 
 /// All numbers of a value, nested lists included, in order.

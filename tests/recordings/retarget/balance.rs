@@ -1,4 +1,4 @@
-//! What the floor gives explains the motion better once it is prepared, whatever it is.
+//! The floor's forces explain every motion better once it is prepared.
 
 use super::{take, text};
 use crate::common::mocap;
@@ -6,7 +6,7 @@ use sinew_physics::body::{Body, Posture};
 use sinew_physics::plan::feasibility::{Consistency, consistency};
 use sinew_physics::retarget::{Preparation, RetargetOptions};
 
-/// A recording as it fits the body, and prepared, judged on the feet that its labels have on the floor.
+/// A recording fitted to the body, and prepared, judged on the feet that are planted according to its labels.
 fn before_and_after(body: &Body, name: &str) -> [Consistency; 2] {
     let bare = RetargetOptions {
         preparation: Preparation::NONE,
@@ -24,8 +24,8 @@ fn before_and_after(body: &Body, name: &str) -> [Consistency; 2] {
     })
 }
 
-/// Preparation brings every recording of people who keep a foot on the floor closer to what a body can do
-/// (docs/locomotion.md#balance). What lacks less than a thousandth of the weight, or a millimetre, lacks nothing.
+/// Preparation brings every recording with a foot on the floor closer to the abilities of a body
+/// (docs/locomotion.md#balance). A residual of less than a thousandth of the weight, or a millimetre, counts as zero.
 #[test]
 fn preparation_makes_motions_consistent_with_the_dynamics() {
     let body = Body::adult_man();

@@ -220,7 +220,7 @@ fn generic_suffix_names_and_no_names_at_all_are_understood() {
         }
         s
     };
-    // Steps that are added at the ends follow the whole body's mass, arms included: they are no matter of names.
+    // Added steps at the ends follow the mass of the whole body, arms included, so they do not depend on names.
     let bare = RetargetOptions {
         preparation: Preparation {
             ends: false,

@@ -1,4 +1,4 @@
-//! Recordings with faults: poses before the motion, glitches, few frames, wrong frame times, and what cannot be used.
+//! Recordings with faults: poses before the motion, glitches, few frames, wrong frame times, and unusable files.
 
 use super::source::Source;
 use super::{same, take, text};
@@ -57,7 +57,7 @@ fn slow_recordings_become_smooth_and_wrong_frame_times_can_be_corrected() {
     let plain = take(&text("walk"), &body, &RetargetOptions::default()).unwrap();
     for i in (30..plain.clip.len().min(r.clip.len()) - 30).step_by(10) {
         let d = (plain.clip.posture(i).root_position - r.clip.posture(i).root_position).norm();
-        // Every fifth sample ends 20 ms sooner, at 1.2 m/s; its way out is planned from there and begins within the
+        // Every fifth sample ends 20 ms sooner, at 1.2 m/s; its lead-out is planned from there and begins within the
         // clip.
         let most = if i + 100 < plain.clip.len() {
             0.02

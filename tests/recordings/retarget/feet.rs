@@ -1,4 +1,5 @@
-//! Feet that stand neither slide nor sink. When they stand is tested where the truth is known (`tests/corpus`).
+//! Standing feet neither slide nor sink. The times of their stance are tested on recordings with known truth
+//! (`tests/corpus`).
 
 use super::{take, text};
 use crate::common::mocap::CLIPS;
@@ -97,7 +98,7 @@ fn no_sole_is_in_the_floor_on_the_way_in_and_out_either() {
         preparation: Preparation::walking(true),
         ..RetargetOptions::default()
     };
-    // Who lies has feet that nothing holds up.
+    // The feet of a lying body carry nothing.
     for name in CLIPS
         .iter()
         .filter(|n| !["get-up", "fall-rise"].contains(n))
@@ -108,7 +109,7 @@ fn no_sole_is_in_the_floor_on_the_way_in_and_out_either() {
         let lowest = all.iter().copied().fold(f64::INFINITY, f64::min);
         let in_floor = all.iter().filter(|z| **z < -5e-3).count() as f64 / all.len() as f64;
         println!("{name}: {:.1} mm, {in_floor:.4}", 1e3 * lowest);
-        // A hip that turns to its limit in a swing has no other way for its foot.
+        // A hip that turns to its limit in a swing leaves no other path for its foot.
         assert!(
             lowest > -0.016 && in_floor < 0.005,
             "{name}: {lowest} m, {in_floor}"

@@ -118,8 +118,8 @@ fn every_clip_becomes_a_motion_of_every_body() {
                 pelvis.y.abs() < 0.02 && pelvis.x > 0.0 || pelvis.z.abs() > 0.9,
                 "{name}: faces {pelvis:?}"
             );
-            // Balance moves it by up to 12 cm; a runner's mass stays farther back, over what the ankle holds of 2.7
-            // weights (docs/locomotion.md#runs).
+            // Balance moves it by up to 12 cm; a runner's mass stays farther back, limited by the ankle torque at a
+            // load of 2.7 weights (docs/locomotion.md#runs).
             let moved = if name == "run" { 0.2 } else { 0.13 };
             assert!(
                 first.root_position.x.hypot(first.root_position.y) < moved,

@@ -1,5 +1,5 @@
-//! Goal: loads of up to 15 kg in one hand or in both are carried while walking, and what an arm cannot hold the trunk
-//! does not pay for. Method: loads on the hands from the beginning on.
+//! Goal: figures walk with loads of up to 15 kg in one hand or in both, and the trunk does not suffer from a load that
+//! an arm cannot hold. Method: loads on the hands from the beginning.
 
 use super::{playing, run};
 use crate::common::{man, recorded};
@@ -118,7 +118,7 @@ fn who_waves_a_load_about_does_not_fall_over_it() {
         };
         world.perturb(key, load).unwrap();
         let seconds = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;
-        // The arm that carries gives way; everything else does what it is to do.
+        // The arm that carries gives way; everything else follows the motion.
         let arm = DOF_START[R_UPPER_ARM.index()]..DOF_START[L_THIGH.index()];
         let (mut sum, mut count, mut capture) = (0.0, 0, 0.0f64);
         while world.time() < seconds {

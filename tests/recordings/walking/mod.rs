@@ -1,10 +1,10 @@
-//! Goal: recorded walks start from standing, go on for as long as they repeat, and come to a stand, in torque
+//! Goal: recorded walks start from standing, continue for as long as they repeat, and come to a stand, in torque
 //! simulation at the strength of a person and without any help. Method: clips from the motion capture folder,
-//! retargeted as they come, 60 Hz with two substeps, the modern controller.
+//! retargeted with default options, 60 Hz with two substeps, the modern controller.
 //!
-//! * here: from standing to standing, again and again, by other people.
-//! * `pushes`: steps that nobody planned.
-//! * `loads`: what hands carry.
+//! * here: from standing to standing, repeatedly, by other people.
+//! * `pushes`: unplanned steps.
+//! * `loads`: loads in the hands.
 //! * `pieces`: backwards.
 
 mod loads;
@@ -28,7 +28,7 @@ use std::sync::Arc;
 
 const RATE: f64 = 60.0;
 
-/// A world with a figure that plays `clip` from its sample at time `from` of the clip on, s.
+/// A world with a figure that plays `clip` from time `from` of the clip, s.
 fn playing(body: &Arc<Body>, clip: Arc<Clip>, from: f64, looped: bool) -> (World, FigureKey) {
     let start = clip.sample(from);
     let mut world = World::new(WorldParams::default()).unwrap();
@@ -51,7 +51,7 @@ fn walk(body: &Arc<Body>, name: &str, clip: &Arc<Clip>, looped: bool, seconds: f
     run(&mut world, key, name, seconds, from)
 }
 
-/// The same of a figure that is ready to go; the capture point counts from time `from` (s) on.
+/// [`walk`] for a figure that is ready to go; the capture point counts from time `from` (s).
 fn run(world: &mut World, key: FigureKey, name: &str, seconds: f64, from: f64) -> (f64, f64) {
     let (mut sum, mut count, mut capture) = (0.0, 0, 0.0f64);
     for tick in 0..(seconds * RATE) as usize {
@@ -67,7 +67,7 @@ fn run(world: &mut World, key: FigureKey, name: &str, seconds: f64, from: f64) -
         sum += r.joints.joint_error.iter().map(|e| e * e).sum::<f64>();
         count += r.joints.joint_error.len();
         let e = figure.tracker().capture().error;
-        // The way in is a start from standing; the bound is that of steady walking.
+        // The lead-in is a start from standing, but the bound is that of steady walking.
         if tick as f64 / RATE > from {
             capture = capture.max(e[0].hypot(e[1]));
         }
@@ -80,7 +80,7 @@ fn run(world: &mut World, key: FigureKey, name: &str, seconds: f64, from: f64) -
     (rms, capture)
 }
 
-/// Runs walked.
+/// Options that turn runs into walks.
 fn walked() -> RetargetOptions {
     RetargetOptions {
         preparation: Preparation::walking(true),
@@ -88,8 +88,8 @@ fn walked() -> RetargetOptions {
     }
 }
 
-/// Whatever people do on their feet, their figures do from standing to standing, with feet that stay where they land
-/// and come down softly. Single clips are guarded by the survey (`make survey`).
+/// Figures follow every recording on foot from standing to standing, with feet that stay where they land and come down
+/// softly. Single clips are guarded by the survey (`make survey`).
 #[test]
 fn walks_start_from_standing_and_stop() {
     let body = man();
@@ -101,7 +101,7 @@ fn walks_start_from_standing_and_stop() {
         ];
         for (way, end) in ends {
             let (posture, planted) = end.unwrap();
-            // Who stands anyway stands as recorded: a boxer low, a dancer on one foot.
+            // Recordings that already stand do so in their own way: a boxer low, a dancer on one foot.
             let stands = posture.root_position.z > 0.8 && planted == [true; 2];
             assert!(way == 0.0 || stands, "{name}: {planted:?}, {posture:?}");
         }
@@ -134,7 +134,7 @@ fn what_a_heel_carried_the_toes_carry_when_it_rises() {
             let figure = world.figure(key).unwrap();
             let target = &figure.target().next;
             for (side, (foot, toes)) in feet.into_iter().enumerate() {
-                // One foot that is being rolled off, with the other one in the air.
+                // One foot is rolling off, and the other one is in the air.
                 let (ankle, rotation) = forward(&body, &target.posture)[foot.index()];
                 let heel = body.segment(foot).contact_points[0];
                 let height = (ankle + rotation.rotate(heel)).z;
@@ -242,11 +242,11 @@ fn a_run_that_is_walked_comes_to_a_stand() {
         let plain = retarget(&bvh, &body, &RetargetOptions::default()).unwrap();
         let asked = retarget(&bvh, &body, &walked()).unwrap();
         if plain.report.runs.speed.is_none() {
-            // What does not run is not changed.
+            // Motions that do not run are unchanged.
             assert!(plain.clip.samples().eq(asked.clip.samples()), "{name}");
             continue;
         }
-        // That it stands then is in `walks_start_from_standing_and_stop`.
+        // `walks_start_from_standing_and_stop` checks that it then stands.
         assert!(asked.report.runs.walked, "{name}");
         assert!(asked.clip.lead_in() > 0.0, "{name} begins standing");
         let longer = asked.clip.duration() / plain.clip.duration();

@@ -1,5 +1,5 @@
-//! Goal: what a recording happens to be played as is walked too. Method: recordings backwards. Pieces that break off
-//! are in `tests/corpus`.
+//! Goal: recordings are walked in whatever way they are played. Method: recordings played backwards. Pieces that break
+//! off are in `tests/corpus`.
 
 use crate::common::{man, mocap};
 use sinew_evaluate::experiments::walk::{self as experiments, Walk, Walker};
@@ -8,7 +8,7 @@ use sinew_physics::retarget::retarget;
 use sinew_physics::retarget::{Preparation, RetargetOptions};
 use std::sync::Arc;
 
-/// A recording with other frames in place of its own, of which each takes so many seconds.
+/// A recording with its frames replaced; `of` receives the frames and the duration of each, s.
 fn with_frames(name: &str, of: impl Fn(Vec<&str>, f64) -> Vec<&str>) -> Bvh {
     let text = String::from_utf8(mocap::read(&format!("{name}.bvh"))).unwrap();
     let head = text.find("Frames:").unwrap();
@@ -22,8 +22,7 @@ fn with_frames(name: &str, of: impl Fn(Vec<&str>, f64) -> Vec<&str>) -> Bvh {
     Bvh::parse(file.as_bytes()).unwrap()
 }
 
-/// Played backwards, a recording is a motion of its own: toes land first, heels leave last, and whoever stopped sets
-/// off.
+/// Played backwards, a recording is a different motion: toes land first, heels leave last, and a stop becomes a start.
 #[test]
 fn recordings_are_followed_backwards_too() {
     let body = man();
@@ -46,6 +45,6 @@ fn recordings_are_followed_backwards_too() {
         all += 1;
         followed += usize::from(w.stood() && rms < 2.5 && w.capture[1] < 0.2);
     }
-    // Nobody has danced so, or run.
+    // No person has danced or run like that.
     assert!(10 * followed > 8 * all, "{followed} of {all}");
 }

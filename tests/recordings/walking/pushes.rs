@@ -1,5 +1,5 @@
-//! Goal: who is pushed while he walks, stands on one foot or has come to a stand steps, keeps his legs apart as he
-//! does, and goes on. Method: pushes of 0.1 s at the chest at several phases and in all directions.
+//! Goal: a figure that is pushed while it walks, stands on one foot or has come to a stand makes steps, keeps its legs
+//! apart in doing so, and continues. Method: pushes of 0.1 s at the chest at several phases and in all directions.
 
 use super::{RATE, playing};
 use crate::common::{man, recorded};
@@ -65,8 +65,8 @@ fn pushes_while_walking_are_caught_by_steps() {
     }
 }
 
-/// People who are pushed hard to the side put the swinging foot down at once and take the next step quickly too; and
-/// the trunk comes along instead of giving way.
+/// After a hard push to the side, people put the swinging foot down at once and take the next step quickly too; and the
+/// trunk moves along instead of giving way.
 #[test]
 fn hard_pushes_to_the_side_are_caught_by_quick_steps() {
     let body = man();
@@ -109,8 +109,8 @@ fn hard_pushes_to_the_side_are_caught_by_quick_steps() {
     assert!(most_lean < 70.0, "the trunk leans by {most_lean:.0} deg");
 }
 
-/// How far thighs, shanks and feet of both legs are inside each other, m: segments with radii of 6.5, 5 and 3.5 cm,
-/// thighs from the middle down.
+/// Overlap of thighs, shanks and feet of both legs, m: segments with radii of 6.5, 5 and 3.5 cm, thighs from the middle
+/// down.
 fn legs_within(figure: &Figure) -> f64 {
     let mut kin = Kinematics::default();
     kin.set_posture(figure.links(), &figure.state().posture);
@@ -143,7 +143,7 @@ fn legs_within(figure: &Figure) -> f64 {
     most
 }
 
-/// A foot that is pushed across goes around the other leg. Those of the recording come 4.5 cm close by this measure.
+/// A foot that is pushed across goes around the other leg. By this measure, those of the recording overlap by 4.5 cm.
 #[test]
 fn feet_that_cross_go_around_the_other_leg() {
     let body = man();
@@ -174,12 +174,12 @@ fn feet_that_cross_go_around_the_other_leg() {
         println!(" mm");
     }
     println!("{survived} of 48 survived, {through} with legs through each other");
-    // It was 20 without, and 10 by more than 10 cm.
+    // Without this, 20 passed through, 10 of them by more than 10 cm.
     assert!(survived >= 47 && through <= 12, "{survived}, {through}");
 }
 
 /// Plays `clip` until `seconds` and does not fall; returns how often a raised foot was put down because the other one
-/// alone could not keep the body. `push`: with that impulse at the chest after a second on one foot, N·s.
+/// alone could not hold the body. `push`: with that impulse at the chest after a second on one foot, N·s.
 fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64, push: Vec3) -> usize {
     const PUSHED: f64 = 0.1;
     let lead = clip.lead_in();
@@ -246,7 +246,7 @@ fn who_loses_balance_on_one_foot_puts_the_other_one_down_and_goes_on() {
     assert!(steps >= 4, "{steps} of 8 pushes are stepped for");
     let repeated = Arc::new(cycle(&man, &clip).unwrap());
     puts_down(&man, &repeated, true, 40.0, Vec3::zero());
-    // Who keeps his balance does nothing of the kind.
+    // A figure that keeps its balance does nothing of the kind.
     for name in ["dance", "salsa-b", "carry"] {
         let clip = recorded(&man, name);
         let steps = puts_down(&man, &clip, false, whole(&clip) + 1.0, Vec3::zero());
@@ -254,7 +254,7 @@ fn who_loses_balance_on_one_foot_puts_the_other_one_down_and_goes_on() {
     }
 }
 
-/// After its steps to a stand a walk is over: what pushes its figure then is caught by steps as if it had always stood.
+/// After its steps to a stand, a walk is over: later pushes are caught by steps as if the figure had always stood.
 #[test]
 fn who_has_come_to_a_stand_steps_when_pushed() {
     let body = man();

@@ -1,6 +1,6 @@
-//! Goal: a figure that stands comes into a stream that begins in the middle of a walk on its own feet, in whatever
-//! phase of the gait that is, and is with it soon. Method: the recorded walk over and over, and the built-in one to its
-//! stand, each from many moments on; the world is stepped by hand, so that everything is the same each time.
+//! Goal: a standing figure joins a stream that begins in the middle of a walk on its own feet, in any phase of the
+//! gait, and soon catches up with it. Method: the recorded walk, repeated, and the built-in walk to its stand, each
+//! from many moments; the world is stepped by hand, so every run is the same.
 
 use crate::access::leases::{Scene, Walker};
 use crate::corpus;
@@ -13,32 +13,32 @@ use sinew_physics::retarget::{RetargetOptions, retarget};
 use sinew_wire::pb;
 use std::sync::Arc;
 
-/// Moments from which on a motion is streamed.
+/// Number of moments from which a motion is streamed.
 const PHASES: u32 = 12;
 
 type Motion = Arc<dyn Fn(f64) -> Posture + Send + Sync>;
 
-/// What came of a stream.
+/// Result of a stream.
 #[derive(Debug)]
 struct Outcome {
     /// Time of the motion at which the stream began, s.
     from: f64,
-    /// When the figure walked for the first time, and when it was close to the stream, s after that began.
+    /// Time at which the figure first walked, and time at which it was close to the stream, s after the stream began.
     walks: f64,
     near: f64,
-    /// When it fell, s.
+    /// Time of its fall, s.
     fell: Option<f64>,
-    /// How far it was behind at the end, s.
+    /// Lag at the end, s.
     behind: f64,
-    /// How slow it was in the last two seconds, and at the end, m/s.
+    /// Lowest speed in the last two seconds, and speed at the end, m/s.
     slowest: f64,
     last: f64,
 }
 
-/// A figure is close to a stream that it is behind by less than a stride, s.
+/// A figure is close to a stream if it lags by less than this, a stride, s.
 const NEAR: f64 = 1.25;
 
-/// A figure that stands follows a stream that shows a motion from its time `from` (s) on, for `long` seconds.
+/// A standing figure follows a stream of a motion from its time `from` (s), for `long` seconds.
 async fn follow(motion: Motion, from: f64, long: f64) -> Outcome {
     let scene = Scene::new(true).await;
     let alice = scene.someone("alice").await;
@@ -89,7 +89,7 @@ async fn follow(motion: Motion, from: f64, long: f64) -> Outcome {
     out
 }
 
-/// What comes of streams that begin at moments from `from` on, `within` s apart altogether.
+/// Results of streams that begin at moments spread over `within` seconds from `from`.
 async fn from_all_phases(motion: Motion, (from, within): (f64, f64), long: f64) -> Vec<Outcome> {
     let phases = (0..PHASES).map(|k| from + within * f64::from(k) / f64::from(PHASES));
     let runs: Vec<_> = phases
@@ -126,7 +126,7 @@ async fn it_stands_with_that_walk_where_that_ends() {
     let body = Body::adult_man();
     let walk = builtin(&body, "walk").unwrap();
     let motion: Motion = Arc::new(move |t| walk.sample(t).posture);
-    // A stride of it.
+    // Moments spread over a stride.
     for o in from_all_phases(motion, (2.4, 1.2), 14.0).await {
         assert!(o.fell.is_none() && o.walks < 5.0 && o.near < 6.5, "{o:?}");
         assert!(o.behind < 0.1 && o.last < 0.05, "{o:?}");

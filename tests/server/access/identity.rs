@@ -1,4 +1,4 @@
-//! Who someone is: TLS, certificates of clients, tokens, and what none of them may do.
+//! Identity: TLS, client certificates, tokens, and the limits of each.
 
 use crate::access::support::{Authority, Files, Guarded, refusal, token, world};
 use jsonwebtoken::{Algorithm, EncodingKey, Header, encode};
@@ -90,7 +90,7 @@ async fn a_token_says_who_someone_is_and_without_one_nobody_is_served() {
         [pb::Role::Member as i32, pb::Role::Creator as i32]
     );
     assert!(found.expire_time.is_some());
-    // Health is for everyone, everything else for those who say who they are.
+    // Health is open to all callers, everything else only to authenticated ones.
     let nobody = server.connect(Credentials::default()).await.unwrap();
     assert!(nobody.serves().await.unwrap());
     let e = who(&nobody).await.unwrap_err();
@@ -102,7 +102,7 @@ async fn a_token_says_who_someone_is_and_without_one_nobody_is_served() {
     if let Ok(plain) = Client::connect(&server.address.to_string()).await {
         assert!(plain.serves().await.is_err());
     }
-    // Who trusts other roots does not talk to this server.
+    // A client that trusts other roots does not talk to this server.
     let stranger = Credentials {
         ca: Some(Authority::new("other").pem().into_bytes()),
         ..Default::default()
@@ -127,7 +127,7 @@ async fn tokens_that_prove_nothing_are_refused() {
             .await
             .is_ok()
     );
-    // The end of time is no end.
+    // A token whose expiry lies at the end of time stays valid.
     for end in [1u64 << 40, i64::MAX as u64, u64::MAX - 1, u64::MAX] {
         let client = server.bearing(with("exp", json!(end))).await;
         assert!(who(&client).await.is_ok(), "{end}");
@@ -173,7 +173,7 @@ async fn tokens_that_prove_nothing_are_refused() {
         "TOKEN_ALGORITHM",
         "no public keys here"
     );
-    // A refusal says nothing of the token.
+    // A refusal reveals nothing of the token.
     let secret = with("aud", json!("other"));
     let e = who(&server.bearing(secret.clone()).await)
         .await
@@ -193,7 +193,7 @@ async fn a_public_key_is_no_secret() {
         .await
         .unwrap();
     assert_eq!(found.principal, "user:a");
-    // Signed with what everybody can read, in each form that it has.
+    // Signed with the public key as the secret, in each of its forms.
     let point = issuer.key.der_bytes().to_vec();
     let forms = [
         point,
@@ -335,12 +335,12 @@ async fn a_certificate_says_who_a_client_is() {
             "{expected}: {creates:?}"
         );
     }
-    // A certificate of other roots is none.
+    // A certificate from other roots is ignored.
     let other = Authority::new("other").issue("camera-3", vec![]);
     if let Ok(client) = server.connect(with(other)).await {
         assert!(who(&client).await.is_err());
     }
-    // A token of the same name is someone else.
+    // A token of the same name is another principal.
     let token = server.client(uri, &[], None).await;
     assert_eq!(who(&token).await.unwrap().principal, format!("user:{uri}"));
     let denied = token
@@ -387,7 +387,7 @@ async fn another_root_of_clients_needs_no_restart() {
     assert!(served(&old).await && served(&new).await);
     touched(&next.pem());
     assert!(!served(&old).await && served(&new).await);
-    // Who is connected stays.
+    // Existing connections stay.
     assert_eq!(who(&alice).await.unwrap().principal, "cert:alice");
 }
 
@@ -409,7 +409,7 @@ async fn who_never_agrees_on_tls_keeps_nobody_waiting() {
     for mut stream in silent {
         assert!(matches!(stream.read(&mut buffer).await, Ok(0) | Err(_)));
     }
-    // And who talks something else gets an end, not a hang.
+    // A client that speaks another protocol is disconnected, and does not hang.
     let mut plain = tokio::net::TcpStream::connect(server.address)
         .await
         .unwrap();
@@ -479,7 +479,7 @@ fn an_address_that_others_reach_needs_authentication_and_tls() {
         load(&[("tls_client_ca", "r.pem")]),
         Err(ConfigError::Incomplete(..))
     ));
-    // The message says what to do.
+    // The message states the remedy.
     let message = load(&[open]).unwrap_err().to_string();
     assert!(
         message.contains("tls_cert") && message.contains("--insecure-bind-any"),

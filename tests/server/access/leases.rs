@@ -1,4 +1,4 @@
-//! Who controls a figure: leases, their tokens, and what others learn.
+//! Control of a figure: leases, their tokens, and their visibility to others.
 
 use crate::access::support::{Guarded, figure, grant, refusal, role, world};
 use crate::corpus;
@@ -174,7 +174,7 @@ fn arm(sequence: i64) -> pb::MotionFrame {
     }
 }
 
-/// How each call ends that could disturb the one who controls figure `a`.
+/// Result of each call that could disturb the controller of figure `a`.
 async fn attack(
     scene: &Scene,
     client: &Client,
@@ -288,7 +288,7 @@ async fn a_stranger_and_a_rival_change_nothing_and_the_driver_sees_it() {
         .unwrap();
     let mut events = scene.events().await;
 
-    // A stranger: whatever he holds in his hands.
+    // A stranger, with any token.
     let stranger = scene.someone("mallory").await;
     for token in ["", "0123456789abcdef", &lease.control_token] {
         for (call, result) in attack(&scene, &stranger, token).await {
@@ -423,7 +423,7 @@ async fn a_higher_priority_takes_the_figure_and_every_further_frame_is_fenced() 
         .await
         .unwrap_err();
     assert_eq!(refusal(&e), (Code::Aborted, "CONTROL_FENCED".into()));
-    // Given back, it is free for the next one.
+    // Once released, it is free for the next driver.
     let release = pb::ReleaseControlRequest {
         figure: scene.figure.clone(),
         control_token: director.control_token,
@@ -515,19 +515,19 @@ async fn a_driver_without_a_lease_has_its_figure_for_itself_all_the_same() {
     assert_eq!(refusal(&e), (Code::Aborted, "CONTROL_FENCED".into()));
 }
 
-/// A walk in the middle of its way, as one who captures it at another place sends it: frames of 120 per second.
+/// A walk in progress, as a capture system at another place sends it: 120 frames per second.
 pub struct Walker<'a> {
     pub header: pb::DriveHeader,
     pub posture: &'a (dyn Fn(f64) -> Posture + Sync),
-    /// Where his stage lies.
+    /// Place of the walker's stage.
     pub place: PlanarTransform,
-    /// What his clock shows at the start, s.
+    /// The walker's clock at the start, s.
     pub clock: f64,
     pub sent: i64,
 }
 
 impl Walker<'_> {
-    /// Sends what was captured until `now`, s. Returns what the server says then.
+    /// Sends the frames captured until `now`, s. Returns the server's answer.
     pub async fn send(
         &mut self,
         scene: &Scene,
@@ -551,7 +551,7 @@ impl Walker<'_> {
         }
         loop {
             match scene.push(client, &self.header, frames.clone()).await {
-                // The test runs faster than real time, the allowance of frames does not.
+                // The test runs faster than real time, but the allowance of frames does not.
                 Err(e) if e.code() == Code::ResourceExhausted => {
                     tokio::time::sleep(Duration::from_millis(20)).await;
                 }
@@ -563,7 +563,7 @@ impl Walker<'_> {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_figure_is_handed_over_in_mid_walk_without_a_fall_and_without_a_stop() {
-    // At different phases of the gait, to somebody in the same phase, and to those who are in any other one.
+    // At different phases of the gait, to a walker in the same phase, and to walkers in other phases.
     let cases = [
         (4.0, 0.0),
         (4.2, 0.01),
@@ -576,7 +576,7 @@ async fn a_figure_is_handed_over_in_mid_walk_without_a_fall_and_without_a_stop()
         (4.7, -0.15),
     ];
     for slowest in beside_each_other(cases).await {
-        // It has walked all the time: a stand would be close to 0.
+        // It never stopped walking: a stand would be close to 0.
         assert!(slowest > 0.4, "slowest {slowest:.2} m/s");
     }
 }
@@ -594,8 +594,9 @@ async fn beside_each_other(cases: impl IntoIterator<Item = (f64, f64)>) -> Vec<f
     slowest
 }
 
-/// Two walk the same way, each on his own stage, the second one `phase` s ahead; one hands the figure over to the other
-/// at `offered` s. Nobody falls, and the figure walks again at the end. Returns how slow it was meanwhile, m/s.
+/// Two walkers walk the same way, each on a separate stage, the second one `phase` s ahead; one hands the figure over
+/// to the other at `offered` s. The figure does not fall, and walks again at the end. Returns its lowest speed in
+/// between, m/s.
 async fn hand_over(offered: f64, phase: f64) -> f64 {
     let scene = Scene::new(true).await;
     let (alice, bob) = (scene.someone("alice").await, scene.someone("bob").await);
@@ -627,7 +628,7 @@ async fn hand_over(offered: f64, phase: f64) -> f64 {
     let mut second = Walker {
         header: window(scene.header("bob", &[])),
         posture: &ahead,
-        // On his own stage, seven metres away and turned by a third of a circle.
+        // On a separate stage, seven metres away and turned by a third of a circle.
         place: PlanarTransform {
             x: 7.0,
             y: -2.0,
@@ -667,7 +668,7 @@ async fn hand_over(offered: f64, phase: f64) -> f64 {
                 offer_token: offer.offer_token,
                 ..Default::default()
             };
-            // Only for whom it is.
+            // Only the addressee can accept it.
             let rival = scene.someone("rival").await;
             let e = rival
                 .control()

@@ -1,4 +1,4 @@
-//! Who may do what: identities, roles, leases and quotas, by a real client against the server in this process.
+//! Permissions: identities, roles, leases and quotas, tested by a real client against the server in this process.
 
 #[allow(dead_code)] // not every function
 mod entering;

@@ -1,4 +1,4 @@
-//! Which role may make which call.
+//! Calls allowed for each role.
 
 use crate::access::support::{Guarded, figure, grant, refusal, role, world};
 use prost_reflect::{DescriptorPool, DynamicMessage, MethodDescriptor, ReflectMessage as _, Value};
@@ -79,9 +79,9 @@ fn name_things(message: &mut DynamicMessage, method: &str, world: &str) {
     for field in fields {
         let text = |s: &str| Value::String(s.to_owned());
         let value = match field.name() {
-            // Without a world everyone sees what it may see of all.
+            // Without a world, each caller sees the permitted part of all worlds.
             "world" if method == "GetServerStats" => continue,
-            // What is forked needs a role of its own, below.
+            // Forking needs its own role, tested below.
             "world" if method == "ForkWorld" => continue,
             "world" | "parent" if field.kind().as_message().is_none() => text(world),
             "name" => text(&name),
@@ -154,7 +154,7 @@ async fn each_role_may_make_the_calls_that_it_is_for_and_no_others() {
     let pool = DescriptorPool::decode(DESCRIPTOR_SET).unwrap();
     let services: Vec<_> = pool.services().collect();
     let mut methods: Vec<MethodDescriptor> = services.iter().flat_map(|s| s.methods()).collect();
-    // What ends things comes last, and the world itself at the very end.
+    // Calls that delete come last, and the world itself at the very end.
     methods.sort_by_key(|m| match m.name() {
         "DeleteWorld" => 2,
         n if n.starts_with("Delete") || n.starts_with("Remove") => 1,
@@ -174,7 +174,7 @@ async fn each_role_may_make_the_calls_that_it_is_for_and_no_others() {
             let Rule::Needs(needed) = rule(&path) else {
                 panic!("{path} does not say what it needs");
             };
-            // Who owns worlds by its token creates those that it names.
+            // A caller whose token owns worlds creates those named in it.
             let may =
                 roles.contain(needed) || (needed == Role::Creator && roles.contain(Role::Owner));
             let result = call(&server, method, &token, &world).await;
@@ -190,7 +190,7 @@ async fn each_role_may_make_the_calls_that_it_is_for_and_no_others() {
             *allowed.entry(label).or_default() += usize::from(may);
         }
     }
-    // More may do more: the table is not the same for all.
+    // Higher roles may do more: the table differs between roles.
     assert!(allowed["stranger"] < allowed["viewer"] && allowed["viewer"] < allowed["driver"]);
     assert!(allowed["driver"] < allowed["director"] && allowed["director"] < allowed["owner"]);
 }
@@ -239,7 +239,7 @@ async fn lists_show_what_one_may_see_and_a_name_is_no_more_than_a_guess() {
         let (mut worlds, name) = (client.worlds(), name.to_owned());
         async move { worlds.get_world(pb::GetWorldRequest { name }).await }
     };
-    // Whether there is such a world is no one's business.
+    // The existence of such a world is not revealed.
     let there = get(&a, &other).await.unwrap_err();
     let not = get(&a, "worlds/studio-b-none").await.unwrap_err();
     assert_eq!(refusal(&there), refusal(&not));
@@ -259,7 +259,7 @@ async fn lists_show_what_one_may_see_and_a_name_is_no_more_than_a_guess() {
         }
     };
     assert_eq!(stats(&a).await, [&*stage]);
-    // A guest sees what it was granted, as long as it is.
+    // A guest sees a granted figure, as long as the grant lasts.
     let guest = server.client("guest", &[], None).await;
     assert_eq!(names(&guest).await, Vec::<String>::new());
     let name = grant(&a, &stage, role("user:guest", pb::Role::Viewer)).await;
@@ -368,7 +368,7 @@ async fn a_perturber_pushes_as_hard_and_as_often_as_its_grant_says() {
         retry.as_secs_f64() > 3.0 && retry.as_secs_f64() <= 5.0,
         "{retry:?}"
     );
-    // The owner is not bounded.
+    // The owner has no bound.
     push(&owner, 5000.0).await.unwrap();
 }
 
@@ -386,7 +386,7 @@ async fn who_may_watch_no_longer_reads_no_more_of_the_past() {
     owner.worlds().step_world(step).await.unwrap();
     let name = grant(&owner, &stage, role("user:guest", pb::Role::Viewer)).await;
     let guest = server.client("guest", &[], None).await;
-    // More than waits on the way to somebody who does not read.
+    // More frames than the queue to an idle reader can hold.
     let request = pb::ReadHistoryRequest {
         name: stage.clone(),
         view: Some(pb::View {

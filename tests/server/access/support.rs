@@ -1,4 +1,4 @@
-//! A server with certificates and keys that are made here, and clients of it.
+//! A server with certificates and keys made here, and clients of it.
 
 use rcgen::{BasicConstraints, CertificateParams, CertifiedIssuer, DnType, IsCa, KeyPair, SanType};
 use sinew_client::{Client, ConnectError, Credentials};
@@ -70,7 +70,7 @@ impl Authority {
     }
 }
 
-/// Who a token of the shared secret is for.
+/// Claims of a token of the shared secret.
 pub fn token(secret: &[u8], subject: &str, roles: &[Role], worlds: Option<&[&str]>) -> String {
     let token = NewToken {
         subject: subject.into(),

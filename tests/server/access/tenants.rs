@@ -1,4 +1,4 @@
-//! Two tenants of one server: what one takes or floods is not the other's loss.
+//! Two tenants of one server: the use and floods of one do not harm the other.
 
 use crate::access::support::{Guarded, figure, refusal, token, world};
 use sinew_client::Client;
@@ -74,7 +74,7 @@ async fn a_greedy_tenant_gets_its_share_and_the_other_one_everything_it_asks_for
         (8, Code::ResourceExhausted)
     );
 
-    // A flood of calls from all of its connections meanwhile.
+    // Flood the server with calls from all of its connections in the meantime.
     let floods: Vec<_> = greedy
         .iter()
         .map(|client| {

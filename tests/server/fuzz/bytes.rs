@@ -32,7 +32,7 @@ fn seeds() -> Vec<Vec<u8>> {
         .into()
 }
 
-/// What a file of motion may hold beside numbers.
+/// Content of a motion file other than numbers.
 fn piece() -> impl Strategy<Value = Vec<u8>> {
     let words = [
         "HIERARCHY\n",

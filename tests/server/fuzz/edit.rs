@@ -1,4 +1,4 @@
-//! What damages bytes.
+//! Edits that damage bytes.
 
 use proptest::prelude::*;
 

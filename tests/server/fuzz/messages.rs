@@ -23,7 +23,7 @@ pub fn methods() -> Vec<MethodDescriptor> {
         .collect()
 }
 
-/// Texts that mean something somewhere, and texts that mean nothing.
+/// Texts that have a meaning in some field, and texts without meaning.
 const TEXTS: &[&str] = &[
     "",
     "w",
@@ -68,7 +68,7 @@ const TEXTS: &[&str] = &[
     "controller",
 ];
 
-/// Numbers likewise.
+/// Numbers of the same two kinds.
 const NUMBERS: &[f64] = &[
     0.0,
     -0.0,
@@ -115,16 +115,16 @@ const WHOLE: &[i64] = &[
     i64::MIN,
 ];
 
-/// How messages are made.
+/// Sources of values for messages.
 #[derive(Clone, Default)]
 pub struct Pool {
     /// Values from outside the descriptor: files.
     pub bytes: Vec<Vec<u8>>,
-    /// Few fields, of values that are most often allowed, so that requests are carried out.
+    /// Few fields, with mostly valid values, so that requests are carried out.
     pub mild: bool,
 }
 
-/// A message with some of its fields, of values that often mean something.
+/// A message with some of its fields, often with meaningful values.
 pub fn message(
     kind: &MessageDescriptor,
     rng: &mut Pcg64Mcg,
@@ -181,7 +181,7 @@ fn one(field: &FieldDescriptor, rng: &mut Pcg64Mcg, pool: &Pool, depth: u32) -> 
         Kind::Uint64 | Kind::Fixed64 => Value::U64(whole(rng) as u64),
         Kind::Bool => Value::Bool(rng.random()),
         Kind::String => {
-            // Most often what the comments of the protos name for a field of this name.
+            // Usually a value that the comments of the protos name for a field of this name.
             let text = match (field.name(), rng.random_range(0..10)) {
                 ("world" | "parent", 0..7) => "worlds/w",
                 ("figure", 0..4) => "worlds/w/figures/a",
@@ -220,7 +220,7 @@ fn one(field: &FieldDescriptor, rng: &mut Pcg64Mcg, pool: &Pool, depth: u32) -> 
     }
 }
 
-/// A request of a call: damaged, or nothing that was ever one.
+/// A request of a call: damaged, or arbitrary bytes.
 pub fn request() -> impl Strategy<Value = Option<(u64, Vec<Edit>)>> {
     prop_oneof![
         4 => (any::<u64>(), edits(3)).prop_map(Some),
@@ -243,7 +243,7 @@ pub fn bytes_of(
                 ..pool.clone()
             };
             let bytes = message(kind, &mut rng, &pool, 0).encode_to_vec();
-            // What is mild is most often left whole.
+            // Mild requests are usually left undamaged.
             if mild && seed % 8 != 0 {
                 bytes
             } else {
@@ -254,7 +254,7 @@ pub fn bytes_of(
     }
 }
 
-/// What the scan lets pass can be decoded.
+/// Requests that pass the scan can be decoded.
 #[test]
 fn requests_are_refused_or_can_be_decoded() {
     let pool = Pool::default();

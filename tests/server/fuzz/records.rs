@@ -1,4 +1,4 @@
-//! What a log has of a world: inputs, frames and ticks.
+//! Records of a world in a log: inputs, frames and ticks.
 
 use crate::fuzz::edit::{damaged, edits};
 use crate::fuzz::runner;
@@ -14,7 +14,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Records with items of every kind that a world makes by itself.
+/// Records with items of every kind that a world produces.
 fn records() -> Vec<Record> {
     let settings = convert::world::settings(Some(pb::World::default())).unwrap();
     let mut scene = Scene::new(settings).unwrap();
@@ -82,8 +82,7 @@ fn records() -> Vec<Record> {
     out
 }
 
-/// Records that are damaged, one after the other as a world has them, are read or refused; what is read first is what
-/// was written.
+/// Damaged records, in the order of a world, are read or refused; records read before the damage equal those written.
 #[test]
 fn records_of_a_log_are_read_or_refused() {
     let good = records();

@@ -1,4 +1,4 @@
-//! Requests all the way: scanned, decoded, converted and carried out by the services, in this process and without a
+//! Complete requests: scanned, decoded, converted and carried out by the services, in this process and without a
 //! network.
 
 use crate::fuzz::edit::edits;
@@ -21,9 +21,9 @@ use std::time::Duration;
 use tonic::Code;
 use tonic::codegen::Service as _;
 
-/// Cases after which the worlds are made anew.
+/// Number of cases after which the worlds are made again.
 const ANEW: u64 = 500;
-/// Longest answer, s; a stream is left after its first message, or after a while.
+/// Longest time for an answer, s; a stream is left after its first message, or after a while.
 const PATIENCE: Duration = Duration::from_secs(30);
 const STREAM: Duration = Duration::from_millis(20);
 
@@ -95,7 +95,7 @@ impl Services {
             let (head, mut body) = response.into_parts();
             let mut trailers = head.headers;
             while !trailers.contains_key("grpc-status") {
-                // Unary answers end at once; streams of the world go on, so they are left.
+                // Unary answers end at once; streams of the world continue, so they are left.
                 let patience = if streams { STREAM } else { PATIENCE };
                 match tokio::time::timeout(patience, body.frame()).await {
                     Ok(Some(frame)) => match frame.unwrap().into_trailers() {
@@ -161,7 +161,7 @@ impl Services {
         self.ask("/sinew.v1.CheckpointService/CheckpointWorld", &checkpoint);
     }
 
-    /// Fails if a world has.
+    /// Fails if a world has failed.
     fn check(&self) {
         for world in self.app.worlds.list() {
             let request = pb::GetWorldRequest {
@@ -235,8 +235,8 @@ fn calls_are_carried_out_or_refused_with_a_reason() {
     assert!(seen.borrow().contains_key("Ok") && seen.borrow().contains_key("InvalidArgument"));
 }
 
-/// The server's part of a checkpoint, with a checksum that fits: what a stranger may send. The part of the physics has
-/// a test of its own (`tests/checkpoints.rs`).
+/// The server's part of a checkpoint, with a correct checksum, as a stranger may send it. The part of the physics has
+/// its own test (`tests/checkpoints.rs`).
 #[test]
 fn forged_checkpoints_of_worlds_are_refused_or_make_one() {
     use xxhash_rust::xxh3::xxh3_64;
@@ -266,8 +266,8 @@ fn forged_checkpoints_of_worlds_are_refused_or_make_one() {
         match sinew_server::checkpoints::decode("data", &bytes) {
             Ok(mut scene) => {
                 made.set(made.get() + 1);
-                // A tick takes longer than a checkpoint to read: what may come of those is a matter of
-                // `tests/checkpoints.rs`.
+                // A tick takes longer than reading a checkpoint; `tests/checkpoints.rs` tests the ticks of forged
+                // worlds.
                 if made.get() % 50 != 1 {
                     return Ok(());
                 }

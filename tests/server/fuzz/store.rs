@@ -1,4 +1,4 @@
-//! Files of a data directory: what a server finds when it starts.
+//! Files of a data directory, as a server finds them at its start.
 
 use crate::fuzz::edit::{damaged, edits};
 use crate::fuzz::runner;
@@ -12,7 +12,7 @@ use sinew_server::durable::store::{
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
-/// In memory where that is possible: a million directories are made.
+/// In memory if possible, because a million directories are made.
 fn folder(name: &str) -> PathBuf {
     let memory = Path::new("/dev/shm");
     let place = if memory.is_dir() {
@@ -76,7 +76,7 @@ fn files(dir: &Path, out: &mut Vec<(PathBuf, Vec<u8>)>) {
     out.sort();
 }
 
-/// A start on damaged files says what is lost, or finds what was there; it never fails in another way.
+/// A start on damaged files reports the loss, or finds the content; it never fails in another way.
 #[test]
 fn a_start_on_damaged_files_finds_or_names() {
     let good = folder("good");
@@ -138,7 +138,7 @@ fn a_start_on_damaged_files_finds_or_names() {
     assert!(whole.get() > 0 && named.get() + refused.get() > 0);
 }
 
-/// Gives a small file (magic 5, kind 1, format 4, checksum 4) a checksum that fits, as a forger would.
+/// Gives a small file (magic 5, kind 1, format 4, checksum 4) a correct checksum, as a forger would.
 fn sign(bytes: &mut [u8]) {
     if bytes.len() < 14 || !bytes.starts_with(b"SINEW") {
         return;

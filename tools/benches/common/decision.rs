@@ -34,7 +34,7 @@ pub struct Decision {
 }
 
 impl Decision {
-    /// Of `body`, at rest until it [looks](Self::look).
+    /// Inputs of a decision for `body`, at rest until [`Self::look`] is called.
     pub fn new(body: Body) -> Self {
         let rest = Target::still(Posture::default());
         Self {
@@ -56,7 +56,7 @@ impl Decision {
         }
     }
 
-    /// Takes in what the next decision is about.
+    /// Takes the state and target of the next decision.
     pub fn look(&mut self, state: &State, target: &TargetPair) {
         self.state.clone_from(state);
         self.target.clone_from(target);

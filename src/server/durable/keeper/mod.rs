@@ -1,11 +1,11 @@
-//! The thread that writes. Worlds leave what is to be written in a queue that is bounded by its bytes and go on; the
-//! thread commits what has come within 10 ms as one group.
+//! The writing thread.
 //!
-//! Nothing waits for the disk but this thread. When it cannot keep up or the disk takes no more, entries are left out
-//! and counted, the worlds they belong to are told to hand in a whole checkpoint, and the store is called degraded
-//! until one is on disk again.
+//! Worlds put their entries into a queue bounded by its bytes and continue; the thread commits the entries of 10 ms as
+//! one group. Only this thread waits for the disk. When it cannot keep up or the disk accepts no more, entries are
+//! dropped and counted, their worlds are told to hand in a whole checkpoint, and the store counts as degraded until one
+//! is on disk again.
 //!
-//! [`recorder`] is what worlds hand in with, [`queue`] what waits, [`writer`] the thread.
+//! Worlds hand in entries through a [`recorder`]; [`queue`] holds the waiting entries, and [`writer`] is the thread.
 
 mod queue;
 mod recorder;
@@ -26,12 +26,12 @@ use writer::Writer;
 /// Requests that wait for the thread.
 const MAX_REQUESTS: usize = 1024;
 
-/// Sizes of the queue and of what is held.
+/// Limits of the queue and of the history.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes {
     /// Bytes that wait to be written.
     pub queue_bytes: usize,
-    /// What is held.
+    /// Limits of the history.
     pub retention: Retention,
 }
 
@@ -57,7 +57,7 @@ impl<T> HandedIn<T> {
     }
 }
 
-/// Hands what is to be written to the thread that writes.
+/// Hands entries to the writing thread.
 pub struct Keeper {
     shared: Arc<Shared>,
     thread: Mutex<Option<JoinHandle<()>>>,
@@ -82,7 +82,7 @@ impl Keeper {
         })
     }
 
-    /// What writes one world. Its first entry must be a checkpoint.
+    /// The recorder of one world. Its first entry must be a checkpoint.
     pub fn recorder(&self, world: &WorldRecord) -> Recorder {
         let world = Arc::new(WorldState::new(world));
         let mut queue = locked(&self.shared.queue);
@@ -105,7 +105,8 @@ impl Keeper {
         self.hand_in(f)?.done().await
     }
 
-    /// The same without waiting: it has its place in the order of all that is handed in when this returns.
+    /// [`Self::call`] without waiting: when this returns, the request has its place in the order of everything handed
+    /// in.
     ///
     /// # Errors
     /// Too many requests wait; the store has ended.
@@ -125,25 +126,25 @@ impl Keeper {
                 )));
             }
             queue.requests.push(Box::new(move |store| {
-                let _ = tx.send(f(store)); // who asked may have given up
+                let _ = tx.send(f(store)); // the caller may have given up
             }));
         }
         self.shared.filled.notify_one();
         Ok(HandedIn(rx))
     }
 
-    /// Why less is written than was promised; `None`: everything is.
+    /// Reason why less is written than promised; `None` if everything is.
     pub fn degraded(&self) -> Option<String> {
         self.shared.degraded.borrow().clone()
     }
 
-    /// Writes what is left and ends. Blocks until it is done.
+    /// Writes the remaining entries and ends. Blocks until it is done.
     pub fn close(&self) {
         locked(&self.shared.queue).closing = true;
         self.shared.filled.notify_one();
         let thread = locked(&self.thread).take();
         if let Some(thread) = thread {
-            let _ = thread.join(); // a panic of it was reported where it happened
+            let _ = thread.join(); // its panic was reported where it happened
         }
     }
 }

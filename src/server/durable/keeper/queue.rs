@@ -1,4 +1,4 @@
-//! What waits to be written, and what is known of the writing: shared by those who hand in and the thread that writes.
+//! Entries that wait to be written, and the progress of writing: shared by the worlds and the writing thread.
 
 use super::Sizes;
 use crate::durable::store::{CheckpointStore, Durability, Entry, Item, WorldKey, WorldRecord};
@@ -9,27 +9,27 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Instant;
 use tokio::sync::watch;
 
-/// Times of losses of one world that are remembered for those who still wait to learn what was lost.
+/// Number of losses of one world that are remembered for callers that still wait for their entries.
 const MAX_LOSSES: usize = 16;
 
-/// Why something is lost that was handed in at the end.
+/// Reason for the loss of entries that were handed in at the end.
 pub(super) const TOO_LATE: &str = "the store has ended";
 
 pub(super) type Request = Box<dyn FnOnce(&mut dyn CheckpointStore) + Send>;
 
-/// Bytes that are worked out when they are written, and how many they are, about.
+/// Bytes that are produced when they are written, with their approximate number.
 pub(super) type Later = (usize, Box<dyn FnOnce() -> Bytes + Send>);
 
 /// An entry that waits.
 pub(super) struct Queued {
     pub entry: Entry,
     pub world: Arc<WorldState>,
-    /// What it holds, if that is worked out when it is written.
+    /// Produces its content, if that happens when it is written.
     pub later: Option<Box<dyn FnOnce() -> Bytes + Send>>,
 }
 
 impl Queued {
-    /// The entry with its bytes. Slow: on the thread that writes.
+    /// The entry with its bytes. Slow, so call it on the writing thread.
     pub fn ready(self) -> (Entry, Arc<WorldState>) {
         let mut entry = self.entry;
         if let Some(later) = self.later {
@@ -47,18 +47,18 @@ pub struct Ticket(pub(super) u64);
 pub(super) struct Queue {
     pub entries: Vec<Queued>,
     pub bytes: usize,
-    /// When the first of them came.
+    /// Arrival of the first of them.
     pub begun: Option<Instant>,
-    /// Somebody waits for one of them.
+    /// Whether a caller waits for one of them.
     pub urgent: bool,
     pub requests: Vec<Request>,
-    /// Entries so far.
+    /// Number of entries handed in.
     pub sent: u64,
     /// Entries that were taken out.
     pub taken: u64,
     /// All worlds that are written.
     pub worlds: Vec<Weak<WorldState>>,
-    /// The disk has failed; until then only checkpoints that were asked for are tried.
+    /// Set after a failure of the disk: until then only requested checkpoints are tried.
     pub retry_at: Option<Instant>,
     pub closing: bool,
     pub ended: bool,
@@ -74,25 +74,25 @@ impl Queue {
     }
 }
 
-/// What is known of the writing of one world.
+/// Progress of writing of one world.
 #[derive(Debug)]
 pub(super) struct WorldState {
     pub key: WorldKey,
     pub name: String,
     pub durability: Durability,
-    /// Nothing but a checkpoint can be written: something before it is missing, or nothing was written yet. Changed
+    /// Only a checkpoint can be written, because something before it is missing or nothing was written yet. Changed
     /// with the queue locked.
     pub gap: AtomicBool,
-    /// Something that was to be written is missing.
+    /// Whether something that should be written is missing.
     pub lossy: AtomicBool,
-    /// Entries that were left out: the first and the last before the next whole state, from the oldest such time on.
+    /// Dropped entries: the first and the last of each gap before the next whole state, the oldest gap first.
     lost: Mutex<VecDeque<(u64, u64)>>,
     /// Last tick on disk.
     pub tick: AtomicU64,
 }
 
 impl WorldState {
-    /// Nothing is written of it yet.
+    /// The state of a world of which nothing is written yet.
     pub fn new(world: &WorldRecord) -> Self {
         Self {
             key: world.key,
@@ -105,7 +105,7 @@ impl WorldState {
         }
     }
 
-    /// Notes that entries are left out. True: they are the first since it was whole.
+    /// Notes that entries are dropped. Returns whether they are the first since it was whole.
     pub fn lose(&self, first: u64, last: u64) -> bool {
         let went_on = self.lossy.swap(true, Ordering::Relaxed);
         let mut lost = locked(&self.lost);
@@ -119,11 +119,11 @@ impl WorldState {
         !went_on
     }
 
-    /// Names the world of which something is not written.
+    /// Logs the world of which something is not written.
     pub fn tell_loss(&self, why: &str) {
         let world = &*self.name;
         if self.durability == Durability::None {
-            // Nothing else of it is handed in.
+            // The world hands in nothing else.
             tracing::error!(world, why, "the last state of the world is not written");
         } else {
             let tick = self.tick.load(Ordering::Relaxed);
@@ -145,7 +145,7 @@ impl WorldState {
 }
 
 pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    // Every holder leaves the value whole.
+    // Every holder leaves the value consistent.
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -154,7 +154,7 @@ pub(super) struct Shared {
     pub filled: Condvar,
     /// Entries that are written or given up.
     pub done: watch::Sender<u64>,
-    /// Why less is written than was promised.
+    /// Reason why less is written than promised.
     pub degraded: watch::Sender<Option<String>>,
     pub sizes: Sizes,
 }
@@ -171,7 +171,7 @@ impl Shared {
         }
     }
 
-    /// Notes and tells that less is written than was promised.
+    /// Notes and logs that less is written than promised.
     pub fn degrade(&self, why: &str) {
         let new = self.degraded.send_if_modified(|now| {
             let new = now.is_none();
@@ -184,7 +184,7 @@ impl Shared {
         }
     }
 
-    /// Notes and tells that everything is written again.
+    /// Notes and logs that everything is written again.
     pub fn recover(&self) {
         if self.degraded.send_if_modified(|now| now.take().is_some()) {
             tracing::info!("worlds are written as promised again");

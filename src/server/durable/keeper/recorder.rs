@@ -1,4 +1,4 @@
-//! What worlds hand in. Nothing here waits for the disk.
+//! The entries that worlds hand in. Nothing here waits for the disk.
 
 use super::queue::{Later, Queued, Shared, TOO_LATE, Ticket, WorldState, locked};
 use crate::durable::store::{Durability, Entry, Item, StoreError, WorldKey};
@@ -26,17 +26,17 @@ impl Recorder {
         self.world.key
     }
 
-    /// How much of the world may be lost.
+    /// The world's guarantee against loss.
     pub fn durability(&self) -> Durability {
         self.world.durability
     }
 
-    /// Hands in what changed the world before a tick.
+    /// Hands in the changes to the world before a tick.
     pub fn input(&self, tick: u64, bytes: Bytes) -> Ticket {
         self.push(tick, Item::Input(bytes), None)
     }
 
-    /// The same, with bytes that are worked out by the thread that writes: `size` of them, about.
+    /// [`Self::input`] with bytes that the writing thread produces; `size`: their approximate number.
     pub fn input_later(
         &self,
         tick: u64,
@@ -64,7 +64,7 @@ impl Recorder {
         self.push(tick, item, None)
     }
 
-    /// True if nothing is written until there is a new checkpoint, and one could be written now.
+    /// Whether nothing is written until there is a new checkpoint, and one could be written now.
     pub fn needs_checkpoint(&self) -> bool {
         if self.world.durability == Durability::None || !self.world.gap.load(Ordering::Relaxed) {
             return false;

@@ -1,5 +1,5 @@
-//! Goal: who loses something at the end of the server is named. Method: the thread that writes is run on the thread of
-//! the test, where what it tells is caught.
+//! Goal: worlds that lose something at the end of the server are named. Method: the writer runs on the thread of the
+//! test, where its log is captured.
 
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
@@ -9,7 +9,7 @@ use crate::durable::store::{Durability, WorldKey};
 use std::io::Write;
 use std::time::Duration;
 
-/// What was told.
+/// The captured log.
 #[derive(Clone, Default)]
 struct Told(Arc<Mutex<Vec<u8>>>);
 
@@ -23,7 +23,8 @@ impl Write for Told {
     }
 }
 
-/// What is told of worlds without a promise that hand in checkpoints of so many bytes at the end of the server.
+/// The log for worlds without a guarantee that hand in checkpoints of the given sizes in bytes at the end of the
+/// server.
 fn told_at_the_end(disk: &Disk, bytes: &[usize]) -> Vec<String> {
     let shared = Arc::new(Shared::new(Sizes {
         queue_bytes: 1000,

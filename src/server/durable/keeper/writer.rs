@@ -1,4 +1,4 @@
-//! The thread that writes: it takes groups out of the queue, commits them, and looks after the disk.
+//! The writing thread: it takes groups out of the queue, commits them, and maintains the disk.
 
 use super::queue::{Queued, Request, Shared, TOO_LATE, WorldState, locked};
 use crate::durable::store::{
@@ -11,11 +11,11 @@ use std::time::{Duration, Instant};
 
 /// Time within which inputs are committed together.
 const GROUP: Duration = Duration::from_millis(10);
-/// Time between two looks at what can be cut off.
+/// Interval at which old history is cut off.
 const UPKEEP: Duration = Duration::from_secs(1);
-/// The same while there is more to delete: between them groups are committed.
+/// The same while there is more to delete; groups are committed in between.
 const UPKEEP_AGAIN: Duration = Duration::from_millis(50);
-/// Time between two tries on a disk that has failed.
+/// Time between two attempts on a failed disk.
 const RETRY: Duration = Duration::from_secs(1);
 
 /// The thread that writes.
@@ -25,7 +25,7 @@ pub(super) struct Writer {
     upkeep_at: Instant,
 }
 
-/// What the thread takes out of the queue.
+/// A group taken out of the queue.
 struct Taken {
     entries: Vec<Queued>,
     requests: Vec<Request>,
@@ -67,7 +67,7 @@ impl Writer {
         }
     }
 
-    /// From now on nobody waits for this thread.
+    /// Lets no caller wait for this thread any more.
     fn end(&self) {
         let mut queue = locked(&self.shared.queue);
         queue.ended = true;
@@ -128,7 +128,7 @@ impl Writer {
         }
     }
 
-    /// Commits, with one more try where that may help.
+    /// Commits, with one more attempt if that may help.
     fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {
         let mut before = None;
         loop {
@@ -170,16 +170,16 @@ impl Writer {
         }
     }
 
-    /// Gives everything up that was handed in so far: all worlds begin anew with a checkpoint. `tried`: those of which
+    /// Gives up everything that was handed in: all worlds start again with a checkpoint. `tried`: the worlds of which
     /// something should have been written.
     fn failed(&self, fault: &StoreError, first: u64, tried: &[Arc<WorldState>]) {
         let mut queue = locked(&self.shared.queue);
         queue.retry_at = Some(Instant::now() + RETRY);
-        // What has come since does not follow on anything any more.
+        // Later entries no longer have a predecessor.
         let given_up = queue.take_entries();
         let last = queue.sent;
         let mut worlds: Vec<_> = queue.worlds.iter().filter_map(Weak::upgrade).collect();
-        // Of a world that hands in nothing but its last state, nothing is lost while it does not.
+        // A world that hands in only its last state loses nothing until it does.
         let waited = given_up.iter().map(|q| q.world.key);
         let handed_in: HashSet<WorldKey> = waited.chain(tried.iter().map(|w| w.key)).collect();
         worlds.retain(|w| w.durability != Durability::None || handed_in.contains(&w.key));
@@ -189,7 +189,7 @@ impl Writer {
         let was_whole: Vec<bool> = (worlds.iter()).map(|w| w.lose(first, last)).collect();
         drop(queue);
         drop(given_up); // megabytes, perhaps
-        // Worlds wait for the queue, so nothing is told while it is locked: that may wait for a disk, too.
+        // Worlds wait for the queue, so log nothing while it is locked: logging may wait for a disk, too.
         for (world, _) in worlds.iter().zip(was_whole).filter(|(_, whole)| *whole) {
             world.tell_loss(&fault.to_string());
         }
@@ -208,18 +208,18 @@ impl Writer {
                     self.upkeep_at = Instant::now() + UPKEEP_AGAIN;
                 }
             }
-            // The next commit meets it too, and does something about it.
+            // The next commit meets the error too, and applies its remedy.
             Err(error) => tracing::warn!(%error, "old history was not cut off"),
         }
         metrics::histogram!("sinew_store_upkeep_seconds").record(begun.elapsed().as_secs_f64());
     }
 }
 
-/// A panic of the thread loses what it was about to write, and says so.
+/// A panic of the thread loses the entries that it was about to write, and this reports it.
 impl Drop for Writer {
     fn drop(&mut self) {
         if std::thread::panicking() {
-            // Once it has ended, nothing waits that could be lost.
+            // Once it has ended, nothing is waiting that could be lost.
             let first = self.shared.done.borrow().saturating_add(1);
             let fault = StoreError::Io("the thread that writes has panicked".to_owned());
             self.failed(&fault, first, &[]);

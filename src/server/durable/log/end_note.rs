@@ -1,10 +1,10 @@
-//! A note beside the log of how far it went, because SQLite leaves damaged ends of its write-ahead log out silently.
+//! A note beside the log of its last rows, because SQLite silently drops a damaged end of its write-ahead log.
 //!
 //! ```text
 //!   CRC-32 of the rest u32 │ number of worlds u32 │ last row i64 │ for each world:  key u64 │ its last row i64
 //! ```
 //!
-//! Rows of worlds that rest are followed by those of others, so that the last row alone would not tell.
+//! Rows of resting worlds are followed by those of others, so the last row alone would not be enough.
 
 use super::Log;
 use crate::durable::store::{StoreError, WorldKey};
@@ -30,11 +30,11 @@ fn to_bytes(last: i64, worlds: &BTreeMap<WorldKey, i64>) -> Vec<u8> {
     [&sum[..], &rest].concat()
 }
 
-/// The last row of each world; `None`: it is not what was written, as after a power cut.
+/// The last row of each world; `None` if the note is damaged, as after a power cut.
 fn from_bytes(bytes: &[u8]) -> Option<BTreeMap<WorldKey, i64>> {
     let (sum, rest) = bytes.split_first_chunk::<4>()?;
     let count = u32::from_le_bytes(*rest.first_chunk::<4>()?) as usize;
-    // What is behind it is from a time with more worlds.
+    // Bytes after it are from a time with more worlds.
     let rest = rest.get(..count.checked_mul(WORLD)?.checked_add(HEAD)?)?;
     if crc32fast::hash(rest).to_le_bytes() != *sum {
         return None;
@@ -50,8 +50,8 @@ impl Log {
         self.path.with_extension("end")
     }
 
-    /// Notes how far the log goes, without waiting for the disk: after a power cut the note may be behind the log,
-    /// never before it. So one that cannot be written is no fault of the commit before it, which is on disk.
+    /// Notes the end of the log without waiting for the disk: after a power cut, the note may lag behind the log, but
+    /// never lead it. A note that cannot be written is therefore no fault of the preceding commit, which is on disk.
     pub(super) fn note_end(&mut self) {
         let path = self.note_path();
         let note = to_bytes(self.next_id - 1, &self.ends);
@@ -68,12 +68,12 @@ impl Log {
         }
     }
 
-    /// Reads the note: what ends before it has lost something. Returns what the log as a whole has lost; whether single
-    /// worlds end before theirs shows when they are read. `is_there`: rows of worlds that were deleted since are not
+    /// Reads the note: a log that ends before it has lost something. Returns the losses of the log as a whole; those of
+    /// single worlds show when their histories are read. `is_there`: rows of worlds that were deleted since are not
     /// missing, because the note is written with commits only.
     ///
     /// # Errors
-    /// A world has rows and no checkpoint that is known, and the log cannot be searched for it.
+    /// A world has rows but no known checkpoint, and the log cannot be searched for it.
     pub fn compare_with_note(
         &mut self,
         is_there: impl Fn(WorldKey) -> bool,

@@ -1,11 +1,11 @@
-//! What is known in memory of each world in the log: where its checkpoints are, and what its next row is.
+//! The index in memory of each world in the log: the places of its checkpoints, and its next row.
 
 use super::row::{CHECKPOINT, Row};
 use super::{Log, now_ms};
 use crate::durable::store::{StoreError, WorldKey};
 use std::collections::{BTreeMap, VecDeque};
 
-/// Number that no row has: a million a second for ten thousand years.
+/// Number above that of any row: a million a second for ten thousand years.
 const MAX_ID: i64 = 1 << 58;
 
 /// A checkpoint in the log.
@@ -13,16 +13,16 @@ const MAX_ID: i64 = 1 << 58;
 pub(super) struct Place {
     pub id: i64,
     pub session: i64,
-    /// Number of the first group behind it.
+    /// Number of the first group after it.
     pub seq: i64,
     pub tick: u64,
-    /// When it was written, milliseconds since 1970.
+    /// Time of writing, milliseconds since 1970.
     pub time_ms: i64,
     /// Bytes of this world before it.
     pub bytes_before: u64,
 }
 
-/// What the log knows of one world.
+/// Index of one world.
 #[derive(Debug, Default)]
 pub(super) struct Track {
     /// From the oldest to the latest.
@@ -34,7 +34,7 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// Bytes from its oldest checkpoint on.
+    /// Bytes held, from its oldest checkpoint.
     pub fn held(&self) -> u64 {
         let first = self.places.front();
         first.map_or(0, |p| self.written.saturating_sub(p.bytes_before))
@@ -45,7 +45,7 @@ impl Track {
 type Found = BTreeMap<i64, (WorldKey, Place)>;
 
 impl Log {
-    /// Reads where the checkpoints are, and which numbers are free.
+    /// Reads the places of the checkpoints, and the free numbers.
     ///
     /// # Errors
     /// The log is damaged or cannot be read.
@@ -59,8 +59,8 @@ impl Log {
         Ok(())
     }
 
-    /// Finds the checkpoints of these worlds again, of which the table has lost all: their rows would be deleted as
-    /// those of no world.
+    /// Finds the checkpoints of worlds for which the table has lost all. Otherwise their rows would be deleted as
+    /// belonging to no world.
     ///
     /// # Errors
     /// The log is damaged or cannot be read.
@@ -82,7 +82,7 @@ impl Log {
         }
     }
 
-    /// The largest number of a row in either table; 0: there is none.
+    /// The largest number of a row in either table; 0 if there is none.
     fn last_id(&self) -> Result<i64, StoreError> {
         let last = |table: &str| {
             let sql = format!("SELECT COALESCE(MAX(id), 0) FROM {table}");
@@ -115,8 +115,8 @@ impl Log {
         Ok(())
     }
 
-    /// Finds checkpoints by a look at all rows. When they were written and what is before them is not known then: they
-    /// are as old as this start.
+    /// Finds checkpoints by reading all rows. Their time and the bytes before them are unknown, so they count as
+    /// written at this start.
     fn find_checkpoints(&self, found: &mut Found) -> Result<(), StoreError> {
         self.scan(0, &mut |_, row: Option<&Row>| {
             let Some(row) = row.filter(|r| r.kind == CHECKPOINT) else {

@@ -1,13 +1,14 @@
 //! The log of all worlds in one SQLite file: checkpoints, inputs and hashes in the order in which they were committed.
 //!
-//! A row holds what one group commit has of one world. Rows are only appended at one end and deleted at the other, so a
-//! commit writes few pages besides those of its own bytes. SQLite has no checksums of pages; each row has its own, and
-//! the rows of a world are numbered, so that damage shows as a wrong checksum or as a hole, and never as other input.
+//! A row holds the part of one group commit that belongs to one world. Rows are only appended at one end and deleted at
+//! the other, so a commit writes few pages besides those of its own data. SQLite has no checksums of pages; each row
+//! has its own, and the rows of a world are numbered, so that damage shows as a wrong checksum or as a hole, and never
+//! as other input.
 //!
-//! [`schema`] has the tables and what SQLite's errors mean, [`row`] one row and its checksum. [`index`] is what is
-//! known in memory of each world. [`writer`] commits, [`reader`] reads histories back, [`retention`] cuts them off at
-//! their old end, [`repair`] helps a full disk and a damaged file. [`end_note`] is the note beside the log of how far
-//! it went.
+//! [`schema`] has the tables and the meaning of SQLite's errors, [`row`] one row and its checksum. [`index`] is the
+//! index of each world in memory. [`writer`] commits, [`reader`] reads histories back, [`retention`] cuts them off at
+//! their old end, [`repair`] handles a full disk and a damaged file. [`end_note`] is the note beside the log of its
+//! last rows.
 
 mod end_note;
 mod index;
@@ -37,11 +38,11 @@ pub(super) struct Log {
     /// Number of the next row.
     next_id: i64,
     tracks: HashMap<WorldKey, Track>,
-    /// Worlds that there are. Of those that are gone the last entries may still be on their way.
+    /// Existing worlds. The last entries of deleted worlds may still be on their way.
     known: HashSet<WorldKey>,
     /// The last row of each world, as it should be.
     ends: BTreeMap<WorldKey, i64>,
-    /// The last note of the end could be written.
+    /// Whether the last note of the end could be written.
     noted: bool,
     /// Ids among which there are rows that no world needs any more, in order and apart from each other.
     unswept: Vec<Range<i64>>,
@@ -65,22 +66,22 @@ impl Log {
             unswept: Vec::new(),
         };
         log.load()?;
-        // The process may have ended before it had deleted what was cut off.
+        // The previous process may have ended before it had deleted the rows that were cut off.
         log.unswept.push(0..log.next_id);
         Ok(log)
     }
 
-    /// What SQLite said about this log.
+    /// An error of SQLite about this log.
     fn fault(&self, error: &rusqlite::Error) -> StoreError {
         schema::fault(&self.path, error)
     }
 
-    /// From now on entries of this world are taken.
+    /// Accepts entries of this world from now on.
     pub fn know(&mut self, world: WorldKey) {
         self.known.insert(world);
     }
 
-    /// Worlds that the log has checkpoints of.
+    /// Worlds of which the log has checkpoints.
     pub fn worlds(&self) -> impl Iterator<Item = WorldKey> + '_ {
         self.tracks.keys().copied()
     }
@@ -99,7 +100,7 @@ fn now_ms() -> i64 {
 
 #[cfg(test)]
 impl Log {
-    /// Worlds of which entries are taken.
+    /// Worlds of which entries are accepted.
     pub fn known(&self) -> impl Iterator<Item = WorldKey> + '_ {
         self.known.iter().copied()
     }
@@ -120,12 +121,12 @@ impl Log {
             .expect("a limit");
     }
 
-    /// Copies the write-ahead log to where its pages belong.
+    /// Copies the pages of the write-ahead log to their final places.
     pub fn move_to_place(&self) {
         self.shrink().expect("no reader");
     }
 
-    /// Takes no writes any more, as on a read-only disk.
+    /// Refuses further writes, as on a read-only disk.
     pub fn refuse_writes(&self) {
         self.db
             .pragma_update(None, "query_only", true)

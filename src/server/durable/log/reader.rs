@@ -1,5 +1,5 @@
-//! Reads histories back: for each world a checkpoint and what was written behind it, up to the first place that is
-//! damaged or missing.
+//! Reads histories back: for each world, a checkpoint and everything written after it, up to the first damaged or
+//! missing place.
 
 use super::Log;
 use super::index::Place;
@@ -12,20 +12,21 @@ use std::collections::{HashMap, VecDeque};
 /// Damaged places in one file after which the rest of it is given up.
 const MAX_DAMAGED: u32 = 1000;
 
-/// One world while the log is read. What the rows say counts, because they have checksums; the table of checkpoints,
-/// which has none, only says where to begin.
+/// One world while the log is read. The rows are authoritative, because they have checksums; the table of checkpoints
+/// has none and only gives the starting point.
 struct Reading {
-    /// Row to begin at.
+    /// First row to read.
     from: i64,
-    /// Checkpoints behind this tick are left alone.
+    /// Checkpoints after this tick are ignored.
     at: Option<u64>,
     /// Session of the checkpoint and number of the next group; `None` until it is read.
     next: Option<(i64, i64)>,
     history: History,
     ended: bool,
-    /// A damaged place behind the last row of it. Nothing in a damaged row can be trusted, the world included.
+    /// Whether there is a damaged place after its last row. Nothing in a damaged row can be trusted, not even its
+    /// world.
     doubtful: bool,
-    /// Its last row that is whole.
+    /// Its last intact row.
     last: i64,
 }
 
@@ -42,13 +43,13 @@ impl Reading {
         }
     }
 
-    /// Takes a row of this world that is whole.
+    /// Takes an intact row of this world.
     fn take(&mut self, row: &Row) {
         if row.id < self.from {
             return;
         }
         if row.kind == CHECKPOINT {
-            // Also one that the table has lost. With it, nothing before it matters.
+            // This includes a checkpoint that the table has lost. Once it is found, nothing before it matters.
             if self.at.is_none_or(|at| row.tick <= at) {
                 *self = Self::new(self.from, self.at);
                 self.last = row.id;
@@ -78,7 +79,7 @@ impl Reading {
         }
     }
 
-    /// A row or some that cannot be read, up to this one.
+    /// Notes one or more unreadable rows, up to this one.
     fn doubt(&mut self, id: i64) {
         self.doubtful |= id > self.from && !self.ended;
     }
@@ -90,7 +91,7 @@ impl Reading {
         });
     }
 
-    /// `latest`: the latest checkpoint there has been; `end`: its last row, if it was noted.
+    /// `latest`: the latest checkpoint known; `end`: its last row, if noted.
     fn end(mut self, latest: Place, end: Option<i64>) -> History {
         let (session, next) = self.next.unwrap_or_default();
         let short = session < latest.session
@@ -102,7 +103,7 @@ impl Reading {
             } else if self.doubtful {
                 self.lose("a part of the log is damaged that may have been its end");
             } else if self.at.is_none() && end.is_some_and(|end| self.last < end) {
-                // Pages that SQLite does not know of any more are no error to it.
+                // Pages that SQLite no longer knows cause no error.
                 self.lose("the end of its log is missing");
             }
         }
@@ -110,14 +111,14 @@ impl Reading {
     }
 }
 
-/// One world whose history is asked for.
+/// One world whose history is requested.
 struct Asked {
     world: WorldKey,
-    /// Its checkpoints that may be the one to begin with and were not tried yet, from the oldest to the latest.
+    /// Its candidates for the starting checkpoint that were not tried yet, from the oldest to the latest.
     candidates: VecDeque<Place>,
     /// The latest of them.
     latest: Option<Place>,
-    /// Its last row, if that is noted and counts.
+    /// Its last row, if that is noted and valid.
     end: Option<i64>,
     found: Option<History>,
 }
@@ -139,11 +140,11 @@ impl Asked {
 }
 
 impl Log {
-    /// For each world its latest state that is whole and what was written behind it, from the last checkpoint at or
-    /// before a tick if one is given.
+    /// For each world, its latest intact state and everything written after it, or from the last checkpoint at or
+    /// before the tick `at`, if given.
     ///
     /// # Errors
-    /// Nothing can be read, or another program keeps the file to itself.
+    /// Nothing can be read, or another program holds the file exclusively.
     pub fn read(&self, worlds: &[WorldKey], at: Option<u64>) -> Result<Vec<History>, StoreError> {
         let mut asked: Vec<Asked> = worlds.iter().map(|w| self.asked(*w, at)).collect();
         while self.read_candidates(&mut asked, at)? {}
@@ -165,8 +166,8 @@ impl Log {
         }
     }
 
-    /// Goes through the rows once, with the next candidate of each world that has no history yet. False: there was
-    /// none left.
+    /// Reads the rows once, with the next candidate of each world that has no history yet. Returns false if no
+    /// candidate was left.
     fn read_candidates(&self, asked: &mut [Asked], at: Option<u64>) -> Result<bool, StoreError> {
         let mut open: HashMap<WorldKey, (&mut Asked, Reading)> = HashMap::new();
         for one in asked.iter_mut().filter(|a| a.found.is_none()) {
@@ -186,7 +187,7 @@ impl Log {
             None => open.values_mut().for_each(|(_, r)| r.doubt(id)),
         })?;
         for (one, reading) in open.into_values() {
-            // Without its checkpoint the one before it is looked for.
+            // If its checkpoint is missing, try the previous one.
             if reading.history.checkpoint.is_some() {
                 one.found = one.latest.map(|latest| reading.end(latest, one.end));
             }
@@ -194,11 +195,11 @@ impl Log {
         Ok(true)
     }
 
-    /// Calls `f` with the number of each row from `from` on and the row, which is `None` where it is not what was
-    /// written. Of a place that cannot be read the last number is given.
+    /// Calls `f` with the number of each row from `from` and the row, or `None` if the row is damaged. For an
+    /// unreadable place, the last number is given.
     ///
     /// # Errors
-    /// Too many places cannot be read, or another program keeps the file to itself.
+    /// Too many places cannot be read, or another program holds the file exclusively.
     pub(super) fn scan(
         &self,
         from: i64,
@@ -224,7 +225,7 @@ impl Log {
             if damaged > MAX_DAMAGED || matches!(fault, StoreError::Busy(_)) {
                 return Err(fault);
             }
-            // One row is stepped over; where that is not enough, twice as many each time.
+            // Skip one row and, if that is not enough, twice as many each time.
             from += step;
             step *= 2;
             before = None;
@@ -233,7 +234,7 @@ impl Log {
         Ok(())
     }
 
-    /// Reads rows behind `last`, which is the last one that was read when this returns.
+    /// Reads rows after `last`, which is updated to the last one read.
     fn read_rows(
         &self,
         last: &mut i64,
@@ -254,7 +255,7 @@ impl Log {
         Ok(())
     }
 
-    /// The latest checkpoint of a world, its tick and its bytes; `None`: there is none that is whole.
+    /// The latest checkpoint of a world: its tick and its bytes; `None` if none is intact.
     ///
     /// # Errors
     /// It cannot be read.
@@ -268,7 +269,7 @@ impl Log {
             Some(read) => read,
             None => return Ok(None),
         };
-        // The table that says where it is has no checksum: it may be a row of another world.
+        // The table of its place has no checksum, so the row may belong to another world.
         let its_own = whole && row.world == world && row.kind == CHECKPOINT;
         Ok(its_own.then_some((row.tick, row.bytes)))
     }
@@ -294,7 +295,7 @@ mod tests {
         }
     }
 
-    /// What a group of frames is written as.
+    /// The bytes of a group of frames.
     fn group(frames: &[(u8, u64, Vec<u8>)]) -> Vec<u8> {
         let mut out = Vec::new();
         for (kind, tick, bytes) in frames {
@@ -304,7 +305,7 @@ mod tests {
     }
 
     proptest! {
-        /// `PROPTEST_CASES` says how many of them.
+        /// `PROPTEST_CASES` sets their number.
         #[test]
         fn rows_of_any_bytes_are_read_or_lost(
             rows in proptest::collection::vec(
@@ -339,7 +340,7 @@ mod tests {
         }
     }
 
-    /// SQLite says the same of a read that was interrupted and of one that has failed for a moment.
+    /// SQLite reports an interrupted read and a temporary failure in the same way.
     #[test]
     fn a_read_that_fails_once_loses_no_row() {
         let dir = Temporary::new();

@@ -1,4 +1,4 @@
-//! What can be done when the disk is full or the file is damaged.
+//! Remedies for a full disk and for a damaged file.
 
 use super::Log;
 use crate::durable::files;
@@ -7,8 +7,8 @@ use rusqlite::Connection;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// Moves the files of a log out of the way, where they can be looked at, and the note of its end with them: the next
-/// log has another one. The directory that they are in then.
+/// Moves the files of a log aside for inspection, together with the note of its end, because the next log has its own.
+/// Returns their new directory.
 ///
 /// # Errors
 /// They could not be moved.
@@ -28,12 +28,12 @@ pub(in crate::durable) fn set_aside(log: &Path) -> Result<PathBuf, StoreError> {
 }
 
 impl Log {
-    /// Begins a new log, which knows the same worlds. The directory in which the old one is kept.
+    /// Begins a new log, which knows the same worlds. Returns the directory in which the old one is kept.
     ///
     /// # Errors
-    /// It could not be done: nothing can be written until it is.
+    /// It failed, and nothing can be written until it succeeds.
     pub fn begin_anew(&mut self) -> Result<PathBuf, StoreError> {
-        // Closed first: SQLite removes files by their names when it closes.
+        // Close the old one first, because SQLite removes files by name when it closes.
         if let Ok(nothing) = Connection::open_in_memory() {
             self.db = nothing;
         }
@@ -44,12 +44,12 @@ impl Log {
         Ok(aside)
     }
 
-    /// Deletes all history but the latest checkpoint of each world and what is behind it.
+    /// Deletes all history except the latest checkpoint of each world and everything after it.
     ///
     /// # Errors
     /// It could not be done.
     pub fn free(&mut self) -> Result<(), StoreError> {
-        // The copy of the write-ahead log to where its pages belong frees it for new rows.
+        // Copying the pages of the write-ahead log to their final places frees it for new rows.
         self.shrink()?;
         let nothing = Retention {
             age: Duration::ZERO,

@@ -1,5 +1,5 @@
-//! Old history goes: whole checkpoints with what is behind them are cut off in memory, and their rows are deleted bit
-//! by bit, so that commits do not wait for long.
+//! Removal of old history: whole checkpoints with the rows after them are cut off in memory, and the rows are deleted
+//! bit by bit, so that commits do not wait for long.
 
 use super::index::Track;
 use super::{Log, now_ms};
@@ -7,11 +7,12 @@ use crate::durable::store::{Retention, StoreError, Usage, WorldKey};
 use rusqlite::params;
 use std::ops::Range;
 
-/// Rows that one call of [`Log::cut`] looks at, so that commits do not wait for long.
+/// Number of rows checked in one call of [`Log::cut`], so that commits do not wait for long.
 const CUT_ROWS: usize = 20_000;
 
 impl Track {
-    /// Drops the oldest of two or more checkpoints. Ids from it to the next: rows of this world among them go.
+    /// Drops the oldest of two or more checkpoints. Returns the ids from it to the next; rows of this world among them
+    /// are deleted.
     fn cut_first(&mut self) -> Option<Range<i64>> {
         let first = self.places.pop_front()?;
         Some(first.id..self.places.front()?.id)
@@ -32,7 +33,7 @@ fn joined(mut ranges: Vec<Range<i64>>) -> Vec<Range<i64>> {
 }
 
 impl Log {
-    /// Forgets a world, and what is still written of it; its rows go with the next cuts.
+    /// Forgets a world, including entries still to be written; its rows are deleted by the next cuts.
     ///
     /// # Errors
     /// It could not be done.
@@ -48,7 +49,7 @@ impl Log {
         Ok(())
     }
 
-    /// Cuts old history off, and deletes some of what has been cut off.
+    /// Cuts off old history, and deletes some of the rows that were cut off.
     ///
     /// # Errors
     /// It could not be done.
@@ -64,12 +65,12 @@ impl Log {
         })
     }
 
-    /// Cuts off of each world what is too old or too much for one.
+    /// Cuts off the history of each world that is too old or too large.
     fn cut_each(&mut self, limits: &Retention) {
         let age = i64::try_from(limits.age.as_millis()).unwrap_or(i64::MAX);
         let oldest = now_ms().saturating_sub(age);
         for track in self.tracks.values_mut() {
-            // What is behind the first checkpoint is as old as the second one.
+            // Entries after the first checkpoint are as old as the second one.
             while let Some(second) = track.places.get(1)
                 && (second.time_ms <= oldest || track.held() > limits.world_bytes)
             {
@@ -78,7 +79,7 @@ impl Log {
         }
     }
 
-    /// Cuts off what is too much for all, from the world that has most. Bytes that are left.
+    /// Cuts off history above the total limit, starting with the largest world. Returns the remaining bytes.
     fn cut_largest(&mut self, total_bytes: u64) -> u64 {
         let mut total: u64 = self.tracks.values().map(Track::held).sum();
         while total > total_bytes {
@@ -93,8 +94,8 @@ impl Log {
         total
     }
 
-    /// Deletes rows that no world needs any more, and where checkpoints among them were. Where there may be others that
-    /// it has not come to.
+    /// Deletes rows that no world needs any more, and their entries in the table of checkpoints. Returns ranges that it
+    /// has not yet checked.
     fn sweep(&mut self) -> rusqlite::Result<Vec<Range<i64>>> {
         let (old, rest) = self.not_needed()?;
         if old.is_empty() {
@@ -111,7 +112,7 @@ impl Log {
         Ok(rest)
     }
 
-    /// Some rows that no world needs any more, and where there may be others.
+    /// Some rows that no world needs any more, and ranges that may contain others.
     fn not_needed(&self) -> rusqlite::Result<(Vec<i64>, Vec<Range<i64>>)> {
         let sql = "SELECT id, world FROM log WHERE id >= ?1 AND id < ?2 ORDER BY id LIMIT ?3";
         let mut found = self.db.prepare_cached(sql)?;
@@ -126,7 +127,7 @@ impl Log {
             let mut next = range.end;
             while let Some(row) = rows.next()? {
                 let (id, world): (i64, i64) = (row.get(0)?, row.get(1)?);
-                // Each world keeps what is behind its oldest checkpoint.
+                // Each world keeps the rows after its oldest checkpoint.
                 let track = self.tracks.get(&WorldKey(world as u64));
                 let kept = track.and_then(|t| t.places.front());
                 if kept.is_none_or(|kept| id < kept.id) {
@@ -153,7 +154,7 @@ mod tests {
     use bytes::Bytes;
     use std::time::Duration;
 
-    /// Many worlds rest, and what they keep is older than all that a busy one writes and cuts off.
+    /// Many worlds rest, and their rows are older than all that a busy world writes and cuts off.
     #[test]
     fn what_others_keep_does_not_hide_what_can_be_deleted() {
         const RESTING: u64 = 100;
@@ -205,7 +206,7 @@ mod tests {
             calls += 1;
         }
         assert_eq!(count(&log), rows - 2 * 20, "after {calls} calls");
-        // All at once: what a process left that ended before it had swept.
+        // All at once, as left by a process that ended before it had swept.
         log.unswept.push(0..log.next_id);
         assert!(log.cut(&limits).unwrap().unswept, "a call is bounded");
         assert!(!log.cut(&limits).unwrap().unswept);

@@ -1,4 +1,4 @@
-//! One row of the log: what one commit has of one world, with a checksum over all of it.
+//! One row of the log: the part of one commit that belongs to one world, with a checksum over all of it.
 //!
 //! ```text
 //!   checkpoint   the state
@@ -10,7 +10,7 @@ use bytes::Bytes;
 
 /// Kind of a row: the state after a tick.
 pub(super) const CHECKPOINT: u8 = 1;
-/// Kind of a row: inputs and hashes in the order in which they came.
+/// Kind of a row: inputs and hashes in order of arrival.
 pub(super) const GROUP: u8 = 2;
 
 // Kinds of frames.
@@ -26,7 +26,7 @@ pub(super) struct Row {
     pub id: i64,
     pub world: WorldKey,
     pub session: i64,
-    /// Number of the next group of its world: that of a group is its own.
+    /// Number of the next group of its world; for a group, its own number.
     pub seq: i64,
     pub kind: u8,
     pub tick: u64,
@@ -46,7 +46,7 @@ impl Row {
         i64::from(sum.finalize())
     }
 
-    /// What is on disk, and whether it is what was written. Values of another type than they should be of are not.
+    /// The row on disk, and whether it is intact. Values of a wrong type are not intact.
     ///
     /// # Errors
     /// SQLite cannot read it.
@@ -66,7 +66,7 @@ impl Row {
         Ok((read, whole))
     }
 
-    /// What a group holds; `None`: these bytes are no group.
+    /// The content of a group; `None` if these bytes are not a group.
     pub fn frames(&self) -> Option<Vec<Logged>> {
         let mut rest = self.bytes.clone();
         let mut out = Vec::new();

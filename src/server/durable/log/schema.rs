@@ -1,4 +1,4 @@
-//! Tables and settings of the log in SQLite, and what SQLite's errors mean for a store.
+//! Tables and settings of the log in SQLite, and the meaning of SQLite's errors for a store.
 
 use crate::durable::store::StoreError;
 use rusqlite::{Connection, ErrorCode};
@@ -7,15 +7,15 @@ use std::time::Duration;
 
 /// "SNWL", so that no other database is taken for a log.
 const APPLICATION: i32 = 0x534e_574c;
-/// Format of the tables and of what is in them.
+/// Format of the tables and of their content.
 const FORMAT: u32 = 1;
 /// Bytes of one page: a row of ten figures fits into one.
 const PAGE_BYTES: u32 = 16_384;
-/// Pages of the write-ahead log after which they are copied to where they belong: 32 MB.
+/// Pages of the write-ahead log after which they are copied to their final places: 32 MB.
 const WAL_PAGES: u32 = 2000;
 /// Memory for pages, kibibytes.
 const CACHE_KIB: u32 = 16_384;
-/// How long another program may keep the file to itself, as one that copies it does.
+/// Time for which another program may hold the file exclusively, for example to copy it.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 const TABLES: &str = "
@@ -59,7 +59,7 @@ pub(super) fn open(path: &Path) -> Result<Connection, StoreError> {
     Ok(db)
 }
 
-/// A connection, and the application and the version that the file says it is of: 0 in a new one.
+/// A connection, and the application and version stated in the file; 0 in a new one.
 fn connect(path: &Path) -> rusqlite::Result<(Connection, i32, u32)> {
     let db = Connection::open(path)?;
     db.busy_timeout(PATIENCE)?;
@@ -76,7 +76,7 @@ fn connect(path: &Path) -> rusqlite::Result<(Connection, i32, u32)> {
     Ok((db, application, version))
 }
 
-/// What SQLite said about the log at this path; [`StoreError::remedy`] says what is done about it.
+/// Converts an error of SQLite about the log at this path; [`StoreError::remedy`] has its remedy.
 pub(super) fn fault(path: &Path, error: &rusqlite::Error) -> StoreError {
     let place = path.display();
     match error.sqlite_error_code() {
@@ -87,11 +87,11 @@ pub(super) fn fault(path: &Path, error: &rusqlite::Error) -> StoreError {
         Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => {
             StoreError::Busy(place.to_string())
         }
-        // Rows with numbers that should be free: what the file says of its end is wrong.
+        // Rows have numbers that should be free, so the end stated in the file is wrong.
         Some(
             ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase | ErrorCode::ConstraintViolation,
         ) => StoreError::Damaged(format!("{place}: {error}")),
-        // Tables or columns that are not there: the list of tables is damaged.
+        // Tables or columns are missing, so the list of tables is damaged.
         Some(ErrorCode::Unknown) => StoreError::Damaged(format!("{place}: {error}")),
         _ => StoreError::Io(format!("{place}: {error}")),
     }

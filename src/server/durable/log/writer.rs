@@ -1,4 +1,4 @@
-//! Commits: what has come of all worlds becomes rows, and all of them are on disk or none.
+//! Commits: the entries of all worlds become rows, and either all of them are on disk or none.
 
 use super::index::{Place, Track};
 use super::row::{CHECKPOINT, GROUP, HASH, INPUT, Row, frame};
@@ -15,7 +15,7 @@ struct Rows {
     out: Vec<Row>,
 }
 
-/// What one commit has of one world.
+/// The part of one commit that belongs to one world.
 struct Part {
     world: WorldKey,
     /// As in [`Track`], once this is on disk.
@@ -24,12 +24,12 @@ struct Part {
     next: Option<i64>,
     /// Checkpoints among its rows.
     places: Vec<Place>,
-    /// Frames that are no row yet, and the tick of the first.
+    /// Frames that are not in a row yet, and the tick of the first.
     group: Option<(u64, Vec<u8>)>,
 }
 
 impl Part {
-    /// Goes on behind what is known of the world.
+    /// Continues after the indexed rows of the world.
     fn behind(world: WorldKey, track: Option<&Track>) -> Self {
         Self {
             world,
@@ -54,7 +54,7 @@ impl Part {
         rows.next_id += 1;
     }
 
-    /// Makes a row of the frames so far.
+    /// Makes a row of the collected frames.
     fn end_group(&mut self, rows: &mut Rows) {
         if let Some((tick, bytes)) = self.group.take() {
             self.push(rows, GROUP, tick, bytes.into());
@@ -62,7 +62,7 @@ impl Part {
         }
     }
 
-    /// A hole before it is a number that no group has.
+    /// A gap before it is marked by a number that no group has.
     fn checkpoint(&mut self, rows: &mut Rows, tick: u64, bytes: &Bytes, after_gap: bool) {
         self.end_group(rows);
         let seq = self.next.map_or(0, |n| n + i64::from(after_gap));
@@ -79,7 +79,7 @@ impl Part {
     }
 
     /// # Errors
-    /// There is no checkpoint that it could follow.
+    /// There is no checkpoint for it to follow.
     fn frame(&mut self, tick: u64, kind: u8, bytes: &[u8]) -> Result<(), StoreError> {
         if self.next.is_none() {
             return Err(StoreError::Io(format!(
@@ -94,7 +94,7 @@ impl Part {
 }
 
 impl Log {
-    /// Writes entries: all or none. Those of worlds that are gone are left out.
+    /// Writes entries: all or none. Those of deleted worlds are left out.
     ///
     /// # Errors
     /// They could not be written.

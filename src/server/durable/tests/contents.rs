@@ -1,4 +1,4 @@
-//! Goal: worlds and clips come, go and stay as they were asked to, and one directory serves one server. Method: the
+//! Goal: worlds and clips are created, deleted and kept as requested, and one directory serves one server. Method: the
 //! store is opened, used and opened again.
 
 use super::*;
@@ -19,7 +19,7 @@ fn what_is_held_of_deleted_worlds_is_nothing() {
         let key = world(&mut store, 0).key;
         store.commit(&[checkpoint(key)]).unwrap();
         store.delete_world(key).unwrap();
-        // Its thread hands in a last state before it hears of it.
+        // Its thread hands in a last state before it learns of the deletion.
         store.commit(&[checkpoint(key)]).unwrap();
     }
     assert_eq!(store.log().known().count(), 0);
@@ -29,7 +29,8 @@ fn what_is_held_of_deleted_worlds_is_nothing() {
 
 #[test]
 fn each_file_of_a_store_is_needed() {
-    // The test above fails if damage is not seen: here every file is overwritten, and all but the notes are missed.
+    // Shows that the test above can fail: here every file is overwritten, and the damage is noticed in all but
+    // auxiliary files.
     let left = killed(true);
     let mut missed = 0;
     for path in files(left) {
@@ -102,7 +103,7 @@ fn old_history_is_cut_off_and_the_latest_state_stays() {
     let dir = Temporary::new();
     let mut store = LocalStore::open(&dir.0).unwrap();
     let worlds = fill(&mut store, 10);
-    // The first world rests; the others go on.
+    // The first world rests; the others continue.
     for tick in 11..=120 {
         let entries: Vec<Entry> = worlds[1..]
             .iter()
@@ -130,7 +131,7 @@ fn old_history_is_cut_off_and_the_latest_state_stays() {
         assert_eq!(check(n as u64, history).unwrap(), Some(last));
         assert!(history.losses.is_empty(), "{:?}", history.losses);
     }
-    // What was cut off is not there any more, and says nothing else.
+    // Rows that were cut off no longer exist, and cause no other report.
     assert_eq!(
         store.history_at(worlds[1].key, 60).unwrap(),
         History::default()
@@ -167,7 +168,7 @@ fn a_kill_in_the_middle_of_a_deletion_is_no_damage() {
     let whole = dir.0.join("worlds").join(format!("{key}.world"));
     let kept = std::fs::read(&whole).unwrap();
     store.delete_world(key).unwrap();
-    // The thread of the world hands in a last state before it hears of it.
+    // The thread of the world hands in a last state before it learns of the deletion.
     store
         .commit(&[Entry {
             world: key,
@@ -214,7 +215,7 @@ fn a_world_that_was_stepped_at_two_crashes_is_quarantined() {
     let dir = Temporary::new();
     let mut store = LocalStore::open(&dir.0).unwrap();
     let worlds = fill(&mut store, 5);
-    drop(store); // the first crash: nobody knows which world it was
+    drop(store); // the first crash: the world that caused it is unknown
     let store = LocalStore::open(&dir.0).unwrap();
     assert!(!store.last_end().orderly);
     let marks = store.marks();
@@ -232,13 +233,13 @@ fn a_world_that_was_stepped_at_two_crashes_is_quarantined() {
     let why = found.quarantined[0].quarantined.clone().unwrap();
     assert!(why.contains("tick 6"), "{why}");
     assert_eq!(found.worlds.len(), WORLDS - 1);
-    // It stays so, and an orderly end is no crash.
+    // It stays so, and an orderly end does not count as a crash.
     store.close().unwrap();
     drop(store);
     let mut store = LocalStore::open(&crashed.0).unwrap();
     assert!(store.last_end().orderly);
     assert_eq!(recover(&mut store, &[]).unwrap().quarantined.len(), 1);
-    // Until it is let out.
+    // Until it is released.
     assert!(recover(&mut store, &["w1"]).unwrap().quarantined.is_empty());
     assert!(recover(&mut store, &[]).unwrap().quarantined.is_empty());
 }

@@ -1,5 +1,5 @@
-//! Goal: what is read from a store is what was written, or is named as lost, whatever happens to its files. Method:
-//! files of a killed process are damaged in single bytes, rows and pages, cut off, exchanged, and read.
+//! Goal: data read from a store are as they were written, or are reported as lost, whatever happens to its files.
+//! Method: files of a killed process are damaged in single bytes, rows and pages, cut off, exchanged, and read.
 
 use super::*;
 
@@ -26,7 +26,7 @@ proptest! {
         let dir = Temporary::new();
         copy(killed(checkpointed), &dir.0);
         let mut files = files(&dir.0);
-        // Most bytes of a store are in its log; small files have their turn all the same.
+        // Most bytes of a store are in its log, but small files must have their turn too.
         files.retain(|f| f.metadata().unwrap().len() > 0);
         let path = file.get(&files);
         let mut bytes = std::fs::read(path).unwrap();
@@ -53,7 +53,7 @@ fn cases() -> u32 {
 
 #[test]
 fn no_number_of_a_row_is_trusted() {
-    // What a flipped bit leaves in each column, in the last rows too, behind which no hole can be seen.
+    // A flipped bit in each column, in the last rows too, after which no hole is visible.
     for (table, column, lost) in [
         ("log", "world", true),
         ("log", "session", true),
@@ -88,7 +88,7 @@ fn no_number_of_a_row_is_trusted() {
 
 #[test]
 fn the_end_of_a_world_that_rests_is_missed() {
-    // Nothing is wrong with the log but that rows in the middle of it are not there.
+    // The log is intact, except that rows in the middle are missing.
     for (rows, lost) in [(0, false), (1, true), (7, true), (60, true)] {
         let (dir, worlds) = with_one_at_rest();
         let log = rusqlite::Connection::open(dir.0.join("log.sqlite")).unwrap();
@@ -188,7 +188,7 @@ fn a_lost_log_leaves_earlier_states() {
         assert_eq!(check(n, history).unwrap(), Some(50));
         assert_eq!(history.losses[0].after_tick, Some(50));
     }
-    // It is told once: the note of how far the old log went is not held against the new one.
+    // It is reported once: the end note of the old log is not applied to the new one.
     drop(store);
     let store = LocalStore::open(&dir.0).unwrap();
     assert_eq!(store.last_end().damage, Vec::<String>::new());
@@ -196,7 +196,7 @@ fn a_lost_log_leaves_earlier_states() {
 
 #[tokio::test]
 async fn a_hole_in_the_log_is_not_stepped_over() {
-    // The same as above, in files: rows before and behind what was not written.
+    // The same as above, in files: rows before and after an unwritten gap.
     let dir = Temporary::new();
     let mut store = LocalStore::open(&dir.0).unwrap();
     let world = world(&mut store, 0);
@@ -205,7 +205,7 @@ async fn a_hole_in_the_log_is_not_stepped_over() {
     recorder.checkpoint(0, state(0, 0));
     let last = recorder.input(1, bytes_of(0, 1, 2, 10));
     recorder.durable(last).await.unwrap();
-    recorder.input(2, bytes_of(0, 2, 2, 2 << 20)); // more than the queue takes
+    recorder.input(2, bytes_of(0, 2, 2, 2 << 20)); // more than the queue accepts
     recorder.checkpoint(2, state(0, 2));
     let last = recorder.input(3, bytes_of(0, 3, 2, 10));
     recorder.durable(last).await.unwrap();
@@ -223,7 +223,7 @@ async fn a_hole_in_the_log_is_not_stepped_over() {
 
 #[test]
 fn an_earlier_state_is_never_that_of_another_world() {
-    // The table that says where checkpoints are has no checksums: it may name rows of others, or none at all.
+    // The table of checkpoints has no checksums, so it may name rows of other worlds, or rows that do not exist.
     for wrong in ["two change places", "there is no such row"] {
         let dir = Temporary::new();
         let mut store = LocalStore::open(&dir.0).unwrap();
@@ -245,7 +245,7 @@ fn an_earlier_state_is_never_that_of_another_world() {
         }
         drop(log);
         let mut store = LocalStore::open(&dir.0).unwrap();
-        // An end is orderly all the same.
+        // The end is still orderly.
         store.close().unwrap();
         drop(store);
         std::fs::write(dir.0.join("log.sqlite"), "no database at all").unwrap();

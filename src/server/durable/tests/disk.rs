@@ -1,5 +1,5 @@
-//! Goal: a disk that is full, read-only or held by another program costs what was being written, and nothing before
-//! it. Method: the log is told to refuse.
+//! Goal: a disk that is full, read-only or held by another program loses only the data being written, and nothing
+//! before them. Method: the log is made to refuse writes.
 
 use super::*;
 
@@ -24,7 +24,7 @@ fn a_full_disk_loses_the_group_and_nothing_before_it() {
     {
         assert_eq!(check(n as u64, history).unwrap(), Some(30));
     }
-    // What can be freed is freed, and then smaller groups fit again.
+    // Space is freed, and then smaller groups fit again.
     store.repair(error.remedy(None)).unwrap();
     store.commit(&tick_entries(&worlds[0], 0, 31)).unwrap();
     let history = &store.latest(&[worlds[0].key]).unwrap()[0];
@@ -51,7 +51,7 @@ fn a_note_that_cannot_be_written_costs_nothing() {
     let note = dir.0.join("log.end");
     std::fs::remove_file(&note).unwrap();
     std::fs::create_dir(&note).unwrap();
-    // It is on disk, so it is not called a failure: the log would be set aside for that.
+    // The data are on disk, so this must not count as a failure, for which the log would be set aside.
     for tick in 4..=5 {
         store.commit(&tick_entries(&worlds[0], 0, tick)).unwrap();
     }

@@ -1,9 +1,9 @@
-//! Goal: a fault of the disk costs what it is a fault of, and nothing else. Method: single files are made unreadable,
-//! single commits and reads fail, single rows are taken away.
+//! Goal: a fault of the disk loses only the data that it affects. Method: single files are made unreadable, single
+//! commits and reads fail, single rows are removed.
 
 use super::*;
 
-/// Makes a file unreadable for everybody: a directory of its name, or a link to itself.
+/// Makes a file unreadable even for root: replaces it by a directory of its name, or by a link to itself.
 fn make_unreadable(path: &Path, as_directory: bool) {
     std::fs::remove_file(path).unwrap();
     if as_directory {
@@ -13,7 +13,7 @@ fn make_unreadable(path: &Path, as_directory: bool) {
     }
 }
 
-/// A store that has one clip of its own for each world, and rehearsals of them.
+/// A store with one clip for each world, and rehearsals of the clips.
 fn with_everything() -> (Temporary, Vec<WorldRecord>) {
     let dir = Temporary::new();
     let mut store = LocalStore::open(&dir.0).unwrap();
@@ -49,7 +49,7 @@ fn a_file_that_cannot_be_read_takes_nothing_else_with_it() {
             copy(&whole.0, &dir.0);
             let path = dir.0.join(path.strip_prefix(&whole.0).unwrap());
             make_unreadable(&path, as_directory);
-            // Twice: it is no matter of the first start only.
+            // Twice, because later starts must behave the same.
             for _ in 0..2 {
                 let mut store = LocalStore::open(&dir.0).unwrap();
                 let found = recover(&mut store, &[]).unwrap();
@@ -84,7 +84,7 @@ fn a_world_whose_file_can_be_read_again_comes_back_whole() {
     make_unreadable(&path, false);
     let mut store = LocalStore::open(&dir.0).unwrap();
     assert_eq!(recover(&mut store, &[]).unwrap().worlds.len(), WORLDS - 1);
-    // Its rows are nobody's; they stay all the same.
+    // Its rows belong to no known world, but they stay.
     while store.cut(&RETENTION).unwrap().unswept {}
     store.close().unwrap();
     drop(store);
@@ -157,7 +157,7 @@ fn a_directory_that_cannot_be_read_is_refused() {
         let error = LocalStore::open(&dir.0).map(drop).unwrap_err();
         assert!(matches!(error, StoreError::Directory { .. }), "{error}");
     }
-    // Neither is one taken for new whose format cannot be read.
+    // A directory whose format cannot be read is not taken for a new one either.
     let (dir, _) = with_everything();
     make_unreadable(&dir.0.join("format"), false);
     let error = LocalStore::open(&dir.0).map(drop).unwrap_err().to_string();
@@ -247,7 +247,7 @@ async fn a_fault_that_lasts_pauses_the_store_and_leaves_the_log() {
     assert_eq!(ticks, [0, 1]);
 }
 
-/// How retention leaves a world that does not go on: with one checkpoint.
+/// Retention leaves a world that does not continue with one checkpoint.
 #[test]
 fn a_checkpoint_that_the_table_has_lost_is_found_by_its_row() {
     for lost in 1..=WORLDS {
@@ -261,7 +261,7 @@ fn a_checkpoint_that_the_table_has_lost_is_found_by_its_row() {
             assert_eq!(log.execute(sql, [world.key.0 as i64]).unwrap(), 1);
         }
         drop(log);
-        // The rows of it are not swept either, so the next start finds them, too.
+        // Its rows are not swept either, so the next start finds them, too.
         for _ in 0..2 {
             let mut store = LocalStore::open(&dir.0).unwrap();
             while store.cut(&RETENTION).unwrap().unswept {}

@@ -1,5 +1,5 @@
-//! Goal: what was promised to be on disk is there when it is said to be, and what is not is named. Method: the thread
-//! that writes has a store in memory whose disk fails, is slow or panics.
+//! Goal: data confirmed to be on disk are there at that time, and lost data are reported. Method: the writing thread
+//! has a store in memory whose disk fails, is slow or panics.
 
 use super::*;
 
@@ -48,7 +48,7 @@ async fn a_failing_disk_costs_what_it_fails_at_and_is_told() {
     let error = recorder.durable(ticket).await.unwrap_err().to_string();
     assert!(error.contains("full"), "{error}");
     assert!(keeper.degraded().unwrap().contains("full"));
-    // Until there is a whole state, nothing that would not fit is written.
+    // Until there is a whole state, no entry that depends on the gap is written.
     disk.fail(None);
     let ticket = recorder.input(3, bytes_of(0, 3, 2, 10));
     recorder.durable(ticket).await.unwrap_err();
@@ -63,7 +63,7 @@ async fn a_failing_disk_costs_what_it_fails_at_and_is_told() {
         .latest(&[recorder.world()])
         .unwrap();
     assert_eq!(history[0].checkpoint.as_ref().unwrap().0, 3);
-    // From before it, nobody gets behind the hole.
+    // From a checkpoint before the gap, a history cannot continue after it.
     let before = MemoryStore(disk).history_at(recorder.world(), 1).unwrap();
     assert_eq!(before.last_tick(), Some(1));
     assert_eq!(before.losses.len(), 1);

@@ -1,4 +1,4 @@
-//! A segment's surface as a few boxes and cylinders, for formats that know no mesh within the document.
+//! A segment's surface as a few boxes and cylinders, for formats that cannot hold a mesh within the document.
 
 use crate::body::geometry::mass_properties;
 use crate::body::model::Mesh;
@@ -20,8 +20,8 @@ pub(super) struct Solid {
     pub cylinder: bool,
 }
 
-/// Slices of `mesh` along its longest extent, each as wide as the surface there, together of the volume that the
-/// surface encloses. Empty for a mesh that encloses nothing.
+/// Slices of `mesh` along its longest extent, each as wide as the surface there. Their volumes add to that of the
+/// surface. Empty for a mesh that encloses nothing.
 pub(super) fn solids(mesh: &Mesh) -> Vec<Solid> {
     if mesh.triangles.is_empty() {
         return Vec::new();
@@ -49,7 +49,7 @@ pub(super) fn solids(mesh: &Mesh) -> Vec<Solid> {
         .iter()
         .map(|[l, h]| (0..3).map(|k| h[k] - l[k]).product::<f64>())
         .sum();
-    // Both widths of every slice shrink alike until the volume is right.
+    // Scale both widths of every slice by the same factor, so that the volume is right.
     let area = whole.volume / volume;
     boxes
         .iter()
@@ -153,7 +153,7 @@ mod tests {
                 for b in all {
                     let (c, e) = (b.middle.to_array(), b.size.to_array());
                     for k in 0..3 {
-                        // A cylinder in place of a slightly oval slice is a little wider one way.
+                        // A cylinder that replaces a slightly oval slice is a little wider in one direction.
                         let most = 0.5 * e[k] * if b.cylinder { 0.85 } else { 1.0 };
                         assert!(c[k] - most > low[k] - 1e-9 && c[k] + most < high[k] + 1e-9);
                     }

@@ -1,4 +1,4 @@
-//! The segments of one body: a surface of the right size and mass for each, with the points that can touch the floor.
+//! The segments of one body. Each has a surface of the right size and mass, and the points that can touch the floor.
 
 use super::super::age::Proportions;
 use super::super::geometry::{mass_properties, mirrored};
@@ -48,7 +48,7 @@ pub(super) struct Dimensions {
 }
 
 impl Dimensions {
-    /// Those of a person of this profile; `male` and `adult` as [`Table::adult`] has them.
+    /// Dimensions of a person of this profile; `male` and `adult` are as in [`Table::adult`].
     pub(super) fn new(profile: &Profile, male: f64, adult: &Table) -> Self {
         let growth = Proportions::at(profile.age);
         let table = adult.grown_to(growth);
@@ -161,7 +161,7 @@ impl Dimensions {
     }
 }
 
-// Directions in which the surfaces are farthest out where they can touch something, in half widths, depths and lengths.
+// Directions towards the outermost points that can touch something, in half widths, depths and lengths.
 const PELVIS: [[f64; 3]; 6] = [
     [-0.55, 0.5, -1.0], // sit points
     [-0.55, -0.5, -1.0],

@@ -1,4 +1,4 @@
-//! Lengths, mass fractions and ranges of motion that bodies are made from.
+//! Lengths, mass fractions and ranges of motion from which bodies are built.
 
 use super::super::age::{ARM_CHANGE, LEG_CHANGE, LimitChange, MassFractions, Proportions, mix};
 use crate::body::topology::DOF_COUNT;
@@ -29,7 +29,7 @@ pub(super) struct Table {
 }
 
 /// Trunk, limb lengths and masses: de Leva 1996. Neck and ankle heights close the stature; shoulder and hip widths are
-/// ours.
+/// our own choice.
 pub(super) const MAN: Table = Table {
     stature: 1741.0,
     trunk: [145.7, 215.5, 170.7],
@@ -128,9 +128,9 @@ impl Table {
 
 /// Limits in degrees, DOF order: trunk and neck, arm, leg; the sides are equal because angles are anatomically signed.
 ///
-/// After the goniometric tables (Boone & Azen, AAOS, Soucie 2011), with room for captured motion: spine motion of a
-/// whole trunk falls on two joints here, and flexion and abduction are the components of one swing (`angles`), up to
-/// 172° together.
+/// After the goniometric tables (Boone & Azen, AAOS, Soucie 2011), with room for captured motion: here two joints share
+/// the spine motion of a whole trunk, and flexion and abduction are the components of one swing (`angles`), up to 172°
+/// together.
 const TRUNK_LIMITS: [[f64; 2]; 9] = [
     [-25.0, 65.0],
     [-35.0, 35.0],

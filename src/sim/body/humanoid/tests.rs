@@ -1,5 +1,5 @@
-//! Goal: bodies of all ages and sizes agree with what was measured of people; adults with de Leva's table. The
-//! invariants hold that the kernels and the viewer rely on.
+//! Goal: bodies of all ages and sizes agree with measurements of people, and adults with de Leva's table. The
+//! invariants on which the kernels and the viewer rely hold.
 
 use super::super::geometry::{check, volume};
 use super::super::topology::{SEGMENT_NAMES, SegmentId};
@@ -130,7 +130,7 @@ fn masses_add_up_and_lengths_make_the_stature() {
             "{name}: {top} m"
         );
         assert_eq!(body.validate(), Ok(()));
-        // Nothing reaches below the sole, and the sole corners of foot and toes lie on it.
+        // Nothing extends below the sole, and the sole corners of foot and toes lie on it.
         for s in 0..SEGMENT_COUNT {
             let z = body.segments[s].mesh.vertices.iter().map(|v| v.z + o[s].z);
             let lowest = z.fold(f64::INFINITY, f64::min) + body.standing_root_height();
@@ -155,8 +155,8 @@ fn centre_of_mass_is_where_people_have_it() {
 }
 
 /// Tolerances: centre of mass 15 % of the length (parts of the trunk are cut along oblique planes that overlap here),
-/// transverse radii 17 %. Radii about the long axis (z; of the limbs) 32 %: the table's exceed what tissue of plausible
-/// density gives a solid of the measured length, and the armature is larger than the difference.
+/// transverse radii 17 %. Radii about the long axis (z; of the limbs) 32 %: the table's values exceed those of a solid
+/// of the measured length with any plausible density of tissue, and the armature is larger than the difference.
 #[test]
 fn centres_of_mass_and_radii_are_near_de_leva() {
     for (body, table) in [

@@ -1,4 +1,4 @@
-//! Newton's matrix of an island and the direction that follows.
+//! Newton's matrix of an island and the resulting direction.
 
 use super::{Articulated, Block, Column, Contact, Island, Kind, Parts, dot};
 use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
@@ -14,11 +14,11 @@ use crate::math::dense::{factor_columns, factor_rows, solve_lower, solve_rows, s
 use multiversion::multiversion;
 
 impl Island {
-    /// Newton's direction of the whole island; false if there is none.
+    /// Computes Newton's direction of the whole island; returns false if there is none.
     ///
-    /// Bodies that touch each other couple their matrices. The coupling is taken in where it takes less: by the
-    /// Woodbury identity in as many unknowns as the touching contacts have directions, or, with many contacts, in one
-    /// matrix of all velocities. Either way the work of an iteration grows with the cube of the smaller number.
+    /// Bodies that touch each other couple their matrices. The coupling is solved in the smaller space: by the Woodbury
+    /// identity in the directions of the touching contacts or, with many contacts, in one matrix of all velocities.
+    /// Either way, the work of an iteration grows with the cube of the smaller number.
     ///
     /// `inside`: with the slopes of the interior-point method instead of those at the present velocities.
     pub(super) fn direction<F: Articulated>(&mut self, figures: &mut [F], inside: bool) -> bool {
@@ -190,7 +190,8 @@ impl Island {
             };
             let block = [a, b];
             for (s, t) in [(0, 0), (1, 1), if a < b { (0, 1) } else { (1, 0) }] {
-                // The earlier block has the row, the later one the columns: only the part with column ≥ row is read.
+                // The earlier block supplies the row and the later one the columns, because only the part with column ≥
+                // row is read.
                 let (row, column) = (self.first[block[s]], self.first[block[t]]);
                 let len = self.blocks[block[t]].len();
                 let kr = stiff_rows(c, t);
@@ -287,7 +288,7 @@ fn root(c: &Contact) -> ([[f64; 3]; 3], usize) {
     )
 }
 
-/// The matrix of one figure's own problem into its storage, as in [`crate::contact::minimise`].
+/// Writes the matrix of one figure's own problem into its storage, as in [`crate::contact::minimise`].
 fn own_matrix(p: &mut Parts<'_>, b: &Block, inside: bool) {
     type S<'a> = SparseSystem<'a>;
     SparseSystem(p.m).load(p.hessian);
@@ -354,7 +355,7 @@ fn solve_block<F: Articulated>(b: &Block, figures: &mut [F], x: &mut [f64; NV]) 
 }
 
 /// Solves the symmetric positive definite system `m x = b` in place; `m[j n + i]`, i ≥ j, is its lower triangle, `x`
-/// holds b. False if it is not positive definite.
+/// holds b. Returns false if it is not positive definite.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn cholesky_solve(m: &mut [f64], x: &mut [f64]) -> bool {
     let positive = factor_columns(m, x.len());

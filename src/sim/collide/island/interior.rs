@@ -1,10 +1,10 @@
-//! A way on for islands at which Newton's method jams: the interior-point method of [`crate::contact::interior`],
-//! for all bodies at once.
+//! A fallback for islands at which Newton's method jams: the interior-point method of [`crate::contact::interior`], for
+//! all bodies at once.
 //!
-//! Motor values, joint limits, contacts with the ground and contacts between bodies are unknowns of their own, strictly
-//! inside what they may be. Eliminating them leaves Newton's matrix of the island with other slopes, so that it is
-//! built and solved by the same code (`direction`); the number of iterations does not depend on how many corners lie on
-//! the way.
+//! Motor values, joint limits, contacts with the ground and contacts between bodies are separate unknowns, strictly
+//! inside their bounds. Eliminating them leaves Newton's matrix of the island with other slopes, so the same code
+//! (`direction`) builds and solves it. The number of iterations does not depend on the number of corners along the
+//! path.
 
 use super::{Articulated, Island, Kind, Parts, relative};
 use crate::body::topology::{DOF_COUNT, NV};
@@ -14,21 +14,21 @@ use crate::contact::projection::Region;
 use crate::contact::{ContactRows, Motors};
 use crate::math::Vec3;
 
-/// Forces at the start, in units of the largest one at present; multipliers are as large as the largest velocity.
-/// Started with less, bodies that are thrown into walls crawl along the boundary; with much more a few iterations are
-/// lost.
+/// Forces at the start, in units of the largest present force; multipliers are as large as the largest velocity. With
+/// smaller forces, bodies thrown into walls crawl along the boundary; with much larger ones, a few iterations are
+/// wasted.
 const FIRST_FORCE: f64 = 3.0;
-/// Complementarity, as a share of that at the start, from which on it is judged whether the velocities solve the
-/// island. Handing over to Newton's method without judging does not do: bodies start with the force of the largest
-/// blow, and a millionth of a millionth of that may still be as much as the smallest limbs have.
+/// Complementarity, relative to that at the start, below which the velocities are tested as a solution of the island.
+/// Handing over to Newton's method without this test is not enough: bodies start with the force of the largest blow,
+/// and even 10⁻¹² of that may be as large as the forces on the smallest limbs.
 const NEARLY: f64 = 1e-12;
-/// A motor whose range is less than this share of the widest, or that has no gain, gives what it gives.
+/// A motor whose range is less than this share of the widest, or that has no gain, is treated as constant.
 const NARROW: f64 = 1e-9;
-/// Friction coefficient below which a cone is too narrow to be seen from inside; Newton's method takes the true one
-/// again.
+/// Smallest friction coefficient used here, because a narrower cone has almost no interior; Newton's method then uses
+/// the true one.
 const LEAST_FRICTION: f64 = 1e-3;
 
-/// What takes part: sum and number of products of multiplier and distance.
+/// Sum and number of the products of multiplier and distance.
 #[derive(Clone, Copy, Debug, Default)]
 struct Gap {
     sum: f64,
@@ -46,7 +46,7 @@ fn friction(mu: f64) -> f64 {
     mu.max(LEAST_FRICTION)
 }
 
-/// True if motor `j` has no room, or nothing to give.
+/// Whether motor `j` has no range or no gain.
 fn is_fixed(motors: &Motors, j: usize, widest: f64) -> bool {
     let half = 0.5 * (motors.upper[j] - motors.lower[j]);
     half.is_nan() || half <= NARROW * widest || motors.gain[j] <= 0.0
@@ -65,8 +65,8 @@ fn ground(contacts: &ContactRows, k: usize, v: Vec3) -> Vec3 {
 }
 
 impl Island {
-    /// Leads the velocities to the solution, wherever they were, in at most `iterations` iterations; returns how many
-    /// there were. Bounded work.
+    /// Leads the velocities to the solution from any start, in at most `iterations` iterations; returns the number of
+    /// iterations. Bounded work.
     pub(super) fn approach<F: Articulated>(&mut self, figures: &mut [F], iterations: u32) -> u32 {
         self.enter(figures);
         let (mut start, mut last_step, mut done) = (0.0, 1.0f64, 0);
@@ -94,7 +94,7 @@ impl Island {
         done
     }
 
-    /// Middle of everything.
+    /// Starts every unknown in the middle of its range.
     fn enter<F: Articulated>(&mut self, figures: &mut [F]) {
         let most = self.most(figures);
         let (mut force, mut fastest) = (most, 1e-9f64);
@@ -172,7 +172,7 @@ impl Island {
         })
     }
 
-    /// Eliminates motors, limits and contacts: their slopes, and what is left of the equations of motion.
+    /// Eliminates motors, limits and contacts: computes their slopes and the residual of the equations of motion.
     fn linearise<F: Articulated>(&mut self, figures: &mut [F], aim: f64) {
         let most = self.most(figures);
         for b in &mut self.blocks {
@@ -185,8 +185,8 @@ impl Island {
                     linearise_figure(&mut p, &b.x, most, aim, &mut b.slope, &mut b.grad);
                 }
                 Kind::Free(_) => {
-                    // All of it: what an interior point that has left its cone wrote behind the sixth entry would stay
-                    // there.
+                    // Clear all entries: values that an interior point outside its cone wrote behind the sixth entry
+                    // would stay there.
                     b.grad = [0.0; NV];
                     for k in 0..6 {
                         b.grad[k] = b.ax[k] - b.b[k];
@@ -211,7 +211,7 @@ impl Island {
         }
     }
 
-    /// Steps of everything that was eliminated, and the way to the nearest boundary.
+    /// Steps of all eliminated unknowns, and the distance to the nearest boundary.
     fn way<F: Articulated>(&mut self, figures: &mut [F], aim: f64) -> f64 {
         let most = self.most(figures);
         let mut step = 1.0 / TO_BOUNDARY;
@@ -253,7 +253,7 @@ impl Island {
                         p.newton.velocity[k] += p.newton.direction[k] * step;
                     }
                     let inner = &mut p.newton.interior;
-                    // A fixed motor has no steps.
+                    // Fixed motors take no steps.
                     inner.motors.iter_mut().for_each(|m| m.advance(step));
                     let limits = &mut inner.walls[..p.limits.rows.len()];
                     limits.iter_mut().for_each(|w| w.advance(step));

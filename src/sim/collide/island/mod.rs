@@ -1,14 +1,14 @@
 //! One convex problem for all bodies of an island: figures with their motors, limits and ground, free obstacles, and
 //! the contacts between.
 //!
-//! The problem of a figure's substep ([`crate::contact::minimise`]) is a sum of convex terms on its own velocity.
-//! A contact between two bodies adds one more on the relative velocity of its two points. Newton's matrix (`direction`)
-//! is then block-diagonal plus a term of low rank: contacts with fixed things stay in the blocks' own pattern, those
-//! between two moving bodies are taken in apart. One line search (`newton`) along the common direction keeps the
-//! descent of the whole sum, so that the method is as safe as the one for one figure. Where it jams, an interior-point
-//! method on the same matrix leads it on (`interior`).
+//! The problem of a figure's substep ([`crate::contact::minimise`]) is a sum of convex terms on its own velocity. A
+//! contact between two bodies adds one more term on the relative velocity of its two points. Newton's matrix
+//! (`direction`) is then block-diagonal plus a term of low rank: contacts with fixed objects stay in the blocks' own
+//! pattern, and those between two moving bodies are handled separately. One line search (`newton`) along the common
+//! direction ensures descent of the whole sum, so the method is as safe as that for a single figure. If it jams, an
+//! interior-point method on the same matrix takes over (`interior`).
 //!
-//! Each contact's impulse acts on both bodies at one and the same point: momentum is kept whatever residual is left.
+//! Each contact's impulse acts on both bodies at the same point, so momentum is conserved whatever the residual.
 
 mod direction;
 mod interior;
@@ -29,7 +29,7 @@ pub struct Parts<'a> {
     pub m: &'a MassMatrix<f64>,
     /// Storage for Newton's matrix and its factor.
     pub hessian: &'a mut MassMatrix<f64>,
-    /// Momentum without motors, limits and contacts, at the end of the substep.
+    /// Momentum at the end of the substep without motors, limits and contacts.
     pub b: &'a [f64; NV],
     /// Motors.
     pub motors: &'a Motors,
@@ -43,18 +43,18 @@ pub struct Parts<'a> {
     pub x: &'a mut [f64; NV],
 }
 
-/// Something with joints that takes part in an island.
+/// An articulated body that takes part in an island.
 pub trait Articulated {
     /// Its parts in the present substep.
     fn parts(&mut self) -> Parts<'_>;
 }
 
-/// Which body a block is.
+/// The body of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// Index into the slice of figures.
     Figure(usize),
-    /// Index of the free body, as the caller counts.
+    /// The caller's index of the free body.
     Free(usize),
 }
 
@@ -87,9 +87,9 @@ impl Block {
 /// One contact: force `Proj(−(u + c)/R)` on A at the relative velocity u of its points, the opposite on B.
 #[derive(Clone, Debug)]
 pub struct Contact {
-    /// Block of each side; `None` is something that nothing moves.
+    /// Block of each side; `None` is an immovable object.
     pub block: [Option<usize>; 2],
-    /// What touches what: body and part, as the caller counts.
+    /// The touching body and part of each side, in the caller's numbering.
     pub ends: [(usize, usize); 2],
     /// World, m.
     pub position: Vec3,
@@ -97,9 +97,9 @@ pub struct Contact {
     pub frame: [Vec3; 3],
     /// Gap at the start of the substep, m.
     pub gap: f64,
-    /// Offset of the relative velocity in the frame, m/s; holds the velocity of a side without block too.
+    /// Offset of the relative velocity in the frame, m/s; includes the velocity of a side without a block.
     pub c: Vec3,
-    /// Part of it that is the velocity of a side without block.
+    /// The part of it that is the velocity of a side without a block.
     pub firm: Vec3,
     /// Friction coefficient.
     pub mu: f64,
@@ -108,12 +108,12 @@ pub struct Contact {
     /// Impulse on A in the frame, N·s.
     pub impulse: Vec3,
     rows: [[[f64; NV]; 3]; 2],
-    /// Which entries of the rows of each side are used, in ascending order, and how many.
+    /// The used entries of the rows of each side, in ascending order, and their number.
     used: [([u8; NV], usize); 2],
     u: Vec3,
     du: Vec3,
     region: Region,
-    /// Root of the stiffness in the frame while the interior-point method leads: columns c with `Σ c cᵀ`.
+    /// Root of the stiffness in the frame while the interior-point method is active: columns c with `Σ c cᵀ`.
     inside: Option<[Vec3; 3]>,
 }
 
@@ -123,7 +123,7 @@ impl Contact {
         let (f, t) = (self.impulse, &self.frame);
         t[0] * f.x + t[1] * f.y + t[2] * f.z
     }
-    /// Impulse times the relative velocity after the solve, J; a side without block counts with its own velocity.
+    /// Impulse times the relative velocity after the solve, J; a side without a block counts with its own velocity.
     pub fn work_after(&self) -> f64 {
         self.impulse.dot(self.u + self.firm)
     }
@@ -137,12 +137,12 @@ impl Contact {
     }
 }
 
-/// How a contact pushes and holds.
+/// Parameters of a contact's push and friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactLaw {
-    /// It pushes where the two approach faster than this, m/s.
+    /// It pushes if the two sides approach faster than this, m/s.
     pub approach: f64,
-    /// Velocity of a second side without block, world, m/s.
+    /// Velocity of a second side that has no block, world, m/s.
     pub firm: Vec3,
     /// Friction coefficient.
     pub mu: f64,
@@ -188,7 +188,7 @@ fn dot(a: &[f64; NV], b: &[f64; NV]) -> f64 {
 }
 
 impl Island {
-    /// Forgets everything but the memory.
+    /// Forgets everything but keeps its memory.
     pub fn clear(&mut self) {
         self.blocks.clear();
         self.contacts.clear();
@@ -211,13 +211,13 @@ impl Island {
         self.blocks.len() - 1
     }
 
-    /// A figure, by its index in the slice given to [`Self::solve`].
+    /// Adds a figure, by its index in the slice given to [`Self::solve`].
     pub fn add_figure(&mut self, index: usize) -> usize {
         self.add_block(Kind::Figure(index))
     }
 
-    /// A free body: mass, columns of the inertia about its centre, momentum (moment, then linear) at the end of the
-    /// substep if nothing touched it, and its velocity (angular, then linear) as the first guess.
+    /// Adds a free body: mass, columns of the inertia about its centre, momentum (moment, then linear) at the end of
+    /// the substep if nothing touched it, and its velocity (angular, then linear) as the first guess.
     pub fn add_free(
         &mut self,
         index: usize,
@@ -242,9 +242,9 @@ impl Island {
         k
     }
 
-    /// A contact between two sides; `block` and `ends` as in [`Contact`]. `visit` is called for each side that has a
-    /// block and gives the velocity of the contact's point, world axes, for a unit of each velocity component of that
-    /// body, each once.
+    /// Adds a contact between two sides; `block` and `ends` are as in [`Contact`]. `visit` is called for each side that
+    /// has a block and gives the velocity of the contact's point, world axes, for a unit of each velocity component of
+    /// that body, each once.
     pub fn add_contact(
         &mut self,
         block: [Option<usize>; 2],
@@ -302,8 +302,8 @@ impl Island {
         &self.contacts
     }
 
-    /// True if any contact pushes at the velocities of the first guess. If none does, everybody's own solution solves
-    /// the island.
+    /// Whether any contact pushes at the velocities of the first guess. If none does, the separate solutions of the
+    /// bodies solve the island.
     pub fn is_active<F: Articulated>(&mut self, figures: &mut [F]) -> bool {
         for b in &mut self.blocks {
             if let Kind::Figure(i) = b.kind {

@@ -8,15 +8,16 @@ use crate::contact::projection::Region;
 
 /// Newton iterations after which it counts as jammed; 5 to 15 are typical.
 const NEWTON_ITERATIONS: u32 = 30;
-/// Most iterations of the interior-point method that leads it on then.
+/// Largest number of iterations of the interior-point method that then takes over.
 const INTERIOR_ITERATIONS: u32 = 50;
-/// Most iterations of both kinds. A step cut short would let bodies sink into each other.
+/// Largest number of iterations of both kinds. It is generous because an unfinished solve would let bodies sink into
+/// each other.
 pub(super) const MAX_ITERATIONS: u32 = 120;
-/// Most evaluations of one line search.
+/// Largest number of evaluations in one line search.
 const LINE_SEARCH: usize = 16;
 /// Residual at which the island counts as solved, N·m·s.
 const TOLERANCE: f64 = 1e-6;
-/// Residual above which rounding is not its cause, whatever the velocities, N·m·s.
+/// Residual above which rounding cannot be its cause, whatever the velocities, N·m·s.
 const MOST_ROUNDED: f64 = 1e-3;
 
 impl Island {
@@ -47,7 +48,7 @@ impl Island {
         out
     }
 
-    /// Takes in the velocities that the figures hold.
+    /// Takes the velocities of the figures.
     pub(super) fn start<F: Articulated>(&mut self, figures: &mut [F]) {
         for b in &mut self.blocks {
             match b.kind {
@@ -68,8 +69,8 @@ impl Island {
         self.velocities();
     }
 
-    /// The largest gradient at the present velocities, and whether it is none: below the tolerance, or what rounding
-    /// leaves.
+    /// The largest gradient at the present velocities, and whether it counts as zero: below the tolerance, or within
+    /// rounding.
     pub(super) fn judge<F: Articulated>(&mut self, figures: &mut [F]) -> (f64, bool) {
         self.gradients(figures);
         let largest = |m: f64, b: &Block| m.max(largest(&b.grad));
@@ -79,9 +80,9 @@ impl Island {
         (residual, none)
     }
 
-    /// What rounding may leave of a gradient, N·m·s: the last digit of what it is a sum of. Stiffness times velocity
-    /// counts most: a led plane that turns moves by 9 km/s at 500 m from its centre, where contacts of 10⁴ kg have an
-    /// arm of 500 m; and the angles of a raised arm change by 300 rad per rad that it turns.
+    /// Rounding error of a gradient, N·m·s: the last digit of its terms. Stiffness times velocity is the largest term:
+    /// a led plane that turns may move at 9 km/s at 500 m from its centre, where contacts of 10⁴ kg have an arm of 500
+    /// m; and the angles of a raised arm change by 300 rad per radian of its turn.
     fn rounding<F: Articulated>(&self, figures: &mut [F]) -> f64 {
         let mut sum = 0.0;
         for b in &self.blocks {
@@ -146,8 +147,8 @@ impl Island {
                         .add_transposed(&p.newton.force, -1.0, &mut b.grad);
                 }
                 Kind::Free(_) => {
-                    // All of it: what an interior point that has left its cone wrote behind the sixth entry would stay
-                    // there.
+                    // Clear all entries: values that an interior point outside its cone wrote behind the sixth entry
+                    // would stay there.
                     b.grad = [0.0; NV];
                     for k in 0..6 {
                         b.grad[k] = b.ax[k] - b.b[k];

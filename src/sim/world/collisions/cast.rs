@@ -1,4 +1,4 @@
-//! The bodies of one cluster, and where they are in the present substep.
+//! The bodies of one cluster, and their places in the present substep.
 
 use super::Participant;
 use crate::body::SegmentId;
@@ -37,7 +37,7 @@ impl Cast<'_> {
         }
     }
 
-    /// How reports name a body.
+    /// Identity of a body in reports.
     pub fn other(&self, participant: Participant, part: usize) -> Option<Other> {
         match participant {
             Participant::Figure(i) => {
@@ -49,7 +49,7 @@ impl Cast<'_> {
         }
     }
 
-    /// The obstacle behind a body, and for how long it has moved since its pose was stored.
+    /// The obstacle of a participant. A firm one has moved for `led_for` seconds since its pose was stored.
     pub fn obstacle(&self, participant: Participant, led_for: f64) -> Option<Posed> {
         match participant {
             Participant::Free(i) => Some(Posed::new(&self.free[i].1, 0.0)),
@@ -65,7 +65,7 @@ pub(super) struct Posed {
     pub friction: f64,
 }
 
-/// Its shape there.
+/// The shape of an obstacle at its pose.
 pub(super) enum PosedShape {
     Round(Capsule),
     Box(PosedBox),

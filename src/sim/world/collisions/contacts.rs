@@ -11,11 +11,11 @@ use crate::math::Vec3;
 
 /// Parts nearer than this take part in the solve even if they move apart, m.
 const NEARBY: f64 = 0.02;
-/// Most points between two figures' segments, and between a segment and a flat thing.
+/// Largest number of points between two figures' segments, and between a segment and a flat obstacle.
 const POINTS_ROUND: usize = 3;
 const POINTS_FLAT: usize = 8;
 
-/// The few points of two parts that will be nearest, or deepest, at the end of the substep.
+/// The few points of two parts that will be nearest or deepest at the end of the substep.
 struct Best<'a, const N: usize> {
     cast: &'a Cast<'a>,
     participant: [Participant; 2],
@@ -97,7 +97,7 @@ fn point_at(p: Vec3, shape: &PosedShape) -> Option<Near> {
     }
 }
 
-/// Distance of the surface of `shape` from a ball, at least.
+/// Lower bound on the distance of the surface of `shape` from a ball.
 fn clearance(p: Vec3, radius: f64, shape: &PosedShape) -> f64 {
     match shape {
         PosedShape::Round(c) => {
@@ -127,7 +127,7 @@ fn ball(f: &Figure, s: usize) -> (Vec3, f64, f64) {
 }
 
 impl Cluster {
-    /// All points of the cluster at which something may push within `h` seconds.
+    /// Finds all points of the cluster at which bodies may push each other within `h` seconds.
     pub(super) fn find_contacts(&mut self, cast: &Cast<'_>, h: f64, led_for: f64) {
         self.candidates.clear();
         for k in 0..self.pairs.len() {
@@ -205,7 +205,7 @@ impl Cluster {
             let participant = [Participant::Figure(i), b];
             let mut best = Best::<POINTS_FLAT>::new(cast, participant, [s, 0], h);
             if is_foot(s) {
-                // Soles are flat: their own points carry, as on the ground.
+                // Soles are flat, so their own contact points carry, as on the ground.
                 let t = f.substep_dynamics();
                 for point in &f.body().segments[s].contact_points {
                     if let Some(near) = point_at(t.point_world(s, *point), &o.shape) {

@@ -1,4 +1,4 @@
-//! Solves every island of bodies that touch, and lets the impulses act.
+//! Solves every island of touching bodies, and applies the impulses.
 
 use super::cast::Cast;
 use super::{Candidate, Cluster, Participant, find, unite};
@@ -13,18 +13,18 @@ use crate::touch::MAX_ISLAND_CONTACTS as MAX_CONTACTS;
 
 /// Compliance of a contact between bodies, 1/kg.
 const COMPLIANCE: f64 = 1e-4;
-/// Share of a penetration beyond the slop that is taken back per substep.
+/// Share of a penetration beyond the slop that is corrected per substep.
 const RETURN_SHARE: f64 = 0.1;
-/// Penetration that is left alone, m.
+/// Penetration that is not corrected, m.
 const SLOP: f64 = 1e-4;
-/// The same where a figure takes part, m: flesh gives. Round parts that slide past each other sink in by a millimetre
-/// or two, and lifting a body that lies on them back out would give it energy.
+/// The same for contacts of a figure, m, because flesh yields. Round parts that slide past each other sink in by a
+/// millimetre or two, and pushing out a body that lies on them would give it energy.
 const FLESH: f64 = 4e-3;
-/// Fastest push-out, m/s: slow, because it gives energy to what presses on the contact.
+/// Fastest push-out, m/s. It is slow because it gives energy to the body that presses on the contact.
 const RETURN_SPEED: f64 = 0.05;
 
 impl Cluster {
-    /// Solves every island of bodies that are near each other, and lets the impulses act.
+    /// Solves every island of nearby bodies, and applies the impulses.
     pub(super) fn solve(&mut self, world: &TickContext, cast: &mut Cast<'_>, h: f64, substep: u32) {
         if self.candidates.is_empty() {
             return;
@@ -52,7 +52,7 @@ impl Cluster {
             self.block.resize(total, None);
             let mut mine =
                 |c: &Candidate| index(c.participant[0]).is_some_and(|i| find(parent, i) == root);
-            // Too many: the deepest stay.
+            // If there are too many, keep the deepest.
             let count = self.candidates.iter().filter(|c| mine(c)).count();
             if count == 0 {
                 continue;
@@ -115,7 +115,7 @@ impl Cluster {
         r.islands += 1;
         r.iterations += u64::from(outcome.iterations);
         r.unfinished += u64::from(!outcome.converged);
-        // What acts on each body.
+        // Apply the impulses to each body.
         for i in 0..nf {
             if self.block[i].is_none() {
                 continue;
@@ -123,7 +123,7 @@ impl Cluster {
             let impulse = self.island.figure_impulse(i).expect("it has a block");
             let figure = &mut cast.figures[i].1;
             if impulse == [0.0; NV] {
-                // Near, but not touched: the same bits as if it were alone.
+                // A figure that is near but not touched keeps the bits that it has alone.
                 figure.open_substep(world, substep);
             } else {
                 figure.touch(impulse, outcome);
@@ -214,7 +214,7 @@ fn add_contact(
     } else {
         -(RETURN_SHARE * (-n.gap - slop).max(0.0) / h).min(RETURN_SPEED)
     };
-    // What moves by itself brings its velocity along; the second body is the one that can be firm.
+    // A firm body enters with its velocity; only the second body can be firm.
     let firm = match block[1] {
         None => cast.velocity(c.participant[1], c.part[1], n.position),
         Some(_) => Vec3::zero(),

@@ -1,10 +1,10 @@
-//! Stage 6 of a tick for everything that is near something else: which bodies are near each other, what touches, and
-//! one solve for all that touch.
+//! Stage 6 of a tick for all bodies that are near others: finds nearby bodies and their contacts, and solves for all
+//! touching bodies together.
 //!
-//! * [`neighbourhood`]: pairs of bodies that are near each other, and the clusters that follow.
-//! * [`cast`]: the bodies of one cluster and where they are.
+//! * [`neighbourhood`]: pairs of nearby bodies, and the clusters that they form.
+//! * [`cast`]: the bodies of one cluster and their places.
 //! * [`contacts`]: the points at which parts are nearest.
-//! * [`islands`]: the solve, and its impulses on everyone.
+//! * [`islands`]: the solve, and its impulses on all bodies.
 //! * [`staged`]: the paper's collisions instead, for figures that are moved by accelerations.
 
 mod cast;
@@ -23,7 +23,7 @@ use cast::Cast;
 pub(super) use neighbourhood::Neighbourhood;
 use serde::{Deserialize, Serialize};
 
-/// What the collisions of one tick came to.
+/// Report on the collisions of one tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CollisionReport {
     /// Pairs of bodies whose boxes overlapped.
@@ -39,11 +39,11 @@ pub struct CollisionReport {
     /// Deepest overlap of any two bodies at the start of any substep, m.
     pub depth: f64,
     /// Work of contacts between bodies, J: impulse times the mean of the relative velocities before and after; never
-    /// positive but for the return from overlaps, the work of led obstacles, and muscles that turn a motion around
+    /// positive except for the correction of overlaps, the work of led obstacles, and muscles that reverse a motion
     /// within one substep.
     pub work: f64,
-    /// The part of it along the motion that contacts leave behind, J: what they drive instead of stopping it. Zero but
-    /// for the return from overlaps and led obstacles.
+    /// The part of it along the motion after the contacts, J: the motion that they drive instead of stopping it. Zero
+    /// except for the correction of overlaps and for led obstacles.
     pub driven: f64,
 }
 
@@ -79,7 +79,7 @@ struct Candidate {
     mu: f64,
 }
 
-/// Bodies that may meet in this tick, with the buffers to let them.
+/// Bodies that may meet in this tick, with the buffers for their contacts.
 #[derive(Debug, Default)]
 struct Cluster {
     figures: (usize, usize),
@@ -145,8 +145,8 @@ impl Cluster {
         }
     }
 
-    /// Contact acts by forces. Figures whose accelerations are prescribed and that may meet something in this tick or
-    /// the next are moved by torques from here on; the others move on alone.
+    /// Contact acts by forces. From here on, figures with prescribed accelerations that may meet another body in this
+    /// tick or the next are moved by torques; the others move alone.
     fn hand_over(&mut self, world: &TickContext, cast: &mut Cast<'_>) {
         if cast.figures.iter().all(|(_, f)| !f.is_prescribed()) {
             return;
@@ -156,7 +156,7 @@ impl Cluster {
         }
         self.find_contacts(cast, 2.0 * world.dt, 0.0);
         self.report.depth = 0.0; // found again, at the start of the first substep
-        // Who meets somebody that torques move is moved by torques, too.
+        // A figure that meets a torque-driven figure is moved by torques too.
         let mut settled = false;
         while !settled {
             settled = true;

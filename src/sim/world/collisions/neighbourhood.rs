@@ -10,9 +10,9 @@ use crate::figure::{Figure, FigureKey, TickContext};
 use crate::math::Vec3;
 use crate::math::vec3::vec3;
 
-/// How much a body may exceed the way that its speed at the start of a tick predicts, m.
+/// Distance by which a body may exceed the motion predicted by its speed at the start of a tick, m.
 const SLACK: f64 = 0.05;
-/// Figures that are put deeper into each other than this pass through each other until they have parted, m.
+/// Figures that are placed deeper inside each other than this pass through each other until they have parted, m.
 const THROUGH: f64 = 0.03;
 
 /// Pairs of bodies that are near each other, and the clusters that follow.
@@ -20,7 +20,8 @@ const THROUGH: f64 = 0.03;
 pub(in super::super) struct Neighbourhood {
     bounds: Vec<Bounds>,
     pairs: Vec<(usize, usize)>,
-    /// Figures that were put into each other: they do not meet before they have parted. In ascending order.
+    /// Pairs of figures that were placed inside each other; they do not collide until they have parted. In ascending
+    /// order.
     through: Vec<(FigureKey, FigureKey)>,
     still_through: Vec<(FigureKey, FigureKey)>,
     parent: Vec<usize>,
@@ -32,7 +33,7 @@ pub(in super::super) struct Neighbourhood {
     pub(in super::super) report: CollisionReport,
 }
 
-/// Label of what is near nothing.
+/// Label of bodies that are near no other.
 const ALONE: usize = usize::MAX;
 
 /// A box around the figure for a tick of `dt`.
@@ -92,12 +93,12 @@ fn obstacle_bounds(o: &Obstacle, body: usize, dt: f64) -> Bounds {
 }
 
 impl Neighbourhood {
-    /// What passes on to the next tick: who passes through whom; and the report of the last one.
+    /// State for the next tick: the pairs that pass through each other, and the report of the last tick.
     pub(in super::super) fn saved(&self) -> (&[(FigureKey, FigureKey)], &CollisionReport) {
         (&self.through, &self.report)
     }
 
-    /// What [`Self::saved`] has said. `through` is brought into order.
+    /// Restores the values of [`Self::saved`]. `through` is sorted.
     pub(in super::super) fn restored(
         mut through: Vec<(FigureKey, FigureKey)>,
         report: CollisionReport,
@@ -110,18 +111,18 @@ impl Neighbourhood {
         }
     }
 
-    /// A figure is gone: it passes through nobody any more.
+    /// Forgets a removed figure, which passes through no other from now on.
     pub(in super::super) fn forget(&mut self, key: FigureKey) {
         self.through.retain(|(a, b)| *a != key && *b != key);
     }
 
-    /// True if the last [`Self::gather`] found a cluster.
+    /// Whether the last [`Self::gather`] found a cluster.
     pub(in super::super) fn any(&self) -> bool {
         self.count > 0
     }
 
-    /// Finds the pairs that may meet and orders `figures` and `obstacles` by cluster; what is alone comes last, and
-    /// obstacles that do not move freely after all that do. Returns how many figures are in clusters.
+    /// Finds the pairs that may meet, and orders `figures` and `obstacles` by cluster. Single bodies come last, and
+    /// obstacles that do not move freely come after all that do. Returns the number of figures in clusters.
     pub(in super::super) fn gather(
         &mut self,
         figures: &mut [(FigureKey, Box<Figure>)],
@@ -158,7 +159,7 @@ impl Neighbourhood {
                 unite(&mut self.parent, *i, *j);
             }
         }
-        // Every free body is in a cluster, if only with the ground.
+        // Every free body is in a cluster, even if only with the ground.
         let near = self.pairs.iter().flat_map(|(i, j)| [*i, *j]);
         for i in near.chain(nf..total).filter(|i| moves(*i)) {
             self.label[i] = 0;
@@ -184,7 +185,7 @@ impl Neighbourhood {
         self.label[..nf].iter().filter(|l| **l != ALONE).count()
     }
 
-    /// Leaves out the pairs of figures that were put into each other and have not parted since.
+    /// Leaves out the pairs of figures that were placed inside each other and have not parted since.
     fn pass_through(&mut self, figures: &mut [(FigureKey, Box<Figure>)]) {
         let Self {
             pairs,
@@ -226,7 +227,7 @@ impl Neighbourhood {
         for (i, (_, o)) in obstacles.iter_mut().enumerate() {
             o.cluster = self.label[nf + i];
         }
-        // Where everything goes, before it goes there.
+        // Compute all destinations before moving anything.
         let place = &mut self.place;
         place.clear();
         place.resize(self.label.len(), 0);
@@ -275,7 +276,7 @@ impl Neighbourhood {
                 }
             };
             let (a, b) = (participant(*i), participant(*j));
-            // Figures come first by index; of two obstacles the one that moves.
+            // Figures come first by index; of two obstacles, the moving one comes first.
             let (a, b, k) = if matches!(a, Participant::Firm(_)) {
                 (b, a, *j)
             } else {
@@ -294,7 +295,7 @@ impl Neighbourhood {
         obstacles.sort_unstable_by_key(|(k, o)| (o.cluster, *k));
     }
 
-    /// Stage 6 and what follows, for all clusters. `figures` and `obstacles` as [`Self::gather`] ordered them.
+    /// Stage 6 and the later stages, for all clusters. `figures` and `obstacles` as [`Self::gather`] ordered them.
     pub(in super::super) fn simulate(
         &mut self,
         world: &TickContext,
@@ -345,7 +346,7 @@ impl Neighbourhood {
     }
 }
 
-/// True if two figures are deeper in each other than touching can explain.
+/// Whether two figures overlap more deeply than touching can explain.
 fn overlap(a: &Figure, b: &Figure) -> bool {
     (0..SEGMENT_COUNT).any(|s| {
         a.shape().capsules[s].iter().any(|c| {

@@ -1,7 +1,7 @@
 //! Collisions of figures that are moved by their accelerations, in the two stages of §3 of the paper: the impact
-//! changes velocities, then angles are corrected until nothing overlaps. The reaction is what the figure touches with
-//! in the next tick: the controller counts on it in its inverse dynamics, so a part stays where it touches as long as
-//! there is torque to press it on, and parts when there is not.
+//! changes velocities, then angles are corrected until nothing overlaps. The reaction is a contact force in the next
+//! tick: the controller includes it in its inverse dynamics, so a part keeps touching as long as there is enough torque
+//! to press it on, and parts otherwise.
 
 use super::cast::Cast;
 use super::{Candidate, Cluster, Participant};
@@ -15,7 +15,7 @@ use crate::figure::params::staged::{CORRECTION, CORRECTIONS, OVERLAP};
 use crate::figure::touches::Contacting;
 use crate::math::Vec3;
 
-/// What one system is for.
+/// Purpose of one system.
 #[derive(Clone, Copy, PartialEq)]
 enum Stage {
     Impact,
@@ -23,7 +23,7 @@ enum Stage {
 }
 
 impl Cluster {
-    /// True if a pair can meet in stages: figures that are moved so, and things that do not move freely.
+    /// Whether a pair can meet in stages: staged figures, and obstacles that do not move freely.
     pub(super) fn in_stages(cast: &Cast<'_>, pair: [Participant; 2]) -> bool {
         pair.into_iter().all(|p| match p {
             Participant::Figure(i) => cast.figures[i].1.meets_in_stages(),
@@ -32,7 +32,7 @@ impl Cluster {
         })
     }
 
-    /// Both stages for figures that have moved by their accelerations in this tick; `pairs` are theirs.
+    /// Both stages, for figures that have moved by their accelerations in this tick, with `pairs` of such figures.
     ///
     /// Section 3 of the paper.
     pub(super) fn meet(&mut self, world: &TickContext, cast: &mut Cast<'_>) {
@@ -60,7 +60,7 @@ impl Cluster {
         std::mem::swap(&mut self.pairs, &mut self.staged);
     }
 
-    /// Where the figures touch in the state that they have come to.
+    /// Finds the contacts of the figures in their new state.
     fn find_staged(&mut self, world: &TickContext, cast: &mut Cast<'_>) {
         for (_, f) in cast.figures.iter_mut() {
             if f.meets_in_stages() {
@@ -72,7 +72,7 @@ impl Cluster {
         self.candidates.retain(deep);
     }
 
-    /// Rows of the present candidates. False if there is nothing to do.
+    /// Sets up the rows of the present candidates. Returns false if there is nothing to do.
     fn set_up(&mut self, world: &TickContext, cast: &Cast<'_>, stage: Stage) -> bool {
         self.impact.clear();
         self.block.clear();
@@ -81,7 +81,7 @@ impl Cluster {
         if !self.candidates.iter().any(matters) {
             return false;
         }
-        // Feet first: they hold whatever else is left out for want of room.
+        // Feet come first, because they must hold even if other rows are left out for lack of room.
         for c in self.candidates.iter().filter(|c| matters(c)) {
             for participant in c.participant {
                 let Participant::Figure(i) = participant else {
@@ -98,7 +98,7 @@ impl Cluster {
                 };
                 let b = self.impact.add_body(&t.mass_matrix, &velocity);
                 self.block[i] = Some(b);
-                // A foot does not pull on the floor by more than the body weighs in this tick.
+                // A foot pulls on the floor by at most the impulse of the body's weight in this tick.
                 let least = match stage {
                     Stage::Impact => -t.composite.mass[0] * world.gravity * world.dt,
                     Stage::Correction => f64::NEG_INFINITY,
@@ -173,10 +173,10 @@ impl Cluster {
     }
 }
 
-/// Groups of rows below this are those of what holds.
+/// Groups of rows below this number belong to supports that hold.
 const HOLDS: usize = 1 << 16;
 
-/// Rows by which what the figure stands on holds still: whole feet, or the point about which one tips.
+/// Adds rows that keep the supports of the figure still: whole feet, or the point about which a foot tips.
 fn hold_feet(impact: &mut Impact, f: &crate::figure::Figure, body: usize, least: f64) {
     let t = f.substep_dynamics();
     for (n, (segment, point)) in f.held_still().into_iter().flatten().enumerate() {
@@ -196,7 +196,7 @@ fn hold_feet(impact: &mut Impact, f: &crate::figure::Figure, body: usize, least:
         for k in rows {
             let mut row = Row::new([Some(body), None], group);
             row.jacobian[0].copy_from_slice(&jacobian[k][..NV]);
-            // Only the vertical force says whether it pulls.
+            // Only the vertical force decides whether it pulls.
             if k == 5 {
                 row.least = least;
             }

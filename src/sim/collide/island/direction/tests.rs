@@ -1,5 +1,6 @@
-//! Goal: the direction does not depend on the space in which the coupling is taken in. Method: random figures and free
-//! bodies, random contacts between them and with fixed things; both ways, and the equation that they solve.
+//! Goal: the direction does not depend on the space in which the coupling is solved. Method: random figures and free
+//! bodies with random contacts between them and with fixed objects are solved in both spaces, and the equation itself
+//! is checked.
 
 use super::*;
 use crate::collide::island::ContactLaw;
@@ -72,7 +73,7 @@ pub(in super::super) fn scene(rng: &mut Rng, count: usize) -> (Island, Vec<Puppe
         let (a, b) = [(0, 2), (0, 1), (3, 2), (1, 3), (0, 4), (4, 1)][n % 6];
         let block = [(a < 4).then_some(a), (b < 4).then_some(b)];
         let normal = vector(rng).normalized_or(Vec3::Z);
-        // Chains as bodies have them: one segment's columns.
+        // Use real chains: the columns of one segment.
         let parts = [rng.unit(), rng.unit()].map(|u| (9.0 + 8.9 * u) as usize);
         let r = vector(rng);
         island.add_contact(

@@ -1,6 +1,6 @@
-//! Goal: islands are solved within their bound, and to the solution. Method: figures and free bodies at random with
-//! weak motors, joint limits, ground and up to a hundred contacts, thrown at each other; the same problem in its dual
-//! form (velocities, motor values, limits, forces), put together from inertia and rows alone, and solved by another
+//! Goal: islands are solved within their bound, and to the solution. Method: random figures and free bodies with weak
+//! motors, joint limits, ground and up to a hundred contacts are thrown at each other. The same problem in its dual
+//! form (velocities, motor values, limits, forces) is built from inertia and rows alone, and solved by another
 //! interior-point method (clarabel).
 
 use super::super::direction::tests::{Puppet, numbers, scene};
@@ -17,7 +17,7 @@ use clarabel::solver::{
     DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT,
 };
 
-/// An island with everything in it, whose bodies are `fast` times as fast as theirs.
+/// An island with all kinds of bodies and contacts, whose bodies are `fast` times as fast as usual.
 fn hard(rng: &mut Rng, contacts: usize, fast: f64) -> (Island, Vec<Puppet>) {
     let (island, mut figures) = scene(rng, contacts);
     for p in &mut figures {
@@ -30,7 +30,7 @@ fn hard(rng: &mut Rng, contacts: usize, fast: f64) -> (Island, Vec<Puppet>) {
             let most = rng.between(0.001, 3.0);
             (p.motors.lower[j], p.motors.upper[j]) = (-most * rng.between(0.2, 1.0), most);
         }
-        // One without strength.
+        // A motor without strength.
         (p.motors.lower[7], p.motors.upper[7]) = (0.0, 0.0);
         for d in 0..DOF_COUNT {
             p.limits.rows.push(LimitRow {
@@ -238,8 +238,8 @@ fn islands_are_solved_within_their_bound() {
     );
 }
 
-/// A free body has six velocities in a block with room for those of a figure. Gradients that are no numbers behind
-/// them, as an interior point that has left its cone writes them, are not Newton's.
+/// A free body has six velocities in a block with room for those of a figure. An interior point that has left its cone
+/// writes NaN into the unused gradients; Newton's method must ignore them.
 #[test]
 fn what_an_interior_point_left_behind_does_not_stop_newton() {
     let (mut island, mut figures) = hard(&mut Rng::new(3), 10, 30.0);
