@@ -7,8 +7,8 @@ CARGO ?= cargo
 PYTHON ?= python3
 export PYTHON
 RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml clients tests
-# The command and the small client of clients/examples, as the tests of other languages call them.
-PROGRAMS := $(CARGO) build --locked --bin sinew --example client
+# What tests in other languages call. Selected from the whole workspace, they have the features of `cargo test`.
+PROGRAMS := $(CARGO) build --locked --workspace --bin sinew --bin dump_dynamics --bin dump_paper --example client
 # Node and Go of .venv, where the system has none that is recent enough (tests/setup.sh).
 oracle load python viewer pages proto generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
@@ -30,7 +30,7 @@ test: $(PARTS) ## every test that needs nothing from outside the repository; ins
 
 recordings: ## the tests that need real motion capture in SINEW_MOCAP_DIR
 	@$(ROOT)/tests/recordings/check.sh
-	cd $(ROOT) && $(CARGO) test --locked -p sinew-evaluate --test recordings
+	cd $(ROOT) && $(CARGO) test --locked --test recordings
 	@$(ROOT)/tests/survey.sh strict
 	@echo "make recordings: passed, with $(SINEW_MOCAP_DIR)."
 
@@ -102,12 +102,11 @@ soak: ## a million figure-ticks of everything that can be asked for, about twent
 	$(ROOT)/tests/soak.sh
 
 fuzz: ## a million cases of everything that reads bytes from outside; some hours
-	cd $(ROOT) && SINEW_FUZZ_CASES=1000000 $(CARGO) test --locked -p sinew-server --test server fuzz -- --nocapture
-	cd $(ROOT) && PROPTEST_CASES=1000000 $(CARGO) test --locked -p sinew-server --lib rows_of_any_bytes
+	cd $(ROOT) && SINEW_FUZZ_CASES=1000000 $(CARGO) test --locked --test server fuzz -- --nocapture
+	cd $(ROOT) && PROPTEST_CASES=1000000 $(CARGO) test --locked --lib rows_of_any_bytes
 
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
 	cd $(ROOT) && $(PROGRAMS)
-	cd $(ROOT) && $(CARGO) build --locked -p tools --bin dump_dynamics --bin dump_paper
 	cd $(ROOT) && .venv/bin/python -m pytest tests/oracle
 
 viewer: setup ## the viewer in a real browser, the TypeScript client, and that the bundle is what its source builds
@@ -121,7 +120,7 @@ python: setup ## the Python package: types, tests, examples, wheel; vectors of t
 	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest -m "not nightly"
 
 generate: setup ## what is made from proto/ in three languages, and the plain Python client
-	cd $(ROOT) && SINEW_REWRITE=1 $(CARGO) test --locked -p sinew-source --test source proto_bootstrap
+	cd $(ROOT) && SINEW_REWRITE=1 $(CARGO) test --locked --test source proto_bootstrap
 	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/generate.py
 	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/unasync.py
 	cd $(ROOT)/clients/web && npm run --silent generate

@@ -14,4 +14,4 @@ case "${1:-}" in
 esac
 [ "${1:-}" != -- ] || shift
 cd "$root"
-SINEW_SOAK_SECONDS=$seconds cargo test --locked "$@" -p sinew --test command operations::soak -- --nocapture
+SINEW_SOAK_SECONDS=$seconds cargo test --locked "$@" --test command operations::soak -- --nocapture

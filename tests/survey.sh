@@ -28,8 +28,8 @@ fi
 if [ -n "${SINEW_BIN:-}" ]; then
     binary=$SINEW_BIN
 else
-    # The example brings in what tests need: the same crates with the same features, so that nothing is compiled twice.
-    (cd "$root" && "${CARGO:-cargo}" build --locked --quiet --bin sinew --example client)
+    # Selected like this it has the features of `cargo test`, so that nothing is compiled twice.
+    (cd "$root" && "${CARGO:-cargo}" build --locked --quiet --workspace --bin sinew --bin dump_dynamics --bin dump_paper --example client)
     binary=${CARGO_TARGET_DIR:-$root/target}/debug/sinew
 fi
 results=${CARGO_TARGET_DIR:-$root/target}/survey

@@ -9,4 +9,4 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 cd "$root"
 SINEW_ABUSE_SECONDS=${SINEW_ABUSE_SECONDS:-30}
 export SINEW_ABUSE_SECONDS
-exec "${CARGO:-cargo}" test --locked -p sinew --test command "abuse::${1:-}" -- --nocapture
+exec "${CARGO:-cargo}" test --locked --test command "abuse::${1:-}" -- --nocapture

@@ -23,4 +23,4 @@ while [ $# -gt 0 ]; do
     esac
 done
 export SINEW_CHAOS_SECONDS
-exec "${CARGO:-cargo}" test --locked -p sinew --test command chaos:: -- --nocapture
+exec "${CARGO:-cargo}" test --locked --test command chaos:: -- --nocapture

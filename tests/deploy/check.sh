@@ -31,8 +31,8 @@ python3 -m json.tool "$root/deploy/grafana/sinew.json" >/dev/null
 if [ -n "${SINEW_BIN:-}" ]; then
     binary=$SINEW_BIN
 else
-    # The example brings in what tests need: the same crates with the same features, so that nothing is compiled twice.
-    (cd "$root" && cargo build --quiet --locked --bin sinew --example client)
+    # Selected like this it has the features of `cargo test`, so that nothing is compiled twice.
+    (cd "$root" && cargo build --quiet --locked --workspace --bin sinew --bin dump_dynamics --bin dump_paper --example client)
     binary=${CARGO_TARGET_DIR:-$root/target}/debug/sinew
 fi
 work=$(mktemp -d)

@@ -43,9 +43,9 @@ fi
 if [ -n "${SINEW_BIN:-}" ]; then
     binary=$SINEW_BIN
 else
-    # The example brings in what tests need: the same crates with the same features, so that nothing is compiled twice.
+    # Selected like this it has the features of `cargo test`, so that nothing is compiled twice.
     # shellcheck disable=SC2086 # an empty flag must vanish
-    (cd "$root" && cargo build --quiet --locked $flag --bin sinew --example client)
+    (cd "$root" && cargo build --quiet --locked $flag --workspace --bin sinew --bin dump_dynamics --bin dump_paper --example client)
     binary=${CARGO_TARGET_DIR:-$root/target}/$profile/sinew
 fi
 

@@ -20,13 +20,9 @@ def target() -> Path:
 
 
 def build() -> None:
-    """Builds the programs with the profile of the tests; nothing to do when `make` has done so. The example brings in
-    the features of the tests' crates, so that the server is not compiled once more without them."""
-    for programs in (
-        ["--bin", "sinew", "--example", "client"],
-        ["-p", "tools", "--bin", "dump_dynamics", "--bin", "dump_paper"],
-    ):
-        subprocess.run(["cargo", "build", "--quiet", "--locked", *programs], cwd=ROOT, check=True)
+    """Builds the programs with the profile of the tests; nothing to do when `make` has done so."""
+    programs = ["--bin", "sinew", "--bin", "dump_dynamics", "--bin", "dump_paper", "--example", "client"]
+    subprocess.run(["cargo", "build", "--quiet", "--locked", "--workspace", *programs], cwd=ROOT, check=True)
 
 
 @pytest.fixture(scope="session")

@@ -2,11 +2,8 @@
 //! without stepping. `paper` does the work of the assembled Pinocchio + Eigen tick; `decide` is the controller alone.
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
-#[path = "common/decision.rs"]
-mod decision;
-
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use decision::{DT, Decision};
+use benches::{DT, Decision};
 use sinew_physics::body::Body;
 use sinew_physics::control::{Modern, Paper};
 use sinew_physics::motion::TargetPair;

@@ -4,10 +4,7 @@
 //! made by a separate controller that sees every state and target of the run.
 #![allow(missing_docs)]
 
-#[path = "common/decision.rs"]
-mod decision;
-
-use decision::Decision;
+use benches::Decision;
 use sinew_physics::body::Body;
 use sinew_physics::body::topology::CHEST;
 use sinew_physics::control::Modern;
