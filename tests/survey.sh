@@ -25,13 +25,7 @@ if [ "${1:-}" = --store ]; then
     store=yes
     shift
 fi
-if [ -n "${SINEW_BIN:-}" ]; then
-    binary=$SINEW_BIN
-else
-    # Selected like this it has the features of `cargo test`, so that nothing is compiled twice.
-    (cd "$root" && "${CARGO:-cargo}" build --locked --quiet --workspace --bin sinew --bin dump_dynamics --bin dump_paper --example client)
-    binary=${CARGO_TARGET_DIR:-$root/target}/debug/sinew
-fi
+binary=$("$root/tests/programs.sh")
 results=${CARGO_TARGET_DIR:-$root/target}/survey
 mkdir -p "$results"
 status=0

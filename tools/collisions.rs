@@ -1,10 +1,12 @@
 //! Figures that collide with figures and obstacles: runs each scene, draws it as a strip and reports the result.
 //!
 //! ```sh
-//! cargo run --release --example collisions -- out
+//! cargo run --release -p tools --bin collisions -- out
 //! ```
 use sinew_evaluate::Tick;
-use sinew_evaluate::strip::{Frame, StripOptions, Thing, View, draw, evenly_spaced, raster, svg};
+use sinew_evaluate::strip::{
+    StripFrame, StripOptions, Thing, View, draw, evenly_spaced, raster, svg,
+};
 use sinew_physics::body::topology::CHEST;
 use sinew_physics::body::{Body, State};
 use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
@@ -109,7 +111,7 @@ fn main() -> std::io::Result<()> {
                 let others = world.figures().filter(|(k, _)| *k != key);
                 let others = others.flat_map(|(_, f)| Thing::figure(f.body(), &f.state().posture));
                 let things = world.obstacles().map(|(_, o)| Thing::obstacle(o.setup()));
-                let frame = Frame::of(&tick, world.time(), Vec::new());
+                let frame = StripFrame::of(&tick, world.time(), Vec::new());
                 frames.push(frame.among(others.chain(things)));
             }
         }

@@ -1,5 +1,5 @@
 //! Writes random states of several bodies with the results of Sinew's dynamics, for comparison with other engines:
-//! `cargo run --example dump_dynamics -- OUT_DIR [STATES_PER_MODEL]`.
+//! `cargo run -p tools --bin dump_dynamics -- OUT_DIR [STATES_PER_MODEL]`.
 //!
 //! For each model `OUT_DIR/<name>.mjcf`, `OUT_DIR/<name>.urdf` and `OUT_DIR/<name>.f64`: one record per state of
 //! little-endian doubles, whose fields and sizes `OUT_DIR/manifest.json` lists in order.

@@ -1,5 +1,5 @@
 //! Writes the data that `tests/oracle/test_paper.py` checks: support ratios (2) on planes of any slope, and impacts of
-//! §3 of the paper: `cargo run --example dump_paper -- FILE.json [CASES]`.
+//! §3 of the paper: `cargo run -p tools --bin dump_paper -- FILE.json [CASES]`.
 
 #[allow(dead_code)] // loads are for the other example
 #[path = "../tests/physics/oracle/bodies.rs"]
@@ -9,10 +9,10 @@ use bodies::{generator, random_body, random_state, vector};
 use serde_json::{Value, json};
 use sinew_physics::body::topology::{CHEST, L_FOOT, NV, R_FOOT, R_HAND};
 use sinew_physics::body::{DOF_COUNT, Links, SegmentId};
-use sinew_physics::collide::impact::{Impact, Row};
 use sinew_physics::dynamics::Terms;
 use sinew_physics::dynamics::jacobian::for_each_column;
 use sinew_physics::math::Vec3;
+use sinew_physics::paper::impact::{Impact, ImpactRow};
 use sinew_physics::support::ratio::{Touching, support_ratios};
 use std::error::Error;
 
@@ -74,7 +74,7 @@ fn impact(case: usize) -> Value {
         let t = &terms[0];
         let at = t.segment_position(L_FOOT.index());
         for n in [Vec3::X, Vec3::Y, Vec3::Z] {
-            let mut row = Row::new([Some(0), None], 0);
+            let mut row = ImpactRow::new([Some(0), None], 0);
             row.jacobian[0] = along(t, L_FOOT, at, n);
             rows.push((row, [at, n]));
         }
@@ -82,7 +82,7 @@ fn impact(case: usize) -> Value {
     for k in 0..1 + case % 4 {
         let n = vector(&mut rng, 1.0).normalized_or(Vec3::X);
         let at = vector(&mut rng, 0.5);
-        let mut row = Row::new([Some(0), Some(1)], 1 + k);
+        let mut row = ImpactRow::new([Some(0), Some(1)], 1 + k);
         row.jacobian = [
             along(&terms[0], CHEST, at, n),
             along(&terms[1], R_HAND, at, n * -1.0),

@@ -1,5 +1,5 @@
 //! Runs one piece of work N times and nothing else, for instruction counts under valgrind: `instructions WORK N`.
-//! See `benches/instructions.sh`, which takes the difference of two runs, so that start-up cancels.
+//! See `tools/benches/instructions.sh`, which takes the difference of two runs, so that start-up cancels.
 
 use sinew_physics::body::{Body, Links, NV, State};
 use sinew_physics::dynamics::lanes::rnea_x8;
@@ -10,7 +10,7 @@ use sinew_physics::dynamics::{
 use sinew_physics::figure::ControllerKind;
 use sinew_physics::math::{F64x8, Lane};
 use sinew_physics::motion::builtin::builtin;
-use sinew_physics::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
+use sinew_physics::world::{ClipPlayback, FigureSetup, MotionSource, World, WorldParams};
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ fn squatting(controller: ControllerKind) -> World {
         .add_figure(FigureSetup::new(body, controller, start.state()))
         .expect("a valid figure");
     let figure = world.figure_mut(key).expect("just added");
-    figure.set_drive(Drive::Clip(ClipPlayback {
+    figure.set_drive(MotionSource::Clip(ClipPlayback {
         looped: true,
         ..ClipPlayback::new(clip, 0.0)
     }));

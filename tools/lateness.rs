@@ -1,7 +1,7 @@
 //! How late ticks begin when many worlds share a few threads, against a thread for each world, in one run.
 //!
 //! ```sh
-//! cargo run --release --example lateness -- 10      # seconds of each measurement
+//! cargo run --release -p tools --bin lateness -- 10      # seconds of each measurement
 //! ```
 //!
 //! 1,000 empty worlds, then 120 worlds with one figure each, all at 60 Hz. Lateness is the time from the deadline of a
@@ -10,10 +10,10 @@
 //! allows it.
 use sinew_physics::body::Body;
 use sinew_server::tick::budget::Budget;
-use sinew_server::tick::command::Queue;
+use sinew_server::tick::command::CommandQueue;
+use sinew_server::tick::hosted_world::{HostedWorld, WorldLimits};
 use sinew_server::tick::planners::Planners;
-use sinew_server::tick::scheduler::{Plan, Priority, Scheduler};
-use sinew_server::tick::shard::{Limits, Shard};
+use sinew_server::tick::scheduler::{Scheduler, SchedulerPlan, WorkerPriority};
 use sinew_server::tick::{Next, Outlet, Runner};
 use sinew_wire::{convert, pb};
 use std::sync::Arc;
@@ -29,8 +29,8 @@ struct Common {
 }
 
 struct World {
-    shard: Shard,
-    commands: Arc<Queue>,
+    shard: HostedWorld,
+    commands: Arc<CommandQueue>,
     outlet: Arc<Outlet>,
 }
 
@@ -39,13 +39,13 @@ struct Measured([f64; 5]);
 
 fn world(common: &Common, figures: usize) -> World {
     let settings = convert::world::settings(Some(pb::World::default())).expect("defaults");
-    let limits = Limits {
+    let limits = WorldLimits {
         figures: 64,
         window: 0.0,
     };
     let (planners, budget) = (common.planners.clone(), common.budget.clone());
     let mut shard =
-        Shard::new("w".into(), settings, false, limits, planners, budget).expect("a world");
+        HostedWorld::new("w".into(), settings, false, limits, planners, budget).expect("a world");
     for _ in 0..figures {
         let settings = convert::figure::settings("figure", None).expect("defaults");
         let made = shard.create_figure(None, settings, common.body.clone());
@@ -53,7 +53,7 @@ fn world(common: &Common, figures: usize) -> World {
     }
     World {
         outlet: Arc::new(Outlet::new(&mut shard, 64, 1024)),
-        commands: Arc::new(Queue::new(1024)),
+        commands: Arc::new(CommandQueue::new(1024)),
         shard,
     }
 }
@@ -135,8 +135,8 @@ fn apart(worlds: Vec<World>, seconds: f64) -> Measured {
 }
 
 /// The scheduler's threads.
-fn shared(worlds: Vec<World>, priority: Priority, seconds: f64) -> Measured {
-    let plan = Plan {
+fn shared(worlds: Vec<World>, priority: WorkerPriority, seconds: f64) -> Measured {
+    let plan = SchedulerPlan {
         workers: 0,
         priority,
         slow: Duration::from_secs(1),
@@ -175,8 +175,8 @@ fn main() {
         let each = (resident_kib() - before) / f64::from(count);
         println!("  {each:.0} KiB of memory each, before the first tick");
         let old = apart(worlds, seconds);
-        let plain = shared(make(), Priority::Plain, seconds);
-        let real = shared(make(), Priority::Fifo, seconds);
+        let plain = shared(make(), WorkerPriority::Plain, seconds);
+        let real = shared(make(), WorkerPriority::Fifo, seconds);
         println!("                      a thread each   shared   ratio   real time   ratio");
         let names = [
             "late, median, ms",

@@ -1,8 +1,10 @@
 //! The part of `sinew paper` that compares pairs of controller and stepper over motions, loads and pushes.
 
 use super::page::Page;
-use sinew_evaluate::experiments::Pair;
-use sinew_evaluate::experiments::compare::{Burden, IMPULSES, LOADS, Motion, Outcome, compare};
+use sinew_evaluate::experiments::ControlPair;
+use sinew_evaluate::experiments::compare::{
+    Burden, ComparedMotion, ComparedOutcome, IMPULSES, LOADS, compare,
+};
 use sinew_evaluate::experiments::fall::DIRECTIONS;
 use sinew_physics::body::Body;
 use sinew_physics::world::World;
@@ -10,17 +12,17 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// The pairs that are compared, in the order of the columns.
-fn pairs() -> [Pair; 4] {
+fn pairs() -> [ControlPair; 4] {
     [
-        Pair::paper_kinematic(),
-        Pair::paper_torque(),
-        Pair::modern(),
-        Pair::motors(),
+        ControlPair::paper_kinematic(),
+        ControlPair::paper_torque(),
+        ControlPair::modern(),
+        ControlPair::motors(),
     ]
 }
 
 /// One cell of the big tables.
-fn cell(o: &Outcome) -> String {
+fn cell(o: &ComparedOutcome) -> String {
     match o.fell_s {
         Some(t) => format!("falls at {t:.1} s"),
         None => format!("{:.2}°, {:.0} mm", o.joints_deg(), o.com_mm()),
@@ -30,7 +32,7 @@ fn cell(o: &Outcome) -> String {
 /// Sums over the outcomes of one pair.
 #[derive(Clone, Default)]
 struct Sum {
-    all: Outcome,
+    all: ComparedOutcome,
     stood: u32,
     of: u32,
     time: Duration,
@@ -38,7 +40,7 @@ struct Sum {
 }
 
 impl Sum {
-    fn add(&mut self, o: &Outcome, time: (Duration, u32)) {
+    fn add(&mut self, o: &ComparedOutcome, time: (Duration, u32)) {
         self.all.add(o);
         self.of += 1;
         self.stood += u32::from(o.fell_s.is_none());
@@ -51,7 +53,13 @@ impl Sum {
 }
 
 /// Runs one scene and adds it to the sum.
-fn run(body: &Arc<Body>, pair: &Pair, motion: &Motion, burden: Burden, sum: &mut Sum) -> Outcome {
+fn run(
+    body: &Arc<Body>,
+    pair: &ControlPair,
+    motion: &ComparedMotion,
+    burden: Burden,
+    sum: &mut Sum,
+) -> ComparedOutcome {
     let (mut time, mut ticks) = (Duration::ZERO, 0);
     let mut step = |world: &mut World| {
         let began = Instant::now();
@@ -64,7 +72,7 @@ fn run(body: &Arc<Body>, pair: &Pair, motion: &Motion, burden: Burden, sum: &mut
     out
 }
 
-fn head<'a>(first: &[&'a str], pairs: &[Pair]) -> Vec<&'a str> {
+fn head<'a>(first: &[&'a str], pairs: &[ControlPair]) -> Vec<&'a str> {
     first
         .iter()
         .copied()
@@ -81,7 +89,7 @@ fn load_name(mass: f64, both: bool) -> String {
 }
 
 /// One line per pair: how often it stayed up, with which errors, at which computing time.
-fn summary(page: &mut Page, pairs: &[Pair], sums: &[Sum], reference: &str) {
+fn summary(page: &mut Page, pairs: &[ControlPair], sums: &[Sum], reference: &str) {
     let cost = pairs
         .iter()
         .zip(sums)
@@ -118,22 +126,25 @@ fn summary(page: &mut Page, pairs: &[Pair], sums: &[Sum], reference: &str) {
 
 /// In how many scenes the modern pair stands where another falls, and vice versa.
 #[derive(Default)]
-struct Against {
+struct StandCounts {
     wins: [u32; 4],
     closest: [u32; 4],
     losses: Vec<String>,
     scenes: u32,
 }
 
-impl Against {
-    fn count(&mut self, scene: &str, pairs: &[Pair], outcomes: &[Outcome]) {
-        let stands = |o: &Outcome| o.fell_s.is_none();
-        let Some(modern) = pairs.iter().position(|p| p.name == Pair::modern().name) else {
+impl StandCounts {
+    fn count(&mut self, scene: &str, pairs: &[ControlPair], outcomes: &[ComparedOutcome]) {
+        let stands = |o: &ComparedOutcome| o.fell_s.is_none();
+        let Some(modern) = pairs
+            .iter()
+            .position(|p| p.name == ControlPair::modern().name)
+        else {
             return;
         };
         self.scenes += 1;
         let standing = outcomes.iter().enumerate().filter(|(_, o)| stands(o));
-        let error = |o: &Outcome| o.joints_deg();
+        let error = |o: &ComparedOutcome| o.joints_deg();
         if let Some((k, _)) = standing.min_by(|a, b| error(a.1).total_cmp(&error(b.1))) {
             self.closest[k] += 1;
         }
@@ -149,9 +160,9 @@ impl Against {
 }
 
 /// The whole comparison over `motions`; pushes act while the motions in `pushed` are played.
-pub fn section(page: &mut Page, body: &Arc<Body>, motions: &[Motion], pushed: &[&str]) {
+pub fn section(page: &mut Page, body: &Arc<Body>, motions: &[ComparedMotion], pushed: &[&str]) {
     let pairs = pairs();
-    let mut against = Against::default();
+    let mut against = StandCounts::default();
     page.say("### Motions and loads");
     page.say(
         "Each motion is played once, and one second more in its last posture. The load is in the right hand, or half \
@@ -163,7 +174,7 @@ pub fn section(page: &mut Page, body: &Arc<Body>, motions: &[Motion], pushed: &[
     for motion in motions {
         for (mass, both) in LOADS {
             let burden = Burden::Load(mass, both);
-            let outcomes: Vec<Outcome> = pairs
+            let outcomes: Vec<ComparedOutcome> = pairs
                 .iter()
                 .zip(&mut sums)
                 .map(|(p, s)| run(body, p, motion, burden, s))
@@ -176,7 +187,7 @@ pub fn section(page: &mut Page, body: &Arc<Body>, motions: &[Motion], pushed: &[
         }
     }
     page.table(&head(&["motion", "load"], &pairs), &rows);
-    summary(page, &pairs, &sums, Pair::modern().name);
+    summary(page, &pairs, &sums, ControlPair::modern().name);
     page.say(
         "Errors are counted up to a fall, so an early fall lowers the mean error. The torque changes include those of \
          falls.",
@@ -189,10 +200,10 @@ pub fn section(page: &mut Page, body: &Arc<Body>, motions: &[Motion], pushed: &[
 fn pushes(
     page: &mut Page,
     body: &Arc<Body>,
-    motions: &[Motion],
+    motions: &[ComparedMotion],
     pushed: &[&str],
-    pairs: &[Pair; 4],
-    against: &mut Against,
+    pairs: &[ControlPair; 4],
+    against: &mut StandCounts,
 ) {
     if !motions.iter().any(|m| pushed.contains(&m.name.as_str())) {
         return;
@@ -206,9 +217,9 @@ fn pushes(
         p.params.protective_steps = false;
         p
     });
-    let stepping = Pair {
+    let stepping = ControlPair {
         name: "modern, with steps",
-        ..Pair::modern()
+        ..ControlPair::modern()
     };
     let mut sums = vec![Sum::default(); pairs.len() + 1];
     let mut rows = Vec::new();
@@ -217,7 +228,7 @@ fn pushes(
         for (name, direction) in DIRECTIONS {
             for impulse in IMPULSES {
                 let burden = Burden::Push(direction * impulse);
-                let outcomes: Vec<Outcome> = fixed
+                let outcomes: Vec<ComparedOutcome> = fixed
                     .iter()
                     .chain([&stepping])
                     .zip(&mut sums)
@@ -235,18 +246,18 @@ fn pushes(
             }
         }
     }
-    let mut everyone: Vec<Pair> = fixed.to_vec();
+    let mut everyone: Vec<ControlPair> = fixed.to_vec();
     everyone.push(stepping);
     page.table(&head(&["motion", "push"], &everyone), &rows);
-    summary(page, &everyone, &sums, Pair::modern().name);
+    summary(page, &everyone, &sums, ControlPair::modern().name);
 }
 
-fn conclusion(page: &mut Page, pairs: &[Pair], against: &Against) {
+fn conclusion(page: &mut Page, pairs: &[ControlPair], against: &StandCounts) {
     page.say("### Summary");
     let wins: Vec<String> = pairs
         .iter()
         .zip(&against.wins)
-        .filter(|(p, _)| p.name != Pair::modern().name)
+        .filter(|(p, _)| p.name != ControlPair::modern().name)
         .map(|(p, n)| format!("{n} against *{}*", p.name))
         .collect();
     let closest: Vec<String> = pairs

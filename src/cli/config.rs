@@ -11,16 +11,16 @@ use std::fmt::Write as _;
 #[derive(Clone, Debug, clap::Args)]
 pub struct ConfigArgs {
     #[command(subcommand)]
-    action: Action,
+    action: ConfigAction,
 }
 
 /// What is asked.
 #[derive(Clone, Debug, clap::Subcommand)]
-enum Action {
+enum ConfigAction {
     /// Check the settings and what they name: certificates, keys, directories, the address; takes the flags of `serve`
-    Check(serve::Args),
+    Check(serve::ServeArgs),
     /// Show the settings and where each comes from: default, file, variable or flag; takes the flags of `serve`
-    Show(serve::Args),
+    Show(serve::ServeArgs),
 }
 
 /// Checks or shows settings.
@@ -29,12 +29,12 @@ enum Action {
 /// Settings that are not usable (usage); what they name cannot be used.
 pub fn run(args: &ConfigArgs) -> anyhow::Result<()> {
     match &args.action {
-        Action::Check(args) => check(args),
-        Action::Show(args) => show(args),
+        ConfigAction::Check(args) => check(args),
+        ConfigAction::Show(args) => show(args),
     }
 }
 
-fn check(args: &serve::Args) -> anyhow::Result<()> {
+fn check(args: &serve::ServeArgs) -> anyhow::Result<()> {
     let (config, _) = args.settings().map_err(usage)?;
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
@@ -49,7 +49,7 @@ fn check(args: &serve::Args) -> anyhow::Result<()> {
     }
 }
 
-fn show(args: &serve::Args) -> anyhow::Result<()> {
+fn show(args: &serve::ServeArgs) -> anyhow::Result<()> {
     let (config, sources) = args.settings().map_err(usage)?;
     let rows = config.shown();
     let values = rows

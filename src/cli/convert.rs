@@ -3,16 +3,16 @@
 use super::args::{BodyArgs, RecordingArgs, check_tempo};
 use super::number::{counted, hertz};
 use super::output::{check_folder, extension, write};
-use super::source::{Source, load, warn};
+use super::source::{LoadedClip, load, warn};
 use super::terminal::print_line;
 use anyhow::{Context, Result};
 use serde_json::json;
-use sinew_evaluate::table::{header, row};
 use sinew_physics::body::Body;
 use sinew_physics::body::angles::anatomical_angles;
 use sinew_physics::body::topology::DOF_NAMES;
+use sinew_physics::motion::table::{header, row};
 use sinew_physics::motion::write_bvh;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::reference::{Preparation, RetargetOptions};
 use std::path::PathBuf;
 
 /// Fits a recording to the body and writes the prepared motion.
@@ -69,13 +69,13 @@ pub fn run(args: &ConvertArgs) -> Result<()> {
     ))
 }
 
-fn as_bvh(source: &Source, body: &Body) -> String {
+fn as_bvh(source: &LoadedClip, body: &Body) -> String {
     let clip = &source.clip;
     let postures: Vec<_> = (0..clip.len()).map(|i| *clip.posture(i)).collect();
     write_bvh(body, &postures, clip.rate_hz())
 }
 
-fn as_csv(source: &Source) -> String {
+fn as_csv(source: &LoadedClip) -> String {
     let clip = &source.clip;
     let mut out = header(false);
     for i in 0..clip.len() {
@@ -84,7 +84,7 @@ fn as_csv(source: &Source) -> String {
     out
 }
 
-fn as_json(source: &Source) -> Result<String> {
+fn as_json(source: &LoadedClip) -> Result<String> {
     let clip = &source.clip;
     let samples: Vec<_> = (0..clip.len())
         .map(|i| {

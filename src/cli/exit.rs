@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 /// How a command ended when nothing failed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Outcome {
+pub enum ExitOutcome {
     /// Done.
     #[default]
     Done,
@@ -12,7 +12,7 @@ pub enum Outcome {
     Fell,
 }
 
-impl From<()> for Outcome {
+impl From<()> for ExitOutcome {
     fn from((): ()) -> Self {
         Self::Done
     }
@@ -49,35 +49,35 @@ impl From<Code> for ExitCode {
 /// Arguments that are wrong although each has the right form: exit code 2.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
-pub struct Usage(pub String);
+pub struct UsageError(pub String);
 
 /// Makes any error one of usage, with its causes in one sentence.
 pub fn usage(error: impl Into<anyhow::Error>) -> anyhow::Error {
-    Usage(format!("{:#}", error.into())).into()
+    UsageError(format!("{:#}", error.into())).into()
 }
 
 /// Checks the value of a flag; NaN is outside.
 ///
 /// # Errors
-/// [`Usage`]: it is outside; names the flag.
+/// [`UsageError`]: it is outside; names the flag.
 pub fn within(flag: &str, value: f64, [low, high]: [f64; 2]) -> anyhow::Result<()> {
     if (low..=high).contains(&value) {
         Ok(())
     } else {
-        Err(Usage(format!("{flag} {value}: outside {low}…{high}")).into())
+        Err(UsageError(format!("{flag} {value}: outside {low}…{high}")).into())
     }
 }
 
 /// The exit code of a finished command; an error is written to standard error.
-pub fn code(done: anyhow::Result<Outcome>) -> Code {
+pub fn code(done: anyhow::Result<ExitOutcome>) -> Code {
     match done {
-        Ok(Outcome::Done) => Code::Success,
-        Ok(Outcome::Fell) => Code::Fall,
+        Ok(ExitOutcome::Done) => Code::Success,
+        Ok(ExitOutcome::Fell) => Code::Fall,
         // The reader has seen enough.
         Err(error) if error.is::<super::terminal::OutputClosed>() => Code::Success,
         Err(error) => {
             super::terminal::note(&format!("error: {error:#}"));
-            if error.is::<Usage>() {
+            if error.is::<UsageError>() {
                 Code::Usage
             } else {
                 Code::Error
@@ -94,8 +94,8 @@ mod tests {
 
     #[test]
     fn each_outcome_has_its_code() {
-        assert_eq!(code(Ok(Outcome::Done)), Code::Success);
-        assert_eq!(code(Ok(Outcome::Fell)), Code::Fall);
+        assert_eq!(code(Ok(ExitOutcome::Done)), Code::Success);
+        assert_eq!(code(Ok(ExitOutcome::Fell)), Code::Fall);
         assert_eq!(code(Err(OutputClosed.into())), Code::Success);
         let inner = anyhow::anyhow!("--strength 0: outside 0.01…100");
         assert_eq!(code(Err(usage(inner)).context("run")), Code::Usage);

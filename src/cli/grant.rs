@@ -1,9 +1,9 @@
 //! `sinew grant`: grants roles in a world, takes them back, and lists them.
 
 use super::args::CredentialArgs;
-use super::exit::Usage;
+use super::exit::UsageError;
+use super::remote::{explain, world_resource};
 use super::terminal::print_line;
-use super::{explain, world_resource};
 use sinew_client::Client;
 use sinew_wire::pb;
 use tonic::Code;
@@ -43,7 +43,7 @@ fn role(name: &str) -> anyhow::Result<i32> {
     let wire = format!("ROLE_{}", name.to_uppercase());
     let role =
         pb::Role::from_str_name(&wire).filter(|_| name.chars().all(|c| c.is_ascii_lowercase()));
-    let role = role.ok_or_else(|| Usage(format!("there is no role {name:?}")))?;
+    let role = role.ok_or_else(|| UsageError(format!("there is no role {name:?}")))?;
     Ok(role.into())
 }
 
@@ -65,7 +65,7 @@ pub fn run(args: &GrantArgs) -> anyhow::Result<()> {
             None => list(&client, &world).await,
             Some(who) if args.revoke => revoke(&client, &world, who).await,
             Some(_) if args.roles.is_empty() => {
-                Err(Usage("give a --role, or --revoke".into()).into())
+                Err(UsageError("give a --role, or --revoke".into()).into())
             }
             Some(who) => grant(args, &client, &world, who).await,
         }

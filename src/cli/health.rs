@@ -1,7 +1,7 @@
 //! `sinew health`: asks a server whether it lives, and whether it takes new clients.
 
 use super::args::CredentialArgs;
-use super::explain;
+use super::remote::explain;
 use super::terminal::print_line;
 use sinew_server::health::{LIVENESS, READINESS};
 use std::time::Duration;
@@ -11,7 +11,7 @@ const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Arguments of `sinew health`.
 #[derive(Clone, Debug, clap::Args)]
-pub struct Args {
+pub struct HealthArgs {
     /// Server, host:port
     #[arg(default_value = "127.0.0.1:7463")]
     address: String,
@@ -29,7 +29,7 @@ pub struct Args {
 ///
 /// # Errors
 /// No server, one that takes no new clients (unless `--live`), an unknown service, or no answer within 3 s.
-pub fn run(args: &Args) -> anyhow::Result<()> {
+pub fn run(args: &HealthArgs) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .build()?;

@@ -2,14 +2,15 @@
 
 use super::args::{BodyArgs, RecordingArgs, check_tempo};
 use super::number::{counted, fixed, hertz, metres, rounded, seconds};
-use super::source::{Source, load};
+use super::source::{LoadedClip, load};
 use super::terminal::{print, print_line};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use sinew_physics::body::Body;
+use sinew_physics::plan::ReadingReport;
 use sinew_physics::plan::feasibility::{Consistency, Spread, consistency};
-use sinew_physics::plan::prepare::ZmpOutside;
-use sinew_physics::retarget::{Preparation, RetargetOptions, RetargetReport, UpAxis};
+use sinew_physics::plan::prepare::Compared;
+use sinew_physics::reference::{Preparation, RetargetOptions, UpAxis};
 use std::fmt::Write;
 
 /// Reads recordings and reports how they fit the body.
@@ -86,7 +87,7 @@ pub fn run(args: &LintArgs) -> Result<()> {
 /// How far the motion is from one that a body on its feet can do: as recorded (bones on the body, nothing else; `None`
 /// for built-in motions) and as prepared, on the same feet.
 fn consistencies(
-    source: &Source,
+    source: &LoadedClip,
     body: &Body,
     options: &RetargetOptions,
 ) -> Result<(Option<Consistency>, Consistency)> {
@@ -179,53 +180,9 @@ fn describe_consistency(name: &str, c: &Consistency) -> String {
     out
 }
 
-/// The report as JSON; lengths in mm where they are errors, in m otherwise; angles in degrees.
-pub fn to_json(r: &RetargetReport) -> Value {
-    let outside = |z: &ZmpOutside| {
-        json!({
-            "share": z.fraction, "mean_mm": 1e3 * z.mean, "p95_mm": 1e3 * z.p95, "max_mm": 1e3 * z.max,
-        })
-    };
-    json!({
-        "mapped": r.skeleton.mapped.iter().map(|m| json!({
-            "segment": m.segment, "bones": m.bones
-        })).collect::<Vec<_>>(),
-        "missing": r.skeleton.missing,
-        "by_structure": r.skeleton.by_structure,
-        "sides_swapped": r.skeleton.sides_swapped,
-        "unit_m": r.size.unit_m,
-        "unit_given": r.size.unit_given,
-        "up": up_name(r.size.up),
-        "stature_m": r.size.stature,
-        "scale": r.size.scale,
-        "source_rate_hz": r.frames.source_rate_hz,
-        "rate_hz": r.frames.rate_hz,
-        "skipped_frames": r.frames.skipped_frames,
-        "floor_offset_m": r.place.floor_offset,
-        "floor_slope": r.place.floor_slope,
-        "origin": { "x_m": r.place.origin.x, "y_m": r.place.origin.y, "yaw_deg": r.place.origin.yaw.to_degrees() },
-        "clamped": r.joints.clamped.iter().map(|c| json!({
-            "dof": c.dof, "max_deg": c.max.to_degrees(), "share": c.fraction
-        })).collect::<Vec<_>>(),
-        "knee_off_axis_deg": r.joints.knee_off_axis.map(f64::to_degrees),
-        "elbow_off_axis_deg": r.joints.elbow_off_axis.map(f64::to_degrees),
-        "foot_slide_mm": { "recorded": 1e3 * r.feet.slide.0, "prepared": 1e3 * r.feet.slide.1 },
-        "penetration_mm": { "recorded": 1e3 * r.feet.penetration.0, "prepared": 1e3 * r.feet.penetration.1 },
-        "phases": r.feet.phases.iter().map(|p| json!({
-            "from_s": p.start, "to_s": p.end, "left": p.planted[0], "right": p.planted[1]
-        })).collect::<Vec<_>>(),
-        "bridged": r.frames.bridged.iter().map(|b| json!({
-            "bone": b.bone, "first_frame": b.first, "frames": b.count
-        })).collect::<Vec<_>>(),
-        "smoothing_rms_mm": 1e3 * r.frames.smoothing_rms,
-        "zmp_outside": {
-            "recorded": outside(&r.balance.zmp_outside.0), "prepared": outside(&r.balance.zmp_outside.1)
-        },
-        "shift_max_mm": 1e3 * r.pelvis.shift,
-        "pelvis_drop_max_mm": 1e3 * r.pelvis.drop,
-        "carried_share": r.balance.carried,
-        "warnings": r.warnings,
-    })
+/// The report as JSON: errors in mm, other lengths in m, angles in degrees.
+pub fn to_json(r: &ReadingReport) -> Value {
+    serde_json::to_value(r).expect("the names of a report are text")
 }
 
 fn up_name(up: UpAxis) -> &'static str {
@@ -236,7 +193,7 @@ fn up_name(up: UpAxis) -> &'static str {
 }
 
 /// The report in words, one finding per line.
-pub fn describe(r: &RetargetReport) -> String {
+pub fn describe(r: &ReadingReport) -> String {
     let lines = reading(r)
         .into_iter()
         .chain(preparation(r))
@@ -250,10 +207,10 @@ pub fn describe(r: &RetargetReport) -> String {
 }
 
 /// A name and what is to be said of it.
-type Line = (&'static str, String);
+type LintLine = (&'static str, String);
 
 /// How the file was understood.
-fn reading(r: &RetargetReport) -> Vec<Line> {
+fn reading(r: &ReadingReport) -> Vec<LintLine> {
     let bones: usize = r.skeleton.mapped.iter().map(|m| m.bones.len()).sum();
     let how = if r.skeleton.by_structure {
         "by structure"
@@ -320,15 +277,18 @@ fn reading(r: &RetargetReport) -> Vec<Line> {
 }
 
 /// What the recording was like, and how far the preparation changed it.
-fn preparation(r: &RetargetReport) -> Vec<Line> {
-    let before_after = |(before, after): (f64, f64)| {
+fn preparation(r: &ReadingReport) -> Vec<LintLine> {
+    let before_after = |c: Compared<f64>| {
         format!(
             "{:.1} mm recorded, {:.1} mm prepared",
-            1e3 * before,
-            1e3 * after
+            1e3 * c.recorded,
+            1e3 * c.prepared
         )
     };
-    let (z0, z1) = &r.balance.zmp_outside;
+    let Compared {
+        recorded: z0,
+        prepared: z1,
+    } = &r.balance.zmp_outside;
     let pair = |v: [f64; 2]| format!("{:.1}° and {:.1}°", v[0].to_degrees(), v[1].to_degrees());
     vec![
         ("foot skate", before_after(r.feet.slide)),
@@ -365,9 +325,9 @@ fn preparation(r: &RetargetReport) -> Vec<Line> {
 }
 
 /// What was out of order.
-fn oddities(r: &RetargetReport) -> Vec<Line> {
+fn oddities(r: &ReadingReport) -> Vec<LintLine> {
     let mut lines = Vec::new();
-    for c in &r.joints.clamped {
+    for c in &r.clamped {
         lines.push((
             "clamped",
             format!(

@@ -18,8 +18,10 @@ mod number;
 mod output;
 mod page;
 mod paper;
+mod parameters;
 mod push;
 mod rehearse;
+mod remote;
 mod run;
 mod serve;
 mod source;
@@ -42,23 +44,23 @@ static MEMORY: tikv_jemallocator::Jemalloc = tikv_jemallocator::Jemalloc;
 #[command(name = "sinew", version, about, after_help = exit::EXIT_CODES)]
 struct Arguments {
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<Subcommands>,
 }
 
 #[derive(Subcommand)]
-enum Command {
+enum Subcommands {
     /// Serve worlds over gRPC (the default): a demo world, and the worlds that clients create
-    Serve(serve::Args),
+    Serve(serve::ServeArgs),
     /// Stream a BVH file to a server as live motion for a figure
-    Push(push::Args),
+    Push(push::PushArgs),
     /// Print the frames of a world
-    Watch(watch::Args),
+    Watch(watch::WatchArgs),
     /// Ask a server whether it takes new clients, or whether it lives
-    Health(health::Args),
+    Health(health::HealthArgs),
     /// Check or show the settings of a server
     Config(config::ConfigArgs),
     /// Load a server by a schedule and report how late ticks and frames are
-    Bench(bench::Args),
+    Bench(bench::BenchArgs),
     /// Make a bearer token, or the secret that signs tokens
     Token(token::TokenArgs),
     /// Grant roles in a world, take them back, or list them
@@ -82,6 +84,8 @@ enum Command {
     Walking(walking::WalkingArgs),
     /// List the bodies, or the segments, degrees of freedom, limits and strength of one
     Bodies(bodies::BodiesArgs),
+    /// List the tunable numbers of the physics, with unit, range, meaning and source
+    Parameters(parameters::ParametersArgs),
     /// Write a completion script for a shell, for example `source <(sinew completions bash)`
     Completions(completions::CompletionsArgs),
 }
@@ -103,41 +107,28 @@ fn main() -> ExitCode {
         given => given,
     };
     let done = match arguments.command {
-        Some(Command::Serve(args)) => serve::run(&args).map(Into::into),
-        Some(Command::Push(args)) => push::run(&args).map(Into::into),
-        Some(Command::Watch(args)) => watch::run(&args).map(Into::into),
-        Some(Command::Health(args)) => health::run(&args).map(Into::into),
-        Some(Command::Config(args)) => config::run(&args).map(Into::into),
-        Some(Command::Bench(args)) => bench::run(&args).map(Into::into),
-        Some(Command::Token(args)) => token::run(&args).map(Into::into),
-        Some(Command::Grant(args)) => grant::run(&args).map(Into::into),
-        Some(Command::Run(args)) => run::run(&args),
-        Some(Command::Survey(args)) => survey::run(&args).map(Into::into),
-        Some(Command::Rehearse(args)) => rehearse::run(&args).map(Into::into),
-        Some(Command::Strength(args)) => strength::run(&args).map(Into::into),
-        Some(Command::Lint(args)) => lint::run(&args).map(Into::into),
-        Some(Command::Convert(args)) => convert::run(&args).map(Into::into),
-        Some(Command::Paper(args)) => paper::run(&args).map(Into::into),
-        Some(Command::Walking(args)) => walking::run(&args).map(Into::into),
-        Some(Command::Bodies(args)) => bodies::run(&args).map(Into::into),
-        Some(Command::Completions(args)) => {
+        Some(Subcommands::Serve(args)) => serve::run(&args).map(Into::into),
+        Some(Subcommands::Push(args)) => push::run(&args).map(Into::into),
+        Some(Subcommands::Watch(args)) => watch::run(&args).map(Into::into),
+        Some(Subcommands::Health(args)) => health::run(&args).map(Into::into),
+        Some(Subcommands::Config(args)) => config::run(&args).map(Into::into),
+        Some(Subcommands::Bench(args)) => bench::run(&args).map(Into::into),
+        Some(Subcommands::Token(args)) => token::run(&args).map(Into::into),
+        Some(Subcommands::Grant(args)) => grant::run(&args).map(Into::into),
+        Some(Subcommands::Run(args)) => run::run(&args),
+        Some(Subcommands::Survey(args)) => survey::run(&args).map(Into::into),
+        Some(Subcommands::Rehearse(args)) => rehearse::run(&args).map(Into::into),
+        Some(Subcommands::Strength(args)) => strength::run(&args).map(Into::into),
+        Some(Subcommands::Lint(args)) => lint::run(&args).map(Into::into),
+        Some(Subcommands::Convert(args)) => convert::run(&args).map(Into::into),
+        Some(Subcommands::Paper(args)) => paper::run(&args).map(Into::into),
+        Some(Subcommands::Walking(args)) => walking::run(&args).map(Into::into),
+        Some(Subcommands::Bodies(args)) => bodies::run(&args).map(Into::into),
+        Some(Subcommands::Parameters(args)) => parameters::run(&args).map(Into::into),
+        Some(Subcommands::Completions(args)) => {
             completions::run(&args, Arguments::command()).map(Into::into)
         }
         None => unreachable!("`serve` was put in its place"),
     };
     exit::code(done).into()
-}
-
-/// A world's resource name from what a user typed: `demo` or `worlds/demo`.
-pub fn world_resource(name: &str) -> String {
-    if name.starts_with("worlds/") {
-        name.to_owned()
-    } else {
-        format!("worlds/{name}")
-    }
-}
-
-/// A status of the server as an error: its message and its code.
-pub fn explain(status: &tonic::Status) -> anyhow::Error {
-    anyhow::anyhow!("{} ({:?})", status.message(), status.code())
 }

@@ -11,6 +11,11 @@ const RATE: usize = 4;
 /// Most decimals of a rounded number: what is smaller counts as 0.
 const MOST_DECIMALS: i32 = 9;
 
+/// A number with this many decimals, or a dash.
+pub fn or_dash(v: Option<f64>, digits: usize) -> String {
+    v.map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
+}
+
 /// `value` with `digits` significant digits and at most nine decimals, without zeros at the end of a fraction, and
 /// never rounded before the decimal point.
 pub fn rounded(value: f64, digits: usize) -> String {

@@ -1,6 +1,6 @@
 //! Files that commands write: formats by extension, names for several clips, errors that name the file.
 
-use super::exit::Usage;
+use super::exit::UsageError;
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 
@@ -25,7 +25,7 @@ pub fn extension(flag: &str, path: &Path, accepted: &[&'static str]) -> Result<&
                 "{flag} {}: the name must end in one of {list}",
                 path.display()
             );
-            Err(Usage(text).into())
+            Err(UsageError(text).into())
         }
     }
 }
@@ -43,7 +43,7 @@ pub fn check_folder(flag: &str, path: Option<&Path>) -> Result<()> {
                 path.display(),
                 folder.display()
             );
-            Err(Usage(text).into())
+            Err(UsageError(text).into())
         }
         _ => Ok(()),
     }
@@ -61,7 +61,7 @@ pub fn check_names(mut clips: Vec<String>) -> Result<()> {
                 "two clips are called {}: their files would have one name; rename one, or run them one by one",
                 two[0]
             );
-            Err(Usage(text).into())
+            Err(UsageError(text).into())
         }
         None => Ok(()),
     }
@@ -112,7 +112,7 @@ mod tests {
         let names = |all: &[&str]| check_names(all.iter().map(ToString::to_string).collect());
         names(&["walk", "idle"]).expect("two names");
         let error = names(&["walk", "idle", "walk"]).expect_err("one name");
-        assert!(error.is::<Usage>());
+        assert!(error.is::<UsageError>());
         assert!(
             error.to_string().contains("two clips are called walk"),
             "{error}"
@@ -125,7 +125,7 @@ mod tests {
         check("out.csv").expect("this folder");
         check_folder("--out", None).expect("no file");
         let error = check("no/such/out.csv").expect_err("no folder");
-        assert!(error.is::<Usage>());
+        assert!(error.is::<UsageError>());
         assert_eq!(
             error.to_string(),
             "--out no/such/out.csv: there is no folder no/such; make it first"

@@ -5,7 +5,7 @@ use super::output::write;
 use super::terminal::print_line;
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
-use sinew_evaluate::experiments::Record;
+use sinew_evaluate::experiments::ExperimentRecord;
 use sinew_evaluate::plot::Plot;
 use sinew_evaluate::strip::{StripOptions, View, draw, raster};
 use sinew_physics::body::Body;
@@ -112,7 +112,7 @@ impl Page {
         &mut self,
         name: &str,
         body: &Body,
-        run: &Record,
+        run: &ExperimentRecord,
         view: View,
         title: &str,
     ) -> Result<()> {
@@ -129,7 +129,11 @@ impl Page {
     }
 
     /// Adds strips seen from the side: file name, what there is to see, title.
-    pub fn strips(&mut self, body: &Body, strips: &[(String, Record, String)]) -> Result<()> {
+    pub fn strips(
+        &mut self,
+        body: &Body,
+        strips: &[(String, ExperimentRecord, String)],
+    ) -> Result<()> {
         for (name, run, title) in strips {
             self.strip(name, body, run, View::Side, title)?;
         }

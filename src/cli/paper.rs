@@ -4,24 +4,25 @@ mod rows;
 
 use super::args::short_name;
 use super::compare;
+use super::number::or_dash;
 use super::page::{Page, progress};
 use super::source::load;
 use anyhow::Result;
-use sinew_evaluate::experiments::compare::Motion;
+use sinew_evaluate::experiments::compare::ComparedMotion;
 use sinew_evaluate::experiments::fall::{
     DIRECTIONS, Fall, LOW, fall, fall_on_toes, leaning, pendulum, pendulum_about_the_balls,
 };
 use sinew_evaluate::experiments::lift::{Lift, lift, scene, weak_arm};
 use sinew_evaluate::experiments::push::{Push, push, recovered};
-use sinew_evaluate::experiments::statics::{Hold, hold};
-use sinew_evaluate::experiments::touching::{FRICTION, Prop, Support, bump, hand_support};
-use sinew_evaluate::experiments::{Pair, Sample};
+use sinew_evaluate::experiments::statics::{HeldPosture, hold};
+use sinew_evaluate::experiments::touching::{FRICTION, HandSupport, Prop, bump, hand_support};
+use sinew_evaluate::experiments::{ControlPair, PlottedTick};
 use sinew_evaluate::plot::Plot;
 use sinew_evaluate::strip::View;
 use sinew_physics::body::topology::DOF_NAMES;
 use sinew_physics::body::{Body, Profile, Sex};
 use sinew_physics::motion::builtin::{at_ease, builtin};
-use sinew_physics::retarget::RetargetOptions;
+use sinew_physics::reference::RetargetOptions;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -95,7 +96,7 @@ fn recorded(args: &PaperArgs, mut page: Page) -> Result<()> {
     let mut motions = Vec::new();
     for spec in &args.recordings {
         let source = load(spec, &body, &RetargetOptions::default())?;
-        motions.push(Motion::new(&source.name, Arc::new(source.clip)));
+        motions.push(ComparedMotion::new(&source.name, Arc::new(source.clip)));
     }
     let names: Vec<String> = motions.iter().map(|m| m.name.clone()).collect();
     let pushed: Vec<&str> = names
@@ -122,11 +123,11 @@ fn comparison(page: &mut Page, body: &Arc<Body>) -> Result<()> {
          same comparison on recorded motion is in [recorded.md](recorded.md). *Modern, kinematic* is not included: the \
          kinematic stepper ignores the contact forces that the modern controller computes.",
     );
-    let motions: Vec<Motion> = COMPARED
+    let motions: Vec<ComparedMotion> = COMPARED
         .iter()
         .map(|name| {
             let clip = builtin(body, name).expect("built-in motions exist");
-            Motion::new(name, Arc::new(clip))
+            ComparedMotion::new(name, Arc::new(clip))
         })
         .collect();
     compare::section(page, body, &motions, &PUSHED);
@@ -156,12 +157,7 @@ fn introduction(page: &mut Page) {
     );
 }
 
-/// A number with this many decimals, or a dash.
-fn or_dash(v: Option<f64>, digits: usize) -> String {
-    v.map_or_else(|| "–".into(), |v| format!("{v:.digits$}"))
-}
-
-fn column(samples: &[Sample], of: impl Fn(&Sample) -> f64) -> Vec<[f64; 2]> {
+fn column(samples: &[PlottedTick], of: impl Fn(&PlottedTick) -> f64) -> Vec<[f64; 2]> {
     samples.iter().map(|s| [s.time_s, of(s)]).collect()
 }
 
@@ -172,7 +168,7 @@ fn dof(name: &str) -> usize {
         .expect("the DOF exists")
 }
 
-fn torque_plot(title: &str, samples: &[Sample], dof: usize) -> Plot {
+fn torque_plot(title: &str, samples: &[PlottedTick], dof: usize) -> Plot {
     let limits = samples.iter().map(|s| {
         let [_, low, high] = s.torque[dof];
         [s.time_s, low, high]
@@ -187,7 +183,7 @@ fn torque_plot(title: &str, samples: &[Sample], dof: usize) -> Plot {
     .curve("used", column(samples, |s| s.torque[dof][0]))
 }
 
-fn balance_plot(title: &str, samples: &[Sample]) -> Plot {
+fn balance_plot(title: &str, samples: &[PlottedTick]) -> Plot {
     let polygon = samples.iter().filter_map(|s| {
         let [a, b, _, _] = s.polygon?;
         Some([s.time_s, a, b])
@@ -224,7 +220,7 @@ const LIFT_COLUMNS: [&str; 9] = [
     "fastest joint, rad/s",
 ];
 
-fn lift_row(pair: &Pair, l: &Lift) -> Vec<String> {
+fn lift_row(pair: &ControlPair, l: &Lift) -> Vec<String> {
     vec![
         format!("{} kg", l.mass),
         pair.name.into(),
@@ -251,9 +247,9 @@ fn lifts(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         100.0 * arm
     ));
     let pairs = [
-        Pair::paper_kinematic(),
-        Pair::paper_torque(),
-        Pair::modern(),
+        ControlPair::paper_kinematic(),
+        ControlPair::paper_torque(),
+        ControlPair::modern(),
     ];
     let mut rows = Vec::new();
     let mut runs = Vec::new();
@@ -336,8 +332,8 @@ fn people(page: &mut Page, _: &Arc<Body>) -> Result<()> {
     let mut rows = Vec::new();
     for body in crowd() {
         let p = &body.profile;
-        let (straight, most) = hold(&body, Hold::StraightArm);
-        let (_, curl) = hold(&body, Hold::Curl);
+        let (straight, most) = hold(&body, HeldPosture::StraightArm);
+        let (_, curl) = hold(&body, HeldPosture::Curl);
         let mut row = vec![
             format!(
                 "{}, {} y, {:.2} m, {:.0} kg",
@@ -351,7 +347,7 @@ fn people(page: &mut Page, _: &Arc<Body>) -> Result<()> {
             format!("{curl:.1} kg"),
         ];
         for mass in masses {
-            let l = lift(&body, &Pair::modern(), mass, 1.0, 0);
+            let l = lift(&body, &ControlPair::modern(), mass, 1.0, 0);
             let result = l.record.fell_s.map_or("stands", |_| "falls");
             row.push(format!("{:.0} %, {result}", 100.0 * l.shoulder_use));
         }
@@ -373,7 +369,7 @@ fn people(page: &mut Page, _: &Arc<Body>) -> Result<()> {
     Ok(())
 }
 
-fn fall_row(direction: &str, pair: &Pair, strength: f64, f: &Fall) -> Vec<String> {
+fn fall_row(direction: &str, pair: &ControlPair, strength: f64, f: &Fall) -> Vec<String> {
     let off = f.time_s.map(|t| 100.0 * (t / f.pendulum_s - 1.0));
     vec![
         direction.into(),
@@ -396,11 +392,11 @@ fn falls(page: &mut Page, body: &Arc<Body>) -> Result<()> {
          the centre of mass is at a height of {LOW} m."
     ));
     let cases = [
-        (Pair::paper_kinematic(), 20.0),
-        (Pair::paper_kinematic(), 1.0),
-        (Pair::paper_torque(), 1.0),
-        (Pair::motors(), 20.0),
-        (Pair::motors(), 1.0),
+        (ControlPair::paper_kinematic(), 20.0),
+        (ControlPair::paper_kinematic(), 1.0),
+        (ControlPair::paper_torque(), 1.0),
+        (ControlPair::motors(), 20.0),
+        (ControlPair::motors(), 1.0),
     ];
     let mut rows = Vec::new();
     for (name, direction) in DIRECTIONS {
@@ -479,7 +475,7 @@ fn toes(page: &mut Page, body: &Arc<Body>) {
     let mut rows = Vec::new();
     for factor in [0.5, 1.0, 2.0, 4.0, 8.0] {
         let mut row = vec![format!("×{factor}")];
-        for pair in [Pair::paper_torque(), Pair::motors()] {
+        for pair in [ControlPair::paper_torque(), ControlPair::motors()] {
             let f = fall_on_toes(body, &pair, forward, [1.0, factor], 0);
             let off = f.time_s.map(|t| 100.0 * (t / tips - 1.0));
             row.push(or_dash(f.time_s, 3));
@@ -510,9 +506,9 @@ fn pushes(page: &mut Page, body: &Arc<Body>) -> Result<()> {
          bound, up to which the figure does not fall.",
     );
     let pairs = [
-        Pair::paper_kinematic(),
-        Pair::paper_torque(),
-        Pair::modern(),
+        ControlPair::paper_kinematic(),
+        ControlPair::paper_torque(),
+        ControlPair::modern(),
     ];
     let mut rows = Vec::new();
     for (name, direction) in DIRECTIONS {
@@ -540,10 +536,10 @@ fn pushes(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         ],
         &rows,
     );
-    let bound = recovered(body, &Pair::modern(), DIRECTIONS[0].1);
+    let bound = recovered(body, &ControlPair::modern(), DIRECTIONS[0].1);
     let share = bound.impulse / bound.bound;
     for (share, what) in [(share, "recovered"), (1.5, "felled")] {
-        let p = push(body, &Pair::modern(), DIRECTIONS[0].1, share, PANELS);
+        let p = push(body, &ControlPair::modern(), DIRECTIONS[0].1, share, PANELS);
         let title = format!(
             "{:.0} N·s forward ({:.0} % of the bound), modern",
             p.impulse,
@@ -564,12 +560,12 @@ fn step_size(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     let arm = weak_arm(body, &clip, 3.0);
     let mut rows = Vec::new();
     for pair in [
-        Pair::paper_kinematic(),
-        Pair::paper_torque(),
-        Pair::modern(),
+        ControlPair::paper_kinematic(),
+        ControlPair::paper_torque(),
+        ControlPair::modern(),
     ] {
         for rate_hz in [30.0, 60.0, 120.0] {
-            let pair = Pair {
+            let pair = ControlPair {
                 rate_hz,
                 ..pair.clone()
             };
@@ -628,7 +624,11 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     ];
     let mut rows = Vec::new();
     let mut strips = Vec::new();
-    for pair in [Pair::modern(), Pair::paper_torque(), Pair::motors()] {
+    for pair in [
+        ControlPair::modern(),
+        ControlPair::paper_torque(),
+        ControlPair::motors(),
+    ] {
         for (prop, name) in props {
             for arm in [1.0, 0.03] {
                 if prop == Prop::None && arm < 1.0 {
@@ -685,7 +685,7 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
 }
 
 /// Support ratio of the hand at both ends of the way of the centre of mass.
-fn ratio(s: &Support) -> String {
+fn ratio(s: &HandSupport) -> String {
     let [(from, low), (to, high)] = s.ratio;
     if from >= to {
         "–".into()
@@ -704,9 +704,9 @@ fn bumps(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     let mut rows = Vec::new();
     let mut strips = Vec::new();
     for (pair, impulse, who) in [
-        (Pair::modern(), 80.0, "modern"),
-        (Pair::paper_torque(), 40.0, "paper"),
-        (Pair::motors(), 40.0, "motors"),
+        (ControlPair::modern(), 80.0, "modern"),
+        (ControlPair::paper_torque(), 40.0, "paper"),
+        (ControlPair::motors(), 40.0, "motors"),
     ] {
         let b = bump(body, &pair, impulse, PANELS);
         rows.push(vec![
@@ -750,7 +750,7 @@ fn as_printed(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     );
     let clip = builtin(body, "lift").expect("there is a lift");
     let arm = weak_arm(body, &clip, 3.0);
-    let pair = Pair::paper2000();
+    let pair = ControlPair::paper2000();
     let mut rows = Vec::new();
     let mut plot = Plot {
         title: "joint error while lifting, equations as published".into(),
@@ -792,10 +792,10 @@ fn time(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     let arm = weak_arm(body, &clip, 3.0);
     let mut rows = vec![vec!["the paper, 2000".into(), "100 000".into(), "1".into()]];
     for pair in [
-        Pair::paper2000(),
-        Pair::paper_kinematic(),
-        Pair::paper_torque(),
-        Pair::modern(),
+        ControlPair::paper2000(),
+        ControlPair::paper_kinematic(),
+        ControlPair::paper_torque(),
+        ControlPair::modern(),
     ] {
         let (mut world, _) = scene(body, &pair, 3.0, arm);
         // The first second warms caches; the paper's preset falls apart later, which is not the case to time.

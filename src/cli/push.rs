@@ -1,21 +1,21 @@
 //! `sinew push`: streams a motion capture file to a server as live motion for a figure.
 
 use super::args::{BodyNameParser, CredentialArgs, FileArgs, UpArg};
-use super::exit::{Usage, within};
+use super::exit::{UsageError, within};
 use super::number::{counted, hertz};
-use super::source::BUILTIN;
+use super::remote::{explain, world_resource};
+use super::source::{BUILTIN, recording};
 use super::terminal::{note, print_line};
-use super::{explain, world_resource};
 use anyhow::Context as _;
 use sinew_client::Network;
-use sinew_client::{Client, Driver};
+use sinew_client::{Client, LiveDriver};
 use sinew_physics::body::names::DEFAULT_BODY;
 use sinew_physics::body::{Body, Profile};
 use sinew_physics::math::Quat;
-use sinew_physics::motion::{Bvh, Clip, PlanarTransform};
-use sinew_physics::plan::cycle;
+use sinew_physics::motion::{Clip, PlanarTransform, Recording};
 use sinew_physics::plan::stream::WINDOW;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::plan::{cycle, prepare_recording};
+use sinew_physics::reference::{Preparation, RetargetOptions};
 use sinew_server::engine;
 use sinew_wire::convert::{self, motion::figure_motion};
 use sinew_wire::frame::values;
@@ -27,7 +27,7 @@ use tonic::Code;
 
 /// Arguments of `sinew push`.
 #[derive(Clone, Debug, clap::Args)]
-pub struct Args {
+pub struct PushArgs {
     /// Server, host:port
     address: String,
     #[command(flatten)]
@@ -83,7 +83,7 @@ pub struct Args {
 ///
 /// # Errors
 /// The file is bad, no server answers, or another driver has the figure.
-pub fn run(args: &Args) -> anyhow::Result<()> {
+pub fn run(args: &PushArgs) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .build()?;
@@ -91,7 +91,7 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 /// Checks what clap cannot.
-fn check(args: &Args) -> anyhow::Result<()> {
+fn check(args: &PushArgs) -> anyhow::Result<()> {
     for (name, value, high) in [
         ("--loss", args.loss, 0.9),
         ("--jitter-ms", args.jitter_ms, 2000.0),
@@ -107,31 +107,31 @@ fn check(args: &Args) -> anyhow::Result<()> {
     let (window, least, most) = (args.window_ms, 1e3 * WINDOW.0, 1e3 * WINDOW.1);
     if window != 0.0 && !(least..=most).contains(&window) {
         let text = format!("--window-ms {window}: must be 0 or within {least}…{most}");
-        return Err(Usage(text).into());
+        return Err(UsageError(text).into());
     }
     let clip = args.clip.to_string_lossy();
     if let Some(name) = clip.strip_prefix(BUILTIN) {
         let text = format!(
             "push takes BVH files, not {clip}: `sinew convert {clip} {name}.bvh` writes one"
         );
-        return Err(Usage(text).into());
+        return Err(UsageError(text).into());
     }
     if args.clip.is_dir() {
-        return Err(Usage(format!("{clip} is a folder; name one of its files")).into());
+        return Err(UsageError(format!("{clip} is a folder; name one of its files")).into());
     }
     match args.duration {
         Some(d) if !(d > 0.0 && d.is_finite()) => {
-            Err(Usage(format!("--duration {d} s: must be positive")).into())
+            Err(UsageError(format!("--duration {d} s: must be positive")).into())
         }
         _ => Ok(()),
     }
 }
 
-async fn push(args: &Args) -> anyhow::Result<()> {
+async fn push(args: &PushArgs) -> anyhow::Result<()> {
     let path = args.clip.display();
     check(args)?;
     let bytes = std::fs::read(&args.clip).with_context(|| format!("cannot read {path}"))?;
-    let bvh = Bvh::parse(&bytes).with_context(|| format!("{path} is not a BVH file"))?;
+    let recording = recording(&path.to_string(), &bytes)?;
     let client = args.credentials.connect(&args.address).await?;
     let world = world_resource(&args.world);
     client.world(&world).await.map_err(|e| explain(&e))?;
@@ -151,7 +151,7 @@ async fn push(args: &Args) -> anyhow::Result<()> {
     let body_name = existing.as_ref().map_or(&created_body, |f| &f.body);
     let reference = convert::body::by_name("body", body_name)?;
     let body = engine::build_body(reference.profile)?;
-    let clip = prepared(args, &bvh, &body)?;
+    let clip = prepared(args, &recording, &body)?;
     // From standing, by the steps that lead into the motion.
     let lead = clip.lead_in();
     let start = engine::place_of(&clip.sample(-lead).posture);
@@ -199,14 +199,14 @@ async fn push(args: &Args) -> anyhow::Result<()> {
 }
 
 /// The recording fitted to the body; its warnings are printed.
-fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
+fn prepared(args: &PushArgs, recording: &Recording, body: &Body) -> anyhow::Result<Clip> {
     let path = args.clip.display();
     let (clip, warnings) = if args.raw {
         let options = args.file.apply(RetargetOptions {
             preparation: Preparation::NONE,
             ..Default::default()
         });
-        let fitted = sinew_physics::retarget::retarget(bvh, body, &options)
+        let fitted = prepare_recording(recording, body, &options)
             .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
         (fitted.clip, fitted.report.warnings)
     } else {
@@ -216,9 +216,9 @@ fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
             walk_runs: Some(!args.keep_runs),
             ..Default::default()
         };
-        let (clip, report) = engine::retarget(&args.figure, bvh, &reading, body, 1.0, &|| false)
+        let fitted = engine::retarget(&args.figure, recording, &reading, body, 1.0, &|| false)
             .map_err(|e| anyhow::anyhow!("{path}: {e}"))?;
-        (clip, report.warnings)
+        (fitted.clip, fitted.report.warnings)
     };
     for warning in &warnings {
         note(&format!("warning: {path}: {warning}"));
@@ -229,10 +229,10 @@ fn prepared(args: &Args, bvh: &Bvh, body: &Body) -> anyhow::Result<Clip> {
 
 /// Sends the clip at its own pace and prints each second how it arrives.
 async fn stream(
-    args: &Args,
+    args: &PushArgs,
     clip: &Clip,
     placing: &PlanarTransform,
-    mut driver: Driver,
+    mut driver: LiveDriver,
 ) -> anyhow::Result<()> {
     let lead = clip.lead_in();
     let length = clip.duration() + clip.lead_out() + lead;
@@ -247,7 +247,7 @@ async fn stream(
     let mut sequence = 0i64;
     let mut told = Instant::now();
     let mut last: Option<pb::DriveFeedback> = None;
-    let mut delay = Delay::default();
+    let mut delay = FrameDelay::default();
     loop {
         let t = sequence as f64 / clip.rate_hz();
         if t > length {
@@ -308,13 +308,13 @@ async fn stream(
 
 /// Time from a frame's capture to its use, as feedback shows it (so with the way back).
 #[derive(Clone, Copy, Debug, Default)]
-struct Delay {
+struct FrameDelay {
     sum: f64,
     count: u32,
     most: f64,
 }
 
-impl Delay {
+impl FrameDelay {
     fn note(&mut self, f: &pb::DriveFeedback, now: f64, rate_hz: f64) {
         let Some(g) = f.figures.first().filter(|g| g.applied_sequence > 0) else {
             return;

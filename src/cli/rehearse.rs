@@ -11,15 +11,18 @@ use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Value, json};
 use sinew_evaluate::Tick;
-use sinew_evaluate::follow::{Follow, Found, MOST_HELP, RehearsalOptions, RehearsalReport, follow};
-use sinew_evaluate::forecast::{Forecast, forecast};
-use sinew_evaluate::strip::{Drawing, Frame, StripOptions, draw, evenly_spaced, raster};
-use sinew_evaluate::survey::{Conditions, Outcome, Reference, watched};
+use sinew_evaluate::strip::{Drawing, StripFrame, StripOptions, draw, evenly_spaced, raster};
+use sinew_evaluate::survey::{SurveyOutcome, run as measure, watched};
 use sinew_physics::body::Body;
 use sinew_physics::figure::{FigureOptions, StrengthScale};
+use sinew_physics::forecast::{Forecast, forecast};
 use sinew_physics::motion::{Clip, write_bvh};
-use sinew_physics::rehearsal::Progress;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::rehearsal::follow::{
+    Follow, FollowResult, MOST_HELP, RehearsalOptions, RehearsalReport, follow,
+};
+use sinew_physics::rehearsal::trial::TrialResult;
+use sinew_physics::rehearsal::{Conditions, Progress, TrackingReference};
 use sinew_physics::strength::Strength;
 use sinew_physics::world::WorldParams;
 use std::path::PathBuf;
@@ -127,7 +130,7 @@ pub struct RehearseArgs {
 /// A recording in the forms that it takes.
 pub(super) struct Forms {
     /// What it is judged by: as recorded and as prepared.
-    pub reference: Reference,
+    pub reference: TrackingReference,
     /// What is rehearsed.
     pub as_recorded: Arc<Clip>,
 }
@@ -188,7 +191,9 @@ pub fn run(args: &RehearseArgs) -> Result<()> {
         write(path, write_bvh(&body, &postures, args.rate))?;
     }
     let text = if args.json {
-        let all = json(&name, &found, &forecast, took);
+        let [tracked, outcome] = [&conditions, &played].map(|c| measure(c, &forms.reference));
+        let measured = [tracked?, outcome?];
+        let all = json(&name, &found, measured, &forecast, took);
         serde_json::to_string_pretty(&all).context("the report cannot be written as JSON")? + "\n"
     } else {
         text(&name, &found, took)
@@ -259,14 +264,14 @@ fn read(args: &RehearseArgs, body: &Body) -> Result<(String, Forms)> {
     warn(&prepared);
     let clip = Arc::new(prepared.clip);
     let Some(report) = prepared.retarget else {
-        let reference = Reference::authored(Arc::clone(&clip));
+        let reference = TrackingReference::authored(Arc::clone(&clip));
         let forms = Forms {
             reference,
             as_recorded: clip,
         };
         return Ok((prepared.name, forms));
     };
-    let reference = Reference {
+    let reference = TrackingReference {
         phases: report.feet.phases.clone(),
         recorded: Arc::new(fitted(Preparation::NONE)?.clip),
         prepared: clip,
@@ -347,7 +352,7 @@ const AFTER: f64 = 1.0;
 /// A row of frames of one run.
 fn row(
     conditions: &Conditions,
-    reference: &Reference,
+    reference: &TrackingReference,
     view: ViewArg,
     frames: usize,
     title: String,
@@ -360,7 +365,7 @@ fn row(
     watched(conditions, reference, |figure, time| {
         let tick = (time * conditions.world.rate_hz).round() - 1.0;
         if tick >= 0.0 && shown.binary_search(&(tick as u64)).is_ok() {
-            all.push(Frame::of(&Tick::of(figure, gravity), time, Vec::new()));
+            all.push(StripFrame::of(&Tick::of(figure, gravity), time, Vec::new()));
         }
     })?;
     let options = StripOptions {
@@ -371,45 +376,51 @@ fn row(
     Ok(draw(&conditions.body, &all, &options))
 }
 
-fn json(name: &str, found: &Found, forecast: &Forecast, took: Option<f64>) -> Value {
+fn json(
+    name: &str,
+    found: &FollowResult,
+    [tracked, outcome]: [SurveyOutcome; 2],
+    forecast: &Forecast,
+    took: Option<f64>,
+) -> Value {
     json!({
         "clip": name,
         "followed": found.followed,
         "forecast": forecast,
-        "outcome": found.outcome,
-        "tracked": found.tracked,
+        "outcome": outcome,
+        "tracked": tracked,
         "processor_s": took,
         "processor_s_per_clip_s": per_second(found, took),
     })
 }
 
 /// Processor seconds for each second of the motion that was rehearsed.
-fn per_second(found: &Found, took: Option<f64>) -> Option<f64> {
+fn per_second(found: &FollowResult, took: Option<f64>) -> Option<f64> {
     let report = found.followed.rehearsal.as_ref()?;
     Some(took? / report.duration_s)
 }
 
 /// The report in words.
-fn text(name: &str, found: &Found, took: Option<f64>) -> String {
-    let line = |what: &str, o: &Outcome| {
-        let end = match o.lost_at_s {
-            None if o.completed => "completed".to_owned(),
+fn text(name: &str, found: &FollowResult, took: Option<f64>) -> String {
+    let line = |what: &str, t: &TrialResult| {
+        let end = match t.lost_at {
+            None if t.completed => "completed".to_owned(),
             Some(t) => format!("lost at {t:.2} s"),
             None => "lost".to_owned(),
         };
         format!(
             "  {what:<14} {end}; mean distance {:.0} mm in the world, {:.0} mm from the pelvis; help {:.1} % of \
              weight × time, at most {:.0} N\n",
-            o.recorded.mpjpe_global_mm,
-            o.recorded.mpjpe_root_mm,
-            100.0 * o.assist_share,
-            o.assist_max_n
+            t.global_mm,
+            t.root_relative_mm,
+            100.0 * t.help.share,
+            t.help.most
         )
     };
     let mut out = format!("{name}: {}\n", found.followed.way.name());
     out += &line("tracking", &found.tracked);
     if found.motion.is_some() || found.helped.is_some() {
-        out += &line("as played", &found.outcome);
+        out += &line("as played", &found.trial);
     }
     if let Some(r) = &found.followed.rehearsal {
         out += &describe(r, took);

@@ -1,273 +1,54 @@
 //! `sinew run`: simulates motions offline, as fast as the machine allows; measures, draws and writes the result.
 
+mod args;
 mod csv;
 mod document;
 mod forecast;
+mod scenario;
 mod strip;
 mod summary;
 mod unused;
 
-use super::args::{
-    BodyArgs, ConstraintSpec, ControllerArg, FileArgs, LoadSpec, ObstacleSpec, PaperOptions,
-    PresetArg, PushSpec, StepperArg, StrengthFile, ThenSpec, check_tempo,
-};
-use super::exit::{Outcome, Usage, usage, within};
+use super::args::check_tempo;
+use super::exit::{ExitOutcome, UsageError, usage, within};
 use super::output::{check_folder, check_names, extension, for_clip, write};
-use super::source::{self, Source, load, warn};
+use super::source::{self, LoadedClip, load, warn};
 use super::terminal::print;
 use anyhow::{Context, Result};
-use csv::Csv;
+use csv::RunCsv;
 use document::document;
 use indicatif::MultiProgress;
-use sinew_evaluate::strip::{Frame, Thing, evenly_spaced};
+use sinew_evaluate::strip::{StripFrame, Thing, evenly_spaced};
 use sinew_evaluate::{Metrics, RunEvent, RunReport, Tick};
-use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES};
-use sinew_physics::body::{Body, SegmentId};
-use sinew_physics::figure::{Constraint, ControlParams, FigureOptions, StrengthScale};
+use sinew_physics::body::SegmentId;
+use sinew_physics::body::topology::DOF_NAMES;
+use sinew_physics::figure::{Constraint, ControlParams, FigureOptions};
 use sinew_physics::motion::{Clip, write_bvh};
 use sinew_physics::plan::cycle;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::reference::{Preparation, RetargetOptions};
 use sinew_physics::strength::fatigue::MAX_TIME_SCALE;
 use sinew_physics::world::{
-    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, World, WorldError,
+    ClipPlayback, Figure, FigureEvent, FigureKey, FigureSetup, MotionSource, World, WorldError,
     WorldParams,
 };
-use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 use strip::{goal_mark, held_loads, write_strip};
-use summary::{Table, progress_bar};
+use summary::{SummaryTable, progress_bar};
 
-pub use strip::ViewArg;
+pub use args::{RunArgs, ViewArg};
+use scenario::Scenario;
 
 /// Longest accepted duration of a run, s.
 const MAX_DURATION: f64 = 86_400.0;
-
-/// Simulates motions and reports how closely the figure tracks them.
-#[derive(Clone, Debug, clap::Args)]
-pub struct RunArgs {
-    /// Motions: BVH files or builtin:NAME (idle, lift, crate, squat, wave, step, walk). Each is simulated in a world of
-    /// its own.
-    #[arg(required = true, value_name = "CLIP")]
-    pub clips: Vec<String>,
-    /// Body of the figure.
-    #[command(flatten)]
-    pub body: BodyArgs,
-    /// Unit and axes of the files.
-    #[command(flatten)]
-    pub file: FileArgs,
-    /// Factor on the strength of every joint, 0.01 to 100.
-    #[arg(long, value_name = "F", default_value_t = 1.0)]
-    pub strength: f64,
-    /// Percentile of strength in the population of that sex, age and size, 5 to 95.
-    #[arg(long, value_name = "P", default_value_t = 50.0)]
-    pub percentile: f64,
-    /// Fraction of its strength that the figure may use, 0 to 1.
-    #[arg(long, value_name = "E", default_value_t = 1.0)]
-    pub effort: f64,
-    /// Strength of the person as `sinew strength` writes it (`sinew.v1.StrengthScale` as JSON), instead of the three
-    /// options above.
-    #[arg(long, value_name = "FILE.json", conflicts_with_all = ["strength", "percentile", "effort"])]
-    pub strength_file: Option<PathBuf>,
-    /// Time scale of muscle fatigue: seconds of fatigue per simulated second, 0 to 1000; 0: no fatigue.
-    #[arg(long, value_name = "X", default_value_t = 0.0)]
-    pub fatigue: f64,
-    /// Assist: external wrench towards the target pose of the pelvis, 0 (off) to 1; not physical, reported as assist_*.
-    #[arg(long, value_name = "A", default_value_t = 0.0)]
-    pub assist: f64,
-    /// Help while the motion is being lost: largest force over the weight, 0 (none) to 2; reported as assist_*.
-    #[arg(
-        long,
-        value_name = "SHARE",
-        default_value_t = 0.0,
-        conflicts_with = "assist"
-    )]
-    pub max_help: f64,
-    /// Load held by one or two segments; for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable). With
-    /// 3@r_hand+auto the other hand helps while one arm is too weak for it; with 3@r_hand+always as long as it is free.
-    #[arg(
-        long,
-        value_name = "KG@SEGMENT[+SEGMENT|+auto|+always][@T0..T1]",
-        allow_hyphen_values = true
-    )]
-    pub load: Vec<LoadSpec>,
-    /// Grip strength of one hand, N: a load that needs more slips; unlimited unless given.
-    #[arg(long, value_name = "N", default_value_t = f64::INFINITY)]
-    pub grip: f64,
-    /// Push on a segment: impulse in N·s, start in s, direction in world axes; for example 20@chest@1.5:1,0,0
-    /// (repeatable).
-    #[arg(long, value_name = "NS@SEGMENT@T:x,y,z", allow_hyphen_values = true)]
-    pub push: Vec<PushSpec>,
-    /// Target position, m, of a segment or of the centre of mass (com); repeatable. r_hand@0.4,-0.25,1.1; from 1 s to 3
-    /// s r_hand@0.4,-0.25,1.1@1..3; with a rotation r_hand@0.4,-0.25,1.1:0,-0.7,0,0.714; y axis only com@_,0.08,_.
-    #[arg(
-        long,
-        value_name = "PART@x,y,z[@T0..T1][:qx,qy,qz,qw]",
-        allow_hyphen_values = true
-    )]
-    pub constrain: Vec<ConstraintSpec>,
-    /// Obstacle in contact with the figure (repeatable): a seat box:0.4,0.5,0.45@-0.3,0,0.225, a thrown ball
-    /// sphere:0.11@2,0,1.2:5kg:-5,0,1, a wall plane:-1,0,0@0.6,0,0. SHAPE:SIZE is box:LX,LY,LZ (edges, m), sphere:R,
-    /// capsule:R,L (upright; L between the centres of its ends) or plane:nx,ny,nz (normal).
-    #[arg(
-        long,
-        value_name = "SHAPE:SIZE@x,y,z[,yaw°][:KGkg][:vx,vy,vz]",
-        allow_hyphen_values = true
-    )]
-    pub obstacle: Vec<ObstacleSpec>,
-    /// Duration of a push, s.
-    #[arg(long, value_name = "S", default_value_t = 0.2)]
-    pub push_duration: f64,
-    /// Controller that computes the torques.
-    #[arg(long, value_enum, default_value_t)]
-    pub controller: ControllerArg,
-    /// Stepper that moves the body.
-    #[arg(long, value_enum, default_value_t)]
-    pub stepper: StepperArg,
-    /// Take a protective step when the capture point leaves the support polygon (modern controller).
-    #[arg(
-        long, value_name = "BOOL", default_value_t = true, num_args = 0..=1, require_equals = true,
-        default_missing_value = "true", action = clap::ArgAction::Set
-    )]
-    pub protective_steps: bool,
-    /// Keep limbs out of the body and of each other (torque stepper).
-    #[arg(long)]
-    pub self_contact: bool,
-    /// Ticks per second; 60 unless the preset sets another rate.
-    #[arg(long, value_name = "HZ")]
-    pub rate: Option<f64>,
-    /// Physics steps per tick.
-    #[arg(long, value_name = "N", default_value_t = WorldParams::default().substeps)]
-    pub substeps: u32,
-    /// Duration of the run, s; that of the motion unless given.
-    #[arg(long, value_name = "S")]
-    pub duration: Option<f64>,
-    /// Repeat the motion until the end of --duration.
-    #[arg(long = "loop", requires = "duration")]
-    pub looped: bool,
-    /// Play another clip from T seconds on (repeatable): turn.bvh@5. A walking figure changes over at a step where both
-    /// clips are alike, or else stops first; a standing figure begins at once.
-    #[arg(long, value_name = "CLIP@T", requires = "duration")]
-    pub then: Vec<ThenSpec>,
-    /// Begin and end standing: add the steps that lead into the first frame and out of the last one.
-    #[arg(long, conflicts_with = "looped")]
-    pub standing: bool,
-    /// Keep recorded runs. Otherwise runs are turned into walks, slower and with shorter steps, which measured strength
-    /// can do.
-    #[arg(long)]
-    pub keep_runs: bool,
-    /// Playback speed relative to the recording, 0.5 to 2; steps and balance are prepared for it. Built-in motions keep
-    /// their speed.
-    #[arg(long, value_name = "F", default_value_t = 1.0)]
-    pub tempo: f64,
-    /// Prints the report as JSON on standard output (a list for several clips), and nothing else there.
-    #[arg(long)]
-    pub json: bool,
-    /// Ends with exit code 3 if a figure fell or its state diverged.
-    #[arg(long)]
-    pub fail_on_fall: bool,
-    /// Writes the report as JSON (a list for several clips).
-    #[arg(long, value_name = "FILE.json")]
-    pub report: Option<PathBuf>,
-    /// Writes the simulated motion: BVH, or CSV with angles, torques and torque limits. With several clips, -CLIP is
-    /// added to the name: out-walk.bvh.
-    #[arg(long, value_name = "FILE.bvh|.csv")]
-    pub out: Option<PathBuf>,
-    /// Draws evenly spaced frames side by side. With several clips, -CLIP is added to the name: strip-walk.png.
-    #[arg(long, value_name = "FILE.svg|.png")]
-    pub strip: Option<PathBuf>,
-    /// Number of frames in the strip.
-    #[arg(long, value_name = "N", default_value_t = 8)]
-    pub strip_frames: usize,
-    /// Camera view of the strip.
-    #[arg(long, value_enum, default_value_t)]
-    pub view: ViewArg,
-    /// Number of clips simulated at the same time.
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub threads: usize,
-    // Last: its heading is that of all options after it.
-    /// Options of the paper's controller.
-    #[command(flatten)]
-    pub paper: PaperOptions,
-}
-
-impl RunArgs {
-    fn rate_hz(&self) -> f64 {
-        self.rate.unwrap_or(match self.paper.preset {
-            Some(PresetArg::Paper2000) => 30.0,
-            None => WorldParams::default().rate_hz,
-        })
-    }
-
-    fn controller_kind(&self) -> ControllerArg {
-        match self.paper.preset {
-            Some(PresetArg::Paper2000) => ControllerArg::Paper,
-            None => self.controller,
-        }
-    }
-
-    fn stepper_kind(&self) -> StepperArg {
-        match self.paper.preset {
-            Some(PresetArg::Paper2000) => StepperArg::Kinematic,
-            None => self.stepper,
-        }
-    }
-
-    /// Time of the clip at which the run begins, s.
-    fn first(&self, clip: &Clip) -> f64 {
-        if self.standing { -clip.lead_in() } else { 0.0 }
-    }
-
-    /// Duration of the run of a clip, s.
-    fn seconds(&self, clip: &Clip) -> f64 {
-        let ends = if self.standing {
-            clip.lead_in() + clip.lead_out()
-        } else {
-            0.0
-        };
-        self.duration.unwrap_or_else(|| clip.duration() + ends)
-    }
-
-    /// Strength by the options, or by the file.
-    fn strength_scale(&self) -> Result<StrengthScale> {
-        match &self.strength_file {
-            Some(path) => StrengthFile::read(path),
-            None => Ok(StrengthScale {
-                all: self.strength,
-                percentile: self.percentile,
-                effort: self.effort,
-                ..StrengthScale::default()
-            }),
-        }
-    }
-
-    /// The body; the preset removes the armature of its joints.
-    fn build_body(&self) -> Result<Body> {
-        let mut body = self.body.build()?;
-        if self.paper.preset.is_some() {
-            body.armature = [0.0; DOF_COUNT];
-        }
-        Ok(body)
-    }
-}
-
-/// Everything that is simulated, apart from the motion.
-struct Scenario<'a> {
-    args: &'a RunArgs,
-    body: Arc<Body>,
-    params: WorldParams,
-    strength: StrengthScale,
-    /// Clips of `--then`, and when they begin, s.
-    then: Vec<(f64, Arc<Clip>)>,
-}
 
 /// Runs the command. A figure that falls is a result, not an error: the report says so, and the outcome with
 /// `--fail-on-fall`.
 ///
 /// # Errors
 /// Bad arguments, unreadable clips, files that cannot be written.
-pub fn run(args: &RunArgs) -> Result<Outcome> {
+pub fn run(args: &RunArgs) -> Result<ExitOutcome> {
     check(args)?;
     let mut scenario = Scenario {
         body: Arc::new(args.build_body()?),
@@ -312,9 +93,9 @@ pub fn run(args: &RunArgs) -> Result<Outcome> {
         .iter()
         .any(|d| !d["fell_at_s"].is_null() || !d["quarantined_at_s"].is_null());
     let outcome = if args.fail_on_fall && fell {
-        Outcome::Fell
+        ExitOutcome::Fell
     } else {
-        Outcome::Done
+        ExitOutcome::Done
     };
     if args.json {
         match print(&text) {
@@ -340,7 +121,7 @@ fn refused(error: WorldError) -> anyhow::Error {
             } else {
                 "--rate"
             };
-            Usage(format!("{flag} {value}: outside {lower}…{upper}")).into()
+            UsageError(format!("{flag} {value}: outside {lower}…{upper}")).into()
         }
         other => usage(other),
     }
@@ -366,14 +147,14 @@ fn check(args: &RunArgs) -> Result<()> {
         && !(duration > 0.0 && duration <= MAX_DURATION)
     {
         let text = format!("--duration {duration} s: outside 0…{MAX_DURATION}");
-        return Err(Usage(text).into());
+        return Err(UsageError(text).into());
     }
     for (name, value, high) in [
         ("--strip-frames", args.strip_frames, 64),
         ("--threads", args.threads, 256),
     ] {
         if !(1..=high).contains(&value) {
-            return Err(Usage(format!("{name} {value}: outside 1…{high}")).into());
+            return Err(UsageError(format!("{name} {value}: outside 1…{high}")).into());
         }
     }
     if let Some(path) = &args.out {
@@ -397,9 +178,9 @@ fn check(args: &RunArgs) -> Result<()> {
 
 /// Runs every clip, several at a time if `--threads` says so, and prints a line as each one ends; the results are in
 /// the order of the clips.
-fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json::Value>> {
+fn run_all(scenario: &Scenario<'_>, sources: &[LoadedClip]) -> Result<Vec<serde_json::Value>> {
     let bars = MultiProgress::new();
-    let table = Table::new(
+    let table = SummaryTable::new(
         &bars,
         scenario.args,
         sources.iter().map(|s| s.name.as_str()),
@@ -436,9 +217,9 @@ fn run_all(scenario: &Scenario<'_>, sources: &[Source]) -> Result<Vec<serde_json
 
 fn run_one(
     scenario: &Scenario<'_>,
-    source: &Source,
+    source: &LoadedClip,
     several: bool,
-    table: &Table<'_>,
+    table: &SummaryTable<'_>,
 ) -> Result<serde_json::Value> {
     let args = scenario.args;
     let clip = &source.clip;
@@ -448,7 +229,7 @@ fn run_one(
     if let Some(path) = &args.out {
         let path = for_clip(path, &source.name, several);
         if extension("--out", &path, &["bvh", "csv"])? == "csv" {
-            csv = Some(Csv::create(&path)?);
+            csv = Some(RunCsv::create(&path)?);
         } else {
             postures = Some((path, Vec::new()));
         }
@@ -499,7 +280,7 @@ fn simulate(
     ticks: u64,
     shown: &[u64],
     mut each: impl FnMut(&Figure, f64) -> Result<()>,
-) -> Result<(RunReport, Vec<Frame>)> {
+) -> Result<(RunReport, Vec<StripFrame>)> {
     let constraints: Vec<_> = scenario
         .args
         .constrain
@@ -528,7 +309,7 @@ fn simulate(
                 .iter()
                 .filter_map(|c| goal_mark(c, metrics.time_s()));
             let things = things.chain(goals);
-            frames.push(Frame::of(&tick, metrics.time_s(), loads).among(things));
+            frames.push(StripFrame::of(&tick, metrics.time_s(), loads).among(things));
         }
         each(figure, metrics.time_s())?;
     }
@@ -596,7 +377,7 @@ fn scene(
         world.add_obstacle(o.0.clone()).context("--obstacle")?;
     }
     let figure = world.figure_mut(key).expect("the figure was just added");
-    figure.set_drive(Drive::Clip(ClipPlayback {
+    figure.set_drive(MotionSource::Clip(ClipPlayback {
         looped: args.looped,
         ..ClipPlayback::new(Arc::new(clip.clone()), -first)
     }));

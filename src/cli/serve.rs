@@ -1,10 +1,10 @@
 //! `sinew serve`: serves worlds until Ctrl-C or SIGTERM.
 
-use super::exit::{Usage, usage};
+use super::exit::{UsageError, usage};
 use super::interrupt::interrupted;
 use super::terminal::{OutputClosed, note, print, stderr_shows_colour};
 use anyhow::Context as _;
-use sinew_server::api::App;
+use sinew_server::app::App;
 use sinew_server::config::{Config, Sources};
 use sinew_server::telemetry;
 use std::net::SocketAddr;
@@ -19,7 +19,7 @@ const BACKLOG: u32 = 4096;
 
 /// Arguments of `sinew serve`.
 #[derive(Clone, Debug, Default, clap::Args)]
-pub struct Args {
+pub struct ServeArgs {
     /// TOML file with settings; deploy/config/sinew.toml lists all of them
     #[arg(long, env = "SINEW_CONFIG", value_name = "FILE")]
     config: Option<PathBuf>,
@@ -58,7 +58,7 @@ fn variables() -> impl Iterator<Item = (String, String)> {
     std::env::vars_os().map(move |(name, value)| (text(name), text(value)))
 }
 
-impl Args {
+impl ServeArgs {
     /// Settings from all sources, and where each comes from.
     ///
     /// # Errors
@@ -97,16 +97,16 @@ impl Args {
 ///
 /// # Errors
 /// Settings that are not usable, or a port that is taken.
-pub fn run(args: &Args) -> anyhow::Result<()> {
+pub fn run(args: &ServeArgs) -> anyhow::Result<()> {
     let (config, _) = args.settings().map_err(usage)?;
-    let filter = telemetry::log_filter(&config).map_err(Usage)?;
+    let filter = telemetry::log_filter(&config).map_err(UsageError)?;
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()?;
     runtime.block_on(serve(args, Arc::new(config), filter))
 }
 
-async fn serve(args: &Args, config: Arc<Config>, filter: EnvFilter) -> anyhow::Result<()> {
+async fn serve(args: &ServeArgs, config: Arc<Config>, filter: EnvFilter) -> anyhow::Result<()> {
     // The port is taken now, so that a mistake is told at once, and accepts when there is somebody to answer.
     let cannot_listen = || {
         format!(

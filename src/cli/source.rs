@@ -1,15 +1,16 @@
 //! Sources of motion: a BVH file or one of the built-in motions.
 
-use super::exit::Usage;
+use super::exit::UsageError;
 use anyhow::{Context, Result, bail};
 use sinew_physics::body::Body;
 use sinew_physics::motion::builtin::{BUILTIN_NAMES, builtin};
-use sinew_physics::motion::{Bvh, Clip};
-use sinew_physics::retarget::{RetargetOptions, RetargetReport, retarget};
+use sinew_physics::motion::{Clip, Recording, RecordingError, read};
+use sinew_physics::plan::{ReadingReport, prepare_recording};
+use sinew_physics::reference::RetargetOptions;
 use std::path::Path;
 
 /// A motion fitted to a body.
-pub struct Source {
+pub struct LoadedClip {
     /// File stem or built-in name.
     pub name: String,
     /// As it was given.
@@ -17,11 +18,11 @@ pub struct Source {
     /// The motion.
     pub clip: Clip,
     /// How the recording was fitted; `None` for built-in motions, which are made for the body.
-    pub retarget: Option<RetargetReport>,
+    pub retarget: Option<ReadingReport>,
 }
 
 /// Writes the warnings of the retargeting to standard error.
-pub fn warn(source: &Source) {
+pub fn warn(source: &LoadedClip) {
     for warning in source.retarget.iter().flat_map(|r| &r.warnings) {
         super::terminal::note(&format!("warning: {}: {warning}", source.name));
     }
@@ -31,8 +32,8 @@ pub fn warn(source: &Source) {
 pub const BUILTIN: &str = "builtin:";
 
 /// There is no built-in motion of this name.
-pub fn no_builtin(name: &str) -> Usage {
-    Usage(format!(
+pub fn no_builtin(name: &str) -> UsageError {
+    UsageError(format!(
         "there is no built-in motion {name:?}; the built-in motions are {}",
         BUILTIN_NAMES.join(", ")
     ))
@@ -48,17 +49,31 @@ pub fn name(spec: &str) -> String {
     }
 }
 
+/// The recording in the file `name`.
+///
+/// # Errors
+/// The bytes are of no known format, or hold no human figure; names the file and the place in it.
+pub fn recording(name: &str, bytes: &[u8]) -> Result<Recording> {
+    read(bytes).map_err(|e| {
+        let trouble = match &e {
+            RecordingError::Unreadable { format, .. } => format!("{name} is not a {format} file"),
+            _ => format!("{name} does not fit the body"),
+        };
+        anyhow::Error::new(e).context(trouble)
+    })
+}
+
 /// Loads `spec`, `builtin:NAME` or the path of a BVH file, and fits it to `body`.
 ///
 /// # Errors
 /// Unknown name, a folder, unreadable or malformed file, or a skeleton that cannot be mapped; names the file and the
 /// place in it.
-pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source> {
+pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<LoadedClip> {
     if let Some(name) = spec.strip_prefix(BUILTIN) {
         let Some(clip) = builtin(body, name) else {
             bail!(no_builtin(name));
         };
-        return Ok(Source {
+        return Ok(LoadedClip {
             name: name.to_owned(),
             spec: spec.to_owned(),
             clip,
@@ -67,7 +82,7 @@ pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source
     }
     if Path::new(spec).is_dir() {
         let folder = spec.trim_end_matches('/');
-        bail!(Usage(format!(
+        bail!(UsageError(format!(
             "{spec} is a folder; name its files ({folder}/*.bvh) or use `sinew survey`"
         )));
     }
@@ -77,10 +92,10 @@ pub fn load(spec: &str, body: &Body, options: &RetargetOptions) -> Result<Source
         }
         other => other.with_context(|| format!("cannot read {spec}"))?,
     };
-    let bvh = Bvh::parse(&bytes).with_context(|| format!("{spec} is not a BVH file"))?;
-    let fitted =
-        retarget(&bvh, body, options).with_context(|| format!("{spec} does not fit the body"))?;
-    Ok(Source {
+    let recording = recording(spec, &bytes)?;
+    let fitted = prepare_recording(&recording, body, options)
+        .with_context(|| format!("{spec} does not fit the body"))?;
+    Ok(LoadedClip {
         name: name(spec),
         spec: spec.to_owned(),
         clip: fitted.clip,

@@ -10,7 +10,7 @@ use sinew_evaluate::envelope::{Envelope, Speed};
 use sinew_physics::body::Links;
 use sinew_physics::body::topology::DOF_NAMES;
 use sinew_physics::motion::Clip;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::reference::{Preparation, RetargetOptions};
 use sinew_physics::strength::Strength;
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -1,6 +1,6 @@
 //! `sinew token`: makes bearer tokens for small set-ups, signed with a secret that the server has, too.
 
-use super::exit::Usage;
+use super::exit::UsageError;
 use super::terminal::{note, print_line};
 use anyhow::Context as _;
 use sinew_server::access::roles::Role;
@@ -55,7 +55,7 @@ fn role(text: &str) -> Result<Role, String> {
 pub fn run(args: &TokenArgs) -> anyhow::Result<()> {
     // Written so that NaN fails.
     if !(args.days > 0.0 && args.days <= MOST_DAYS) {
-        return Err(Usage(format!("--days must be above 0 and at most {MOST_DAYS}")).into());
+        return Err(UsageError(format!("--days must be above 0 and at most {MOST_DAYS}")).into());
     }
     if args.new_key {
         create_secret(&args.key).with_context(|| args.key.display().to_string())?;

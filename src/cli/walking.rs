@@ -1,6 +1,7 @@
 //! `sinew walking`: simulates walks with pushes, loads, other bodies and noisy recordings, and writes a page with the
 //! results.
 
+mod study;
 mod survey;
 
 use super::page::{Page, progress};
@@ -8,18 +9,19 @@ use super::source::load;
 use anyhow::{Context, Result};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use sinew_evaluate::experiments::walk::{Hands, Walk, Walked, Walker, walk};
+use sinew_evaluate::experiments::walk::{Hands, WalkTrial, Walked, Walker, walk};
 use sinew_evaluate::noise::noisy;
 use sinew_evaluate::survival::SurvivalMap;
 use sinew_physics::body::{Body, Profile, Sex};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::builtin::builtin;
-use sinew_physics::motion::{Bvh, Clip};
+use sinew_physics::motion::{Bvh, Clip, read};
 use sinew_physics::plan::cycle;
-use sinew_physics::retarget::retarget;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::{Preparation, RetargetOptions};
 use std::path::PathBuf;
 use std::sync::Arc;
+use study::{LoadedMotion, Study, hundredths};
 
 /// Impulses, N·s.
 const IMPULSES: [f64; 4] = [10.0, 20.0, 30.0, 40.0];
@@ -54,23 +56,6 @@ pub struct WalkingArgs {
     /// Folder for the page (README.md) and its plots; files of the same names are replaced
     #[arg(long, value_name = "FOLDER", default_value = "docs/walking")]
     pub out: PathBuf,
-}
-
-/// A motion, and the arguments that it was loaded with.
-struct Motion {
-    name: String,
-    spec: String,
-    options: RetargetOptions,
-    clip: Arc<Clip>,
-}
-
-/// The input of all experiments.
-struct Study {
-    body: Arc<Body>,
-    /// Recorded runs are listed twice: turned into a walk, and as recorded.
-    clips: Vec<Motion>,
-    /// Name, and the clip made to repeat.
-    walk: Option<(String, Arc<Clip>)>,
 }
 
 /// Runs the command.
@@ -116,15 +101,15 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
 }
 
 /// The motion of a recording; if it is a run, turned into a walk and as recorded.
-fn motions(spec: &str, body: &Body) -> Result<Vec<Motion>> {
-    let read = |kind: &str, walk_runs| -> Result<(Motion, bool)> {
+fn motions(spec: &str, body: &Body) -> Result<Vec<LoadedMotion>> {
+    let read = |kind: &str, walk_runs| -> Result<(LoadedMotion, bool)> {
         let options = RetargetOptions {
             preparation: Preparation::walking(walk_runs),
             ..RetargetOptions::default()
         };
         let source = load(spec, body, &options)?;
         let runs = source.retarget.is_some_and(|r| r.runs.speed.is_some());
-        let motion = Motion {
+        let motion = LoadedMotion {
             name: format!("{}{kind}", source.name),
             spec: spec.to_owned(),
             options,
@@ -153,10 +138,6 @@ fn introduction(page: &mut Page, study: &Study) {
          walking {}` wrote this page; nothing on it is edited by hand.",
         names.join(" ")
     ));
-}
-
-fn hundredths(x: f64) -> String {
-    format!("{x:.2}")
 }
 
 fn row(name: &str, seconds: f64, w: &Walked) -> Vec<String> {
@@ -209,12 +190,12 @@ fn clips_once(page: &mut Page, study: &Study) {
         .clips
         .iter()
         .map(|m| {
-            let what = Walk::once(&m.clip);
+            let what = WalkTrial::once(&m.clip);
             row(&m.name, what.seconds, &walk(&walker, &what))
         })
         .collect();
     if let Some((name, clip)) = &study.walk {
-        let what = Walk::over_and_over(clip, LONG);
+        let what = WalkTrial::over_and_over(clip, LONG);
         rows.push(row(
             &format!("{name}, repeated"),
             LONG,
@@ -244,7 +225,7 @@ fn map(
 ) -> SurvivalMap {
     let survivors = |direction: usize, impulse: f64| {
         let survived = moments.iter().filter(|t| {
-            let mut what = Walk::over_and_over(clip, **t + AFTER);
+            let mut what = WalkTrial::over_and_over(clip, **t + AFTER);
             what.push = Some((**t, toward(heading, direction, impulse)));
             walk(walker, &what).stood()
         });
@@ -330,7 +311,7 @@ fn variations(page: &mut Page, study: &Study, name: &str, clip: &Arc<Clip>) -> R
     let man = Walker::new(&study.body);
     let mut rows = Vec::new();
     let mut add = |text: &str, walker: &Walker, clip: &Arc<Clip>| {
-        let what = Walk::over_and_over(clip, SHORT);
+        let what = WalkTrial::over_and_over(clip, SHORT);
         rows.push(row(text, SHORT, &walk(walker, &what)));
     };
     let size = |height: f64, mass: f64| Profile {
@@ -421,15 +402,18 @@ fn sensitivity(page: &mut Page, study: &Study) -> Result<()> {
         }
         let bytes = std::fs::read(spec).with_context(|| format!("cannot read {spec}"))?;
         let bvh = Bvh::parse(&bytes)?;
-        let unit = retarget(&bvh, &study.body, options)?.report.size.unit_m;
+        let unit = {
+            let fitted = prepare_recording(&bvh.recording()?, &study.body, options)?;
+            fitted.report.size.unit_m
+        };
         let (mut stood, mut least, mut most) = (0, f64::INFINITY, 0.0f64);
         for seed in 0..COPIES {
             let mut rng = Pcg64Mcg::seed_from_u64(u64::from(seed));
             let random = || rng.random_range(-1.0..=1.0);
             let copy = noisy(&bytes, &bvh, metres / unit, degrees, random)
                 .with_context(|| format!("{spec} has no motion"))?;
-            let clip = retarget(&Bvh::parse(copy.as_bytes())?, &study.body, options)?.clip;
-            let walked = walk(&walker, &Walk::once(&Arc::new(clip)));
+            let clip = prepare_recording(&read(copy.as_bytes())?, &study.body, options)?.clip;
+            let walked = walk(&walker, &WalkTrial::once(&Arc::new(clip)));
             stood += u32::from(walked.stood());
             let rms = walked.report.tracking_joint_rms_deg;
             (least, most) = (least.min(rms), most.max(rms));

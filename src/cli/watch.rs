@@ -1,16 +1,16 @@
 //! `sinew watch`: prints the frames of a world.
 
 use super::args::CredentialArgs;
-use super::exit::{Usage, within};
+use super::exit::{UsageError, within};
+use super::remote::{explain, world_resource};
 use super::terminal::print_line;
-use super::{explain, world_resource};
 use sinew_wire::frame::values;
 use sinew_wire::pb;
 use sinew_wire::watched::WatchWorldResponse;
 
 /// Arguments of `sinew watch`.
 #[derive(Clone, Debug, clap::Args)]
-pub struct Args {
+pub struct WatchArgs {
     /// Server, host:port
     address: String,
     /// World, for example `demo`
@@ -41,10 +41,10 @@ pub struct Args {
 const MOST_EVERY: f64 = 1000.0;
 
 /// Checks what clap cannot.
-fn check(args: &Args) -> anyhow::Result<()> {
+fn check(args: &WatchArgs) -> anyhow::Result<()> {
     within("--every", f64::from(args.every), [1.0, MOST_EVERY])?;
     match args.count {
-        Some(0) => Err(Usage("--count 0: must be at least 1".to_owned()).into()),
+        Some(0) => Err(UsageError("--count 0: must be at least 1".to_owned()).into()),
         _ => Ok(()),
     }
 }
@@ -53,7 +53,7 @@ fn check(args: &Args) -> anyhow::Result<()> {
 ///
 /// # Errors
 /// No server, no such world, or the stream breaks.
-pub fn run(args: &Args) -> anyhow::Result<()> {
+pub fn run(args: &WatchArgs) -> anyhow::Result<()> {
     check(args)?;
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
@@ -61,7 +61,7 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
     runtime.block_on(watch(args))
 }
 
-async fn watch(args: &Args) -> anyhow::Result<()> {
+async fn watch(args: &WatchArgs) -> anyhow::Result<()> {
     let client = args.credentials.connect(&args.address).await?;
     let fields = if args.fields.is_empty() {
         vec![
@@ -117,13 +117,13 @@ async fn watch(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-type Names = std::collections::BTreeMap<i32, String>;
+type FigureNames = std::collections::BTreeMap<i32, String>;
 
-fn name<'a>(names: &'a Names, f: &pb::FigureFrame) -> &'a str {
+fn name<'a>(names: &'a FigureNames, f: &pb::FigureFrame) -> &'a str {
     names.get(&f.figure_index).map_or("?", String::as_str)
 }
 
-fn line(frame: &pb::WorldFrame, names: &Names) -> String {
+fn line(frame: &pb::WorldFrame, names: &FigureNames) -> String {
     use std::fmt::Write as _;
     let mut out = format!("tick {:<7} {:8.3} s", frame.tick, frame.time_s);
     for f in &frame.figures {
@@ -151,7 +151,7 @@ fn line(frame: &pb::WorldFrame, names: &Names) -> String {
     out
 }
 
-fn json(frame: &pb::WorldFrame, names: &Names) -> serde_json::Value {
+fn json(frame: &pb::WorldFrame, names: &FigureNames) -> serde_json::Value {
     use serde_json::{Map, Value, json};
     let figures: Vec<Value> = frame
         .figures

@@ -281,7 +281,7 @@ impl Client {
     ///
     /// # Errors
     /// Those of the server, for example that someone else drives one of the figures.
-    pub async fn drive(&self, header: pb::DriveHeader) -> Result<Driver, Status> {
+    pub async fn drive(&self, header: pb::DriveHeader) -> Result<LiveDriver, Status> {
         use pb::drive_figures_request::Message;
         let (send, receive) = mpsc::channel(DRIVE_QUEUE);
         let first = pb::DriveFiguresRequest {
@@ -294,7 +294,7 @@ impl Client {
             .drive_figures(ReceiverStream::new(receive))
             .await?
             .into_inner();
-        Ok(Driver { send, feedback })
+        Ok(LiveDriver { send, feedback })
     }
 }
 
@@ -323,12 +323,12 @@ fn why(error: &dyn std::error::Error) -> String {
 
 /// A live drive. Dropping it gives the figures back.
 #[derive(Debug)]
-pub struct Driver {
+pub struct LiveDriver {
     send: mpsc::Sender<pb::DriveFiguresRequest>,
     feedback: Streaming<pb::DriveFiguresResponse>,
 }
 
-impl Driver {
+impl LiveDriver {
     /// Sends a batch; false if the server has ended the stream (its reason comes from [`Self::feedback`]).
     pub async fn send(&self, frames: Vec<pb::MotionFrame>) -> bool {
         let message = pb::drive_figures_request::Message::Batch(pb::MotionBatch { frames });

@@ -84,7 +84,7 @@ pub fn inertial_forces(
         let m = links.mass[s];
         let com_local = links.moment[s] * (1.0 / m);
         let r = poses[s].rotation.rotate(com_local);
-        let Motion {
+        let SegmentMotion {
             omega,
             alpha,
             acceleration,
@@ -121,7 +121,7 @@ impl Wrench {
 
 /// Angular velocity and acceleration of a segment and acceleration of its origin, world axes.
 #[derive(Clone, Copy, Default)]
-struct Motion {
+struct SegmentMotion {
     omega: Vec3,
     alpha: Vec3,
     acceleration: Vec3,
@@ -132,10 +132,10 @@ fn segment_motions(
     state: &State,
     acceleration: &[f64; NV],
     poses: &[SegmentPose; SEGMENT_COUNT],
-) -> [Motion; SEGMENT_COUNT] {
+) -> [SegmentMotion; SEGMENT_COUNT] {
     let (v, a) = (&state.velocity, acceleration);
-    let mut out = [Motion::default(); SEGMENT_COUNT];
-    out[0] = Motion {
+    let mut out = [SegmentMotion::default(); SEGMENT_COUNT];
+    out[0] = SegmentMotion {
         omega: Vec3 {
             x: v[0],
             y: v[1],
@@ -156,7 +156,7 @@ fn segment_motions(
         let p = PARENT[s];
         let (d, n) = (6 + DOF_START[s], DOF_LEN[s]);
         let r = poses[p].rotation.rotate(links.offset[s]);
-        let Motion {
+        let SegmentMotion {
             mut omega,
             mut alpha,
             ..
@@ -183,7 +183,7 @@ fn segment_motions(
                 }
             }
         }
-        out[s] = Motion {
+        out[s] = SegmentMotion {
             omega,
             alpha,
             acceleration,

@@ -7,10 +7,10 @@
 //! counts, not the peak. Where it is beyond the curves of a profile, [`Envelope::merged`] scales that muscle up; the
 //! curves keep their shape, and no muscle becomes weaker: a motion shows what a person can do, not what they cannot.
 
-use super::forecast::{self, Needed};
 use sinew_physics::body::topology::DOF_NAMES;
 use sinew_physics::body::{Body, DOF_COUNT, Links};
 use sinew_physics::figure::StrengthScale;
+use sinew_physics::forecast::{self, Needed};
 use sinew_physics::motion::Clip;
 use sinew_physics::strength::{MuscleScale, Strength};
 
@@ -63,7 +63,7 @@ pub struct Envelope {
 
 /// One sample of one direction of one DOF.
 #[derive(Clone, Copy)]
-struct Use {
+struct StrengthSample {
     angle: f64,
     /// Rate of shortening, rad/s.
     rate: f64,
@@ -96,7 +96,7 @@ impl Envelope {
             all.extend(forecast::needed(body, links, strength, clip));
         }
         let rested = MuscleScale::default();
-        let mut uses: Vec<[Vec<Use>; 2]> =
+        let mut uses: Vec<[Vec<StrengthSample>; 2]> =
             (0..DOF_COUNT).map(|_| [Vec::new(), Vec::new()]).collect();
         for n in &all {
             let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
@@ -104,7 +104,7 @@ impl Envelope {
             for d in 0..DOF_COUNT {
                 let side = usize::from(n.torque[d] < 0.0);
                 let sign = if side == 0 { 1.0 } else { -1.0 };
-                uses[d][side].push(Use {
+                uses[d][side].push(StrengthSample {
                     angle: n.angle[d],
                     rate: sign * n.rate[d],
                     torque: n.torque[d].abs(),
@@ -130,13 +130,13 @@ impl Envelope {
         out
     }
 
-    fn add_cells(&mut self, d: usize, positive: bool, uses: &mut [Use], quantile: f64) {
-        let speed = |u: &Use| match u.rate {
+    fn add_cells(&mut self, d: usize, positive: bool, uses: &mut [StrengthSample], quantile: f64) {
+        let speed = |u: &StrengthSample| match u.rate {
             r if r > STILL => Speed::Shortening,
             r if r < -STILL => Speed::Lengthening,
             _ => Speed::Still,
         };
-        let cell = |u: &Use| ((u.angle / ANGLE_CELL).floor() as i64, speed(u));
+        let cell = |u: &StrengthSample| ((u.angle / ANGLE_CELL).floor() as i64, speed(u));
         uses.sort_by(|a, b| cell(a).cmp(&cell(b)).then(a.torque.total_cmp(&b.torque)));
         for group in uses.chunk_by(|a, b| cell(a) == cell(b)) {
             let (angle, speed) = cell(&group[0]);

@@ -1,17 +1,15 @@
 //! Judging a run from outside: what a figure did, measured from its reports and checked against the laws of motion.
 //!
 //! [`metrics`] accumulates a run tick by tick into a [`RunReport`]; [`audit`] rebuilds the equations of motion from the
-//! body alone, without any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`table`] writes it
-//! as CSV; [`survival`] what was survived; [`noise`] asks whether that was luck; [`experiments`] are those of
+//! body alone, without any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`survival`] what
+//! was survived; [`noise`] asks whether that was luck; [`experiments`] are those of
 //! `sinew paper` and `sinew walking`; [`survey`] judges a whole corpus by published rules against references that are
-//! fixed in the world, and compares surveys; [`forecast`] says what will come of a motion before it is run,
-//! [`envelope`] what strength it needs; [`follow`] chooses how it is followed. Nothing here reads a clock or a file.
+//! fixed in the world, and compares surveys; [`envelope`] says what strength a
+//! motion needs. Nothing here reads a clock or a file.
 
 pub mod audit;
 pub mod envelope;
 pub mod experiments;
-pub mod follow;
-pub mod forecast;
 pub mod metrics;
 pub mod noise;
 pub mod plot;
@@ -20,7 +18,6 @@ pub mod report;
 pub mod strip;
 pub mod survey;
 pub mod survival;
-pub mod table;
 
 pub use audit::{AuditResult, audit};
 pub use metrics::{Metrics, Tick};

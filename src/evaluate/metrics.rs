@@ -296,7 +296,7 @@ fn percentile(sorted: &[f32], share: f64) -> f64 {
     f64::from(sorted[rank.clamp(1, sorted.len()) - 1])
 }
 
-/// True if nothing that enters the measures is NaN or infinite.
+/// Whether nothing that enters the measures is NaN or infinite.
 fn is_finite(tick: &Tick<'_>) -> bool {
     let r = tick.report;
     let a = &r.audit;

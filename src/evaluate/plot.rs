@@ -198,7 +198,7 @@ impl Plot {
     }
 
     /// Where the entries of the legend are, pixels, and what they are.
-    fn legend(&self) -> Vec<([f64; 2], Entry<'_>)> {
+    fn legend(&self) -> Vec<([f64; 2], LegendEntry<'_>)> {
         let bands = self.bands.iter().map(|b| (&b.label[..], BAND, 8.0, false));
         let curves = self.curves.iter();
         let curves = curves.map(|c| (&c.label[..], c.colour, 2.0, c.dashed));
@@ -218,7 +218,7 @@ impl Plot {
 }
 
 /// An entry of the legend: text, colour, width of its line in pixels, dashed.
-type Entry<'a> = (&'a str, Rgba, f64, bool);
+type LegendEntry<'a> = (&'a str, Rgba, f64, bool);
 
 fn text(content: &str, anchor: &str, [x, y]: [f64; 2]) -> Text {
     let [x, y] = [x, y].map(tenth);

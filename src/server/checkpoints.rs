@@ -6,7 +6,7 @@
 //! ```
 
 use super::config::Config;
-use super::shares::{Client, check_part};
+use super::shares::{ClientKey, check_part};
 use super::telemetry::metrics::CheckpointTimer;
 use super::tick::scene::{SavedScene, Scene};
 use sinew_physics::world::checkpoint::{Capture, Checkpoint, CheckpointError, Definitions};
@@ -84,7 +84,7 @@ fn other_version(message: String) -> Fault {
 
 /// A checkpoint that is kept.
 #[derive(Debug)]
-pub struct Kept {
+pub struct KeptCheckpoint {
     /// Last part of the name of its world.
     pub world: String,
     /// Last part of its name.
@@ -100,13 +100,13 @@ pub struct Kept {
     /// When it was taken.
     pub created: SystemTime,
     /// Who took it.
-    pub owner: Client,
+    pub owner: ClientKey,
 }
 
 /// All checkpoints that are kept, by world and name.
 #[derive(Debug)]
 pub struct Checkpoints {
-    all: Mutex<BTreeMap<(String, String), Arc<Kept>>>,
+    all: Mutex<BTreeMap<(String, String), Arc<KeptCheckpoint>>>,
     most: u64,
     most_bytes: u64,
     share: f64,
@@ -123,7 +123,7 @@ impl Checkpoints {
         }
     }
 
-    fn all(&self) -> MutexGuard<'_, BTreeMap<(String, String), Arc<Kept>>> {
+    fn all(&self) -> MutexGuard<'_, BTreeMap<(String, String), Arc<KeptCheckpoint>>> {
         // Entries are whole.
         self.all.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -135,9 +135,9 @@ impl Checkpoints {
     /// The name is taken; there are too many, or too many bytes, of all or of this client; those of `there`.
     pub fn keep(
         &self,
-        mut new: Kept,
+        mut new: KeptCheckpoint,
         there: impl FnOnce() -> Result<(), Fault>,
-    ) -> Result<Arc<Kept>, Fault> {
+    ) -> Result<Arc<KeptCheckpoint>, Fault> {
         let mut all = self.all();
         there()?;
         if new.id.is_empty() {
@@ -154,7 +154,7 @@ impl Checkpoints {
             });
         }
         let own = || all.values().filter(|k| k.owner == new.owner);
-        let bytes = |k: &Arc<Kept>| k.bytes.len() as u64;
+        let bytes = |k: &Arc<KeptCheckpoint>| k.bytes.len() as u64;
         let size = new.bytes.len() as u64;
         let full = |limit, value| Fault::Exhausted {
             limit,
@@ -183,13 +183,13 @@ impl Checkpoints {
     ///
     /// # Errors
     /// There is none of that name.
-    pub fn get(&self, world: &str, id: &str) -> Result<Arc<Kept>, Fault> {
+    pub fn get(&self, world: &str, id: &str) -> Result<Arc<KeptCheckpoint>, Fault> {
         let found = self.all().get(&(world.to_owned(), id.to_owned())).cloned();
         found.ok_or_else(|| missing(world, id))
     }
 
     /// Those of a world, by name.
-    pub fn of_world(&self, world: &str) -> Vec<Arc<Kept>> {
+    pub fn of_world(&self, world: &str) -> Vec<Arc<KeptCheckpoint>> {
         let all = self.all();
         all.values().filter(|k| k.world == world).cloned().collect()
     }
@@ -214,7 +214,7 @@ impl Checkpoints {
 }
 
 /// Tells the metrics what is kept.
-fn tell(all: &BTreeMap<(String, String), Arc<Kept>>) {
+fn tell(all: &BTreeMap<(String, String), Arc<KeptCheckpoint>>) {
     let bytes: usize = all.values().map(|k| k.bytes.len()).sum();
     metrics::gauge!("sinew_checkpoints").set(all.len() as f64);
     metrics::gauge!("sinew_checkpoint_bytes").set(bytes as f64);

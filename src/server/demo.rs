@@ -1,10 +1,10 @@
 //! The demo world: people of different build lift the same crate.
 
 use super::BoxError;
-use super::api::App;
+use super::app::App;
 use super::library::Manner;
-use super::tick::command::Origin;
-use super::worlds::Stored;
+use super::tick::command::CommandOrigin;
+use super::worlds::Persisted;
 use sinew_wire::convert;
 use sinew_wire::pb;
 use sinew_wire::types::{ControlKey, Place, Playback};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// The built-in motion that everyone plays.
 const MOTION: &str = "crate";
-/// What the crate weighs at first, kg: everyone can lift it.
+/// Mass of the crate at first, kg: everyone can lift it.
 const CRATE_KG: f64 = 4.0;
 /// Name, body and place to the left, m.
 const PEOPLE: [(&str, &str, f64); 3] = [
@@ -34,8 +34,8 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
         false,
         ("demo".into(), Vec::new()),
     )?;
-    // Each start makes it anew.
-    world.stored.send_replace(Stored::Never);
+    // It is made again at each start.
+    world.stored.send_replace(Persisted::Never);
     let mut present = Vec::new();
     for (name, body, y) in PEOPLE {
         if convert::body::by_id(body).is_none() {
@@ -86,7 +86,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
             principal: "demo".into(),
             tokens: Vec::new(),
         };
-        let origin = Origin {
+        let origin = CommandOrigin {
             client: "demo".into(),
             sequence: 0,
         };

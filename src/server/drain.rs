@@ -1,6 +1,6 @@
 //! How the server ends: it says so, lets what runs come to its end, writes down what there is, and goes.
 
-use super::api::App;
+use super::app::App;
 use super::edge::Edge;
 use super::health::Health;
 use std::future::Future;
@@ -11,7 +11,7 @@ use tokio::sync::watch;
 /// How long the states of all worlds may take to be written.
 const WRITING: Duration = Duration::from_secs(30);
 
-/// What has to end.
+/// The parts of the server that have to end.
 pub(super) struct Drain {
     pub app: Arc<App>,
     pub edge: Arc<Edge>,
@@ -37,7 +37,7 @@ impl Drain {
         app.worlds.refuse_new();
         health.end().await;
         tokio::time::sleep(seconds(config.lame_duck_s)).await;
-        // What comes now is told to come again later, elsewhere. Streams end; calls may come to their end.
+        // New requests are told to come again later, elsewhere. Streams end; calls may come to their end.
         stop.send_replace(true);
         if !edge.finish(seconds(config.shutdown_grace_s)).await {
             tracing::warn!("calls were still worked on after the grace time");

@@ -4,30 +4,28 @@
 //! clock and physics is one file.
 
 use crate::workers::Turn;
-use sinew_evaluate::forecast::Verdict;
 use sinew_physics::body::palm::load_point;
 use sinew_physics::body::provenance::Provenance;
-use sinew_physics::body::topology::{self, BONE_NAMES, SEGMENT_NAMES};
+use sinew_physics::body::topology::{self, SEGMENT_NAMES};
 use sinew_physics::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
 use sinew_physics::collide::{MAX_OBSTACLES, ObstacleSetup, Other};
-use sinew_physics::figure::loads::MAX_PERTURBATIONS;
-use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::motion::tasks::held_point;
 use sinew_physics::figure::{
     Constrained, Constraint, ControlParams, ControllerKind, FigureOptions, HeldLoad, Perturbation,
     StrengthScale,
 };
 use sinew_physics::math::{Quat, Vec3};
-use sinew_physics::motion::{Bvh, PlanarTransform, Target};
-use sinew_physics::retarget::{
-    FileFacts, Preparation, RetargetError, RetargetOptions, UpAxis, retarget_unless,
-};
+use sinew_physics::motion::{self, PlanarTransform, Recording, Target};
+use sinew_physics::plan::contact_labels::label_postures;
+use sinew_physics::plan::{PreparedRecording, ReadingReport, prepare_recording_unless};
+use sinew_physics::reference::{FileFacts, Preparation, RetargetError, RetargetOptions, UpAxis};
+use sinew_physics::setup::MAX_PERTURBATIONS;
 use sinew_physics::strength::Strength;
 use sinew_physics::world::{FigureSetup, WorldError, WorldParams};
 use sinew_wire::status::Fault;
 use sinew_wire::types::{
     BvhReading, ConstraintSettings, Disturbance, EventKind, FigureSettings, FigureSnapshot,
-    Follows, ForecastInfo, ForecastVerdict, MotionSource, Place, ReadingReport, SecondSegment,
-    WorldSettings,
+    Follows, MotionSource, Place, SecondSegment, WorldSettings,
 };
 use std::sync::Arc;
 
@@ -36,7 +34,7 @@ pub use sinew_physics::figure::{PlanRequest, Planning};
 pub use sinew_physics::motion::Clip;
 pub use sinew_physics::motion::builtin::BUILTIN_NAMES;
 pub use sinew_physics::world::{
-    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, LivePlayback, World,
+    ClipPlayback, Figure, FigureEvent, FigureKey, LivePlayback, MotionSource as Motion, World,
 };
 
 /// Builds a body; the fault names the field of the profile that its tables do not cover.
@@ -74,7 +72,7 @@ pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
 /// Prepares a motion for a body. It is given up once `stop` says so.
 ///
 /// # Errors
-/// What is wrong with the file or its motion, with `field` as the place of the source in the request; it was given up.
+/// A problem of the file or its motion, with `field` as the place of the source in the request; the work was given up.
 pub fn prepare(
     field: &str,
     name: &str,
@@ -85,14 +83,14 @@ pub fn prepare(
 ) -> Result<(Clip, Option<ReadingReport>), Fault> {
     match source {
         MotionSource::Bvh(bytes, reading) => {
-            let bvh = Bvh::parse(bytes)
-                .map_err(|e| Fault::invalid(format!("{field}.data"), e.to_string()))?;
-            let (clip, report) =
-                retarget(name, &bvh, reading, body, tempo, stop).map_err(|e| match e {
-                    RetargetError::Stopped => Turn::gone(),
-                    other => Fault::invalid(format!("{field}.data"), other.to_string()),
-                })?;
-            Ok((clip, Some(report)))
+            let refused = |e: RetargetError| match e {
+                RetargetError::Stopped => Turn::gone(),
+                other => Fault::invalid(format!("{field}.data"), other.to_string()),
+            };
+            let recording = motion::read(bytes).map_err(|e| refused(e.into()))?;
+            let prepared =
+                retarget(name, &recording, reading, body, tempo, stop).map_err(refused)?;
+            Ok((prepared.clip, Some(prepared.report)))
         }
         MotionSource::Postures {
             rate_hz,
@@ -100,7 +98,7 @@ pub fn prepare(
             planted,
         } => {
             let planted = if planted.is_empty() {
-                planted_feet(body, postures, *rate_hz)
+                label_postures(body, postures, *rate_hz)
             } else {
                 planted.clone()
             };
@@ -108,33 +106,6 @@ pub fn prepare(
                 .map_err(|e| Fault::invalid(format!("{field}.frames"), e.to_string()))?;
             Ok((clip, None))
         }
-    }
-}
-
-/// What will come of a clip when `body` follows it by its own strength, without loads. Slow: not on the thread of a
-/// tick.
-pub fn forecast(body: &Body, clip: &Clip) -> ForecastInfo {
-    let f = sinew_evaluate::forecast::forecast_plain(body, clip);
-    let d = f.difficulty;
-    ForecastInfo {
-        verdict: match f.verdict {
-            Verdict::Follows => ForecastVerdict::Follows,
-            Verdict::NeedsHelp => ForecastVerdict::NeedsHelp,
-            Verdict::Cannot => ForecastVerdict::Cannot,
-        },
-        reason: f.reason,
-        demand: f.demand,
-        lacking_force: [
-            d.lacking_force_rms,
-            d.lacking_force_peak,
-            d.lacking_force_at_s,
-        ],
-        lacking_moment: d.lacking_moment_peak,
-        drift_m: d.drift_m,
-        strength_peak: [d.support_peak, d.support_peak_at_s],
-        strength_dof: d.support_p95_dof,
-        strength_p95: d.support_p95,
-        times_s: [d.flight_s, d.longest_flight_s, d.floor_s, d.inverted_s],
     }
 }
 
@@ -159,22 +130,22 @@ pub(super) fn options(
     }
 }
 
-/// Retargets a file to a body. The clip keeps the place and heading of the recording.
+/// A clip of `body` from a recording. The clip keeps the place and heading of the recording.
 ///
 /// # Errors
-/// What cannot be used, with bone, frame or figure; it was given up.
+/// Input that cannot be used, with bone, frame or figure; the work was given up.
 pub fn retarget(
     name: &str,
-    bvh: &Bvh,
+    recording: &Recording,
     reading: &BvhReading,
     body: &Body,
     tempo: f64,
     stop: &dyn Fn() -> bool,
-) -> Result<(Clip, ReadingReport), RetargetError> {
+) -> Result<PreparedRecording, RetargetError> {
     let defaults = Preparation::default();
     let preparation = Preparation {
         lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
-        // What is uploaded is simulated, and measured strength does not run.
+        // Uploaded motions are simulated, and measured strength does not run.
         walk_runs: reading.walk_runs.unwrap_or(true),
         ..defaults
     };
@@ -182,105 +153,7 @@ pub fn retarget(
         tempo,
         ..options(name, reading, preparation)
     };
-    let out = retarget_unless(bvh, body, &options, stop)?;
-    let r = out.report;
-    let bone = |segment: &str| {
-        let i = SEGMENT_NAMES.iter().position(|s| *s == segment);
-        i.map_or(segment, |i| BONE_NAMES[i]).to_owned()
-    };
-    let report = ReadingReport {
-        mapped: r
-            .skeleton
-            .mapped
-            .iter()
-            .map(|m| (bone(m.segment), m.bones.clone()))
-            .collect(),
-        missing: r.skeleton.missing.iter().map(|s| bone(s)).collect(),
-        by_structure: r.skeleton.by_structure,
-        sides_swapped: r.skeleton.sides_swapped,
-        unit_m: r.size.unit_m,
-        up_axis: match r.size.up {
-            UpAxis::Y => "y",
-            UpAxis::Z => "z",
-        }
-        .to_owned(),
-        stature_m: r.size.stature,
-        scale: r.size.scale,
-        source_rate_hz: r.frames.source_rate_hz,
-        run_speed: r.runs.speed,
-        runs_walked: r.runs.walked,
-        floor_offset_m: r.place.floor_offset,
-        clamped: r
-            .joints
-            .clamped
-            .iter()
-            .map(|c| (c.dof.to_owned(), c.fraction, c.max))
-            .collect(),
-        foot_slide_m: [r.feet.slide.0, r.feet.slide.1],
-        bridged: r.frames.bridged.iter().map(|b| b.count).sum(),
-        dropped: r.frames.skipped_frames,
-        phases: r
-            .feet
-            .phases
-            .iter()
-            .flat_map(|p| {
-                [(true, p.planted[0]), (false, p.planted[1])]
-                    .into_iter()
-                    .filter(|(_, down)| *down)
-                    .map(|(left, _)| (left, p.start, p.end))
-            })
-            .collect(),
-        warnings: r.warnings,
-    };
-    Ok((out.clip, report))
-}
-
-/// Lowest point of each foot (left, right) in a posture, with its world position.
-fn soles(body: &Body, posture: &Posture) -> [Vec3; 2] {
-    let poses = sinew_wire::posture::segment_poses(body, posture);
-    [
-        [topology::L_FOOT, topology::L_TOES],
-        [topology::R_FOOT, topology::R_TOES],
-    ]
-    .map(|side| {
-        side.iter()
-            .flat_map(|s| {
-                let (p, q) = poses[s.index()];
-                body.segment(*s)
-                    .contact_points
-                    .iter()
-                    .map(move |c| p + q.rotate(*c))
-            })
-            .min_by(|a, b| a.z.total_cmp(&b.z))
-            .unwrap_or(poses[side[0].index()].0)
-    })
-}
-
-/// Height of a sole over the ground below which a foot may count as planted, m (captured feet differ by a few cm).
-const PLANTED_HEIGHT: f64 = 0.06;
-/// Speed of a sole below which a foot may count as planted, m/s.
-const PLANTED_SPEED: f64 = 0.45;
-
-/// Which feet a desired motion keeps on the floor between two postures `dt` seconds apart: low and slow.
-pub fn planted_between(body: &Body, before: &Posture, after: &Posture, dt: f64) -> [bool; 2] {
-    let (a, b) = (soles(body, before), soles(body, after));
-    std::array::from_fn(|i| {
-        b[i].z < PLANTED_HEIGHT && (b[i] - a[i]).norm() < PLANTED_SPEED * dt.max(1e-3)
-    })
-}
-
-fn planted_feet(body: &Body, postures: &[Posture], rate_hz: f64) -> Vec<[bool; 2]> {
-    (0..postures.len())
-        .map(|i| {
-            let (a, b) = (i.saturating_sub(1), (i + 1).min(postures.len() - 1));
-            planted_between(
-                body,
-                &postures[a],
-                &postures[b],
-                (b - a).max(1) as f64 / rate_hz,
-            )
-        })
-        .collect()
+    prepare_recording_unless(recording, body, &options, stop)
 }
 
 /// Quiet standing at a place: the zero pose with the soles on the ground.
@@ -354,10 +227,10 @@ pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
     .map_err(|e| refused("world", &e))
 }
 
-/// Checks that a world with these settings would take a figure: one that nobody sees is made of it.
+/// Checks that a world with these settings would take a figure: a hidden one is made of it.
 ///
 /// # Errors
-/// What the physics refuses.
+/// The physics refuses the input.
 pub fn check_figure(
     world: &WorldSettings,
     figure: &FigureSettings,
@@ -370,7 +243,7 @@ pub fn check_figure(
 /// Checks an obstacle; `new`: whether there is room for it, too.
 ///
 /// # Errors
-/// What the physics refuses.
+/// The physics refuses the input.
 pub fn check_obstacle(world: &World, setup: &ObstacleSetup, new: bool) -> Result<(), Fault> {
     let checked = world.check_obstacle(setup, new);
     checked.map_err(|e| refused_obstacle(&e))
@@ -379,7 +252,7 @@ pub fn check_obstacle(world: &World, setup: &ObstacleSetup, new: bool) -> Result
 /// World time of the first frame of the clip that a figure plays at `time` (s), if it does: not before that, and not in
 /// the stand after it.
 pub fn playing_since(figure: &Figure, time: f64) -> Option<f64> {
-    let Drive::Clip(play) = figure.drive() else {
+    let Motion::Clip(play) = figure.drive() else {
         return None;
     };
     if figure.next_clip().is_some() {
@@ -484,7 +357,7 @@ pub fn set_constraints(
         .iter()
         .map(|c| Constraint {
             on: c.on.map_or(Constrained::CenterOfMass, |(s, point)| {
-                Constrained::Point(s, point.unwrap_or_else(|| place_on(&body, s)))
+                Constrained::Point(s, point.unwrap_or_else(|| held_point(&body, s)))
             }),
             position: c.position,
             axes: c.axes,
@@ -498,15 +371,6 @@ pub fn set_constraints(
     world
         .set_constraints(key, &all)
         .map_err(|e| refused("figure", &e))
-}
-
-/// Where a constraint that names no point holds a segment.
-fn place_on(body: &Body, s: SegmentId) -> Vec3 {
-    if s == topology::L_HAND || s == topology::R_HAND {
-        grip(body, s)
-    } else {
-        body.segment(s).com
-    }
 }
 
 /// The constraints that hold, at world time `now`.
@@ -606,7 +470,7 @@ pub fn playback(
     }
 }
 
-/// What moves a motion that begins at `from` so that it begins at `to`.
+/// The transform that moves a motion which begins at `from` so that it begins at `to`.
 pub fn placing(from: Place, to: Place) -> PlanarTransform {
     let turn = PlanarTransform {
         x: 0.0,
@@ -718,7 +582,7 @@ pub fn event_kind(e: &FigureEvent, name: impl Fn(Other) -> String) -> EventKind 
     }
 }
 
-/// What a figure looks like after the tick of `dt` that began at world time `start`; its loads are those of that tick.
+/// A figure after the tick of `dt` that began at world time `start`; its loads are those of that tick.
 /// `name`: what is touched, as it is called outside.
 pub fn snapshot(
     figure: &Figure,

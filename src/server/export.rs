@@ -5,13 +5,13 @@ use super::tick::replay::{Replay, ReplayError};
 use super::tick::scene::Scene;
 use mcap::write::NoSeek;
 use prost::Message;
-use sinew_evaluate::table::{Torques, header, row};
 use sinew_physics::body::{Body, Posture};
 use sinew_physics::motion::bvh_write::write_bvh;
+use sinew_physics::motion::table::{Torques, header, row};
 use sinew_wire::DESCRIPTOR_SET;
 use sinew_wire::frame::world_frame;
 use sinew_wire::status::Fault;
-use sinew_wire::types::{Fields, NumberFormat, RosterEntry, ViewSpec};
+use sinew_wire::types::{FieldSet, NumberFormat, RosterEntry, ViewSpec};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -30,7 +30,7 @@ pub enum Format {
 /// Most frames of a BVH file: it is written at its end.
 const MAX_BVH_FRAMES: usize = 1_000_000;
 
-/// Takes pieces of the file with the ticks that are done. False: nobody wants more.
+/// Takes pieces of the file with the ticks that are done: whether more is wanted.
 pub type Give<'a> = dyn FnMut(Vec<u8>, u64) -> bool + 'a;
 
 /// Writes a recording of the world `world`. It is given up once `stop` says so, or `give` does.
@@ -51,10 +51,10 @@ pub fn export(
             message: format!("ticks {from} to {until} of world {world:?} are not on disk any more"),
         });
     }
-    let mut writer: Box<dyn Writer> = match format {
+    let mut writer: Box<dyn FileWriter> = match format {
         Format::Mcap => Box::new(Mcap::new(world)?),
-        Format::Bvh(figure) => Box::new(Bvh::of(figure)),
-        Format::Csv(figure) => Box::new(Csv::of(figure)),
+        Format::Bvh(figure) => Box::new(BvhFileWriter::of(figure)),
+        Format::Csv(figure) => Box::new(CsvFileWriter::of(figure)),
     };
     let mut replay = Replay::of(&recorded.segments)?;
     let mut failed = None;
@@ -100,20 +100,20 @@ pub fn export(
 }
 
 /// A kind of file.
-trait Writer {
+trait FileWriter {
     /// Takes the state after a tick.
     fn tick(&mut self, scene: &Scene) -> Result<(), Fault>;
-    /// What can be handed out.
+    /// The bytes that can be handed out.
     fn take(&mut self) -> Vec<u8>;
-    /// What is left at the end.
+    /// The rest at the end.
     fn finish(self: Box<Self>) -> Result<Vec<u8>, Fault>;
 }
 
-/// Bytes that are handed out as they come: nobody goes back in them.
+/// Bytes that are handed out in order, as they come.
 #[derive(Clone, Default)]
-struct Pieces(Arc<Mutex<Vec<u8>>>);
+struct SharedBytes(Arc<Mutex<Vec<u8>>>);
 
-impl Pieces {
+impl SharedBytes {
     fn inside(&self) -> MutexGuard<'_, Vec<u8>> {
         // Bytes are appended whole.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
@@ -124,7 +124,7 @@ impl Pieces {
     }
 }
 
-impl Write for Pieces {
+impl Write for SharedBytes {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
         self.inside().extend_from_slice(bytes);
         Ok(bytes.len())
@@ -138,8 +138,8 @@ impl Write for Pieces {
 struct Mcap {
     world: Arc<str>,
     view: ViewSpec,
-    pieces: Pieces,
-    writer: mcap::Writer<NoSeek<Pieces>>,
+    pieces: SharedBytes,
+    writer: mcap::Writer<NoSeek<SharedBytes>>,
     channel: u16,
     roster: Arc<[RosterEntry]>,
     /// Of the roster.
@@ -152,7 +152,7 @@ fn broken(e: &mcap::McapError) -> Fault {
 
 impl Mcap {
     fn new(world: &str) -> Result<Self, Fault> {
-        let pieces = Pieces::default();
+        let pieces = SharedBytes::default();
         let mut writer = mcap::WriteOptions::new()
             .compression(None)
             .disable_seeking(true)
@@ -171,7 +171,7 @@ impl Mcap {
             world: world.into(),
             view: ViewSpec {
                 figures: Vec::new(),
-                fields: Fields::ALL,
+                fields: FieldSet::ALL,
                 format: NumberFormat::Double,
                 divisor: 1,
             },
@@ -184,7 +184,7 @@ impl Mcap {
     }
 }
 
-impl Writer for Mcap {
+impl FileWriter for Mcap {
     fn tick(&mut self, scene: &Scene) -> Result<(), Fault> {
         let roster = scene.roster();
         let names = |all: &[RosterEntry]| -> Vec<(i32, String)> {
@@ -250,14 +250,14 @@ fn nobody(wanted: Option<&String>) -> Fault {
     Fault::not_found("figure", name.to_owned())
 }
 
-struct Bvh {
+struct BvhFileWriter {
     figure: Option<String>,
     body: Option<Arc<Body>>,
     rate_hz: f64,
     postures: Vec<Posture>,
 }
 
-impl Bvh {
+impl BvhFileWriter {
     fn of(figure: Option<String>) -> Self {
         Self {
             figure,
@@ -268,7 +268,7 @@ impl Bvh {
     }
 }
 
-impl Writer for Bvh {
+impl FileWriter for BvhFileWriter {
     fn tick(&mut self, scene: &Scene) -> Result<(), Fault> {
         let Some(f) = chosen(&mut self.figure, scene) else {
             return Ok(());
@@ -297,13 +297,13 @@ impl Writer for Bvh {
     }
 }
 
-struct Csv {
+struct CsvFileWriter {
     figure: Option<String>,
     any: bool,
     lines: String,
 }
 
-impl Csv {
+impl CsvFileWriter {
     fn of(figure: Option<String>) -> Self {
         Self {
             figure,
@@ -313,7 +313,7 @@ impl Csv {
     }
 }
 
-impl Writer for Csv {
+impl FileWriter for CsvFileWriter {
     fn tick(&mut self, scene: &Scene) -> Result<(), Fault> {
         // A figure that was not stepped has no torques yet.
         let Some(f) = chosen(&mut self.figure, scene) else {

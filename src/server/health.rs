@@ -1,9 +1,10 @@
-//! What probes are told over `grpc.health.v1`. `/livez` and `/readyz` say the same.
+//! The answers to probes over `grpc.health.v1`. `/livez` and `/readyz` say the same.
 //!
 //! The empty name and `readiness` say whether new clients are welcome; `liveness` whether the process answers; the name
 //! of a service whether that one does.
 
-use super::api::{self, App};
+use super::api;
+use super::app::App;
 use std::time::Duration;
 use tonic_health::ServingStatus::{self, NotServing, Serving};
 use tonic_health::server::HealthReporter;

@@ -1,9 +1,9 @@
 //! Plain HTTP on the same port: the viewer, the status page and the metrics.
 
 use super::access::roles::Role;
-use super::api::App;
-use super::edge::Edge;
+use super::app::App;
 use super::edge::connections::Peer;
+use super::edge::{Edge, unknown_method};
 use super::telemetry;
 use super::viewer;
 use super::worlds::WorldHandle;
@@ -12,12 +12,8 @@ use axum::http::{HeaderMap, StatusCode, Uri, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use axum::{Extension, Router};
-use sinew_wire::status::Fault;
 use std::fmt::Write as _;
 use std::sync::Arc;
-
-/// Characters of a path that a message repeats.
-const ECHO: usize = 80;
 
 /// Lets browser pages of known origins call gRPC-Web and read its trailers.
 pub(super) fn cors(edge: Arc<Edge>) -> tower_http::cors::CorsLayer {
@@ -52,15 +48,7 @@ pub(super) fn router(app: Arc<App>) -> Router {
     pages.with_state(app)
 }
 
-/// The answer to a call of a method that there is not.
-pub(super) fn unknown_method(path: &str) -> Response {
-    let shown: String = path.chars().take(ECHO).collect();
-    let fault = Fault::Unimplemented(format!("the method {shown}"));
-    telemetry::count_refusal(&fault);
-    tonic::Status::from(fault).into_http::<axum::body::Body>()
-}
-
-/// What is neither page nor service. gRPC callers get a gRPC answer.
+/// The answer to a path that is neither page nor service. gRPC callers get a gRPC answer.
 pub(super) async fn unknown(uri: Uri, headers: HeaderMap) -> Response {
     let kind = headers.get(header::CONTENT_TYPE);
     if let Some(kind) = kind.filter(|k| k.as_bytes().starts_with(b"application/grpc")) {

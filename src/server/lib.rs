@@ -5,6 +5,8 @@
 
 pub mod access;
 pub mod api;
+pub mod app;
+pub mod calls;
 pub mod checkpoints;
 pub mod config;
 pub mod demo;
@@ -14,6 +16,7 @@ pub mod engine;
 pub mod export;
 pub mod fanout;
 pub mod ingest;
+pub mod late_viewers;
 pub mod library;
 pub mod operations;
 pub mod persistence;
@@ -37,7 +40,7 @@ mod http;
 mod testing;
 mod viewer;
 
-use api::App;
+use app::App;
 use axum::middleware::{from_fn, from_fn_with_state};
 use config::Config;
 use drain::Drain;

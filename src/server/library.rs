@@ -6,8 +6,9 @@ use super::rehearsals::{Rehearsed, Score};
 use super::shares::check_part;
 use super::workers::Turn;
 use sinew_physics::body::{Body, Posture};
+use sinew_physics::forecast::forecast_plain;
 use sinew_physics::plan::cycle;
-use sinew_physics::retarget::{SAMPLE_BYTES, TEMPI};
+use sinew_physics::reference::{SAMPLE_BYTES, TEMPI};
 use sinew_wire::convert::body::{NAMED, by_id};
 use sinew_wire::pb;
 use sinew_wire::status::Fault;
@@ -78,7 +79,7 @@ impl Bodies {
     }
 }
 
-/// What a clip is prepared for besides its body.
+/// The conditions that a clip is prepared for, besides its body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Manner {
     repeats: bool,
@@ -108,7 +109,7 @@ impl Manner {
 }
 
 /// A stored motion.
-struct Stored {
+struct StoredClip {
     /// Which of all that have had its name it is.
     number: u64,
     info: ClipInfo,
@@ -127,7 +128,7 @@ pub struct NewClip {
     pub id: Option<String>,
     /// Name for people.
     pub display_name: String,
-    /// Whose it is; `None`: everybody's.
+    /// Its owner; `None`: everybody.
     pub owner: Option<Arc<str>>,
     /// How far it may go so that a figure keeps to it.
     pub follow: FollowSettings,
@@ -138,7 +139,7 @@ pub struct Clips {
     most: u64,
     most_bytes: u64,
     share: f64,
-    held: Mutex<BTreeMap<String, Arc<Stored>>>,
+    held: Mutex<BTreeMap<String, Arc<StoredClip>>>,
     next: AtomicU64,
     /// Clips so far.
     count: AtomicU64,
@@ -181,7 +182,7 @@ impl Clips {
             let prepared = HashMap::from([(key, Arc::new(clip))]);
             held.insert(
                 name.to_owned(),
-                Arc::new(Stored {
+                Arc::new(StoredClip {
                     number: 0,
                     info,
                     source: None,
@@ -203,7 +204,7 @@ impl Clips {
 
     fn room(
         &self,
-        held: &BTreeMap<String, Arc<Stored>>,
+        held: &BTreeMap<String, Arc<StoredClip>>,
         new: &NewClip,
         bytes: u64,
     ) -> Result<(), Fault> {
@@ -235,7 +236,7 @@ impl Clips {
     }
 
     /// Makes room for so many bytes, if need be by forgetting preparations that nobody plays.
-    fn space(&self, held: &BTreeMap<String, Arc<Stored>>, bytes: u64) -> Result<(), Fault> {
+    fn space(&self, held: &BTreeMap<String, Arc<StoredClip>>, bytes: u64) -> Result<(), Fault> {
         let fits = || held.values().map(|s| s.used()).sum::<u64>() + bytes <= self.most_bytes;
         if !fits() {
             for stored in held.values() {
@@ -262,7 +263,7 @@ impl Clips {
     }
 
     /// The name of a new clip, one that is free if none is given.
-    fn free_id(&self, held: &BTreeMap<String, Arc<Stored>>, new: &NewClip) -> String {
+    fn free_id(&self, held: &BTreeMap<String, Arc<StoredClip>>, new: &NewClip) -> String {
         new.id.clone().unwrap_or_else(|| {
             loop {
                 let n = self.next.fetch_add(1, Ordering::Relaxed);
@@ -289,7 +290,7 @@ impl Clips {
         if stop() {
             return Err(Turn::gone());
         }
-        let forecast = engine::forecast(body, &clip);
+        let forecast = forecast_plain(body, &clip);
         let info = ClipInfo {
             id: title.to_owned(),
             display_name: new.display_name.clone(),
@@ -343,7 +344,7 @@ impl Clips {
         let (info, clip) = self.converted(&new, reference, body, &source, stop)?;
         let bytes = source_bytes(&source);
         let mut held = locked(&self.held);
-        // What was free when the work began may be taken by now.
+        // A name that was free when the work began may be taken by now.
         let id = self.free_id(&held, &new);
         let new = NewClip {
             id: Some(id.clone()),
@@ -355,7 +356,7 @@ impl Clips {
             ..info
         };
         stored(&info)?;
-        let stored = Stored {
+        let stored = StoredClip {
             number: self.number(),
             info: info.clone(),
             source: Some(source),
@@ -402,7 +403,7 @@ impl Clips {
         };
         let mut held = locked(&self.held);
         self.room(&held, &new, bytes)?;
-        let stored = Stored {
+        let stored = StoredClip {
             number: self.number(),
             info,
             source: Some(source),
@@ -428,7 +429,7 @@ impl Clips {
         let (clip, report) = engine::prepare(field, id, &source, body, 1.0, stop)?;
         let info = ClipInfo {
             report: report.map(Arc::new),
-            forecast: Some(Arc::new(engine::forecast(body, &clip))),
+            forecast: Some(Arc::new(forecast_plain(body, &clip))),
             ..stored.info.clone()
         };
         let mut held = locked(&self.held);
@@ -437,7 +438,7 @@ impl Clips {
             let key = (info.body.clone(), Manner::recorded(false));
             let mut prepared = locked(&stored.prepared).clone();
             prepared.insert(key, Arc::new(clip));
-            let stored = Stored {
+            let stored = StoredClip {
                 number: stored.number,
                 info,
                 source: Some(source),
@@ -450,7 +451,7 @@ impl Clips {
         Ok(())
     }
 
-    fn stored(&self, id: &str) -> Result<Arc<Stored>, Fault> {
+    fn stored(&self, id: &str) -> Result<Arc<StoredClip>, Fault> {
         locked(&self.held)
             .get(id)
             .cloned()
@@ -554,7 +555,7 @@ impl Clips {
     /// Keeps what was prepared. All that is held is counted, also what only a figure plays.
     fn keep(
         &self,
-        stored: &Stored,
+        stored: &StoredClip,
         key: (String, Manner),
         clip: Arc<Clip>,
     ) -> Result<Arc<Clip>, Fault> {
@@ -568,7 +569,7 @@ impl Clips {
         Ok(prepared.entry(key).or_insert(clip).clone())
     }
 
-    /// Bytes that preparing a clip takes meanwhile, near enough.
+    /// Memory for preparing a clip, bytes, approximately.
     ///
     /// # Errors
     /// There is none of that name.
@@ -579,7 +580,7 @@ impl Clips {
         Ok(4 * file + SAMPLE_BYTES * stored.info.frames as u64)
     }
 
-    /// What a clip is rehearsed from.
+    /// The source that a clip is rehearsed from.
     ///
     /// # Errors
     /// There is none of that name.
@@ -651,7 +652,7 @@ impl Clips {
     }
 }
 
-impl Stored {
+impl StoredClip {
     /// Bytes of the file and of what was prepared from it. What is prepared twice by accident of time, or repeats the
     /// same frames, is counted as often.
     fn used(&self) -> u64 {

@@ -1,6 +1,6 @@
 //! Long work that goes on whether or not somebody waits for it, kept in memory with what came of it.
 
-use crate::progress::Progress;
+use crate::progress::WorkProgress;
 use crate::shares::part;
 use sinew_wire::convert::names::OPERATION;
 use sinew_wire::status::Fault;
@@ -13,7 +13,7 @@ use tokio::task::AbortHandle;
 
 /// How far an operation is.
 #[derive(Debug)]
-pub enum State<T> {
+pub enum OperationState<T> {
     /// It waits for its turn or is worked on.
     Going,
     /// It has ended.
@@ -28,7 +28,7 @@ pub enum State<T> {
 }
 
 // Derived, this would ask the result to be `Clone`, too.
-impl<T> Clone for State<T> {
+impl<T> Clone for OperationState<T> {
     fn clone(&self) -> Self {
         match self {
             Self::Going => Self::Going,
@@ -53,21 +53,21 @@ pub struct Operation<T> {
     /// When.
     pub created: SystemTime,
     /// How far its work is.
-    pub progress: Progress,
-    state: watch::Sender<State<T>>,
+    pub progress: WorkProgress,
+    state: watch::Sender<OperationState<T>>,
     work: Mutex<Option<AbortHandle>>,
 }
 
 /// All operations.
 #[derive(Debug)]
 pub struct Operations<T> {
-    held: Mutex<Held<T>>,
-    limits: Limits,
+    held: Mutex<HeldOperations<T>>,
+    limits: OperationLimits,
 }
 
 /// How many operations are kept, and for how long.
 #[derive(Clone, Copy, Debug)]
-pub struct Limits {
+pub struct OperationLimits {
     /// Operations (`max_operations`).
     pub most: u64,
     /// Share of them that one principal may have.
@@ -79,7 +79,7 @@ pub struct Limits {
 }
 
 #[derive(Debug)]
-struct Held<T> {
+struct HeldOperations<T> {
     /// By number: oldest first.
     all: BTreeMap<u64, Arc<Operation<T>>>,
     next: u64,
@@ -87,35 +87,35 @@ struct Held<T> {
 
 impl<T> Operation<T> {
     /// How far it is.
-    pub fn state(&self) -> State<T> {
+    pub fn state(&self) -> OperationState<T> {
         self.state.borrow().clone()
     }
 
     /// Whether it has ended.
     pub fn has_ended(&self) -> bool {
-        matches!(*self.state.borrow(), State::Ended { .. })
+        matches!(*self.state.borrow(), OperationState::Ended { .. })
     }
 
     /// Waits until it has.
     pub async fn ended(&self) {
-        let ended = |state: &State<T>| matches!(state, State::Ended { .. });
+        let ended = |state: &OperationState<T>| matches!(state, OperationState::Ended { .. });
         // The sender lives in this operation.
         let _ = self.state.subscribe().wait_for(ended).await;
     }
 
     fn bytes(&self) -> u64 {
         match *self.state.borrow() {
-            State::Going => 0,
-            State::Ended { bytes, .. } => bytes,
+            OperationState::Going => 0,
+            OperationState::Ended { bytes, .. } => bytes,
         }
     }
 
     /// Notes the end; the first one counts.
     fn end(&self, outcome: Option<Result<T, Fault>>, bytes: u64) {
         self.state.send_if_modified(|state| {
-            let going = matches!(state, State::Going);
+            let going = matches!(state, OperationState::Going);
             if going {
-                *state = State::Ended {
+                *state = OperationState::Ended {
                     at: SystemTime::now(),
                     outcome: outcome.map(|o| o.map(Arc::new)),
                     bytes,
@@ -137,8 +137,8 @@ impl<T> Operation<T> {
 
 impl<T: Send + Sync + 'static> Operations<T> {
     /// None yet.
-    pub fn new(limits: Limits) -> Arc<Self> {
-        let held = Held {
+    pub fn new(limits: OperationLimits) -> Arc<Self> {
+        let held = HeldOperations {
             all: BTreeMap::new(),
             next: 1,
         };
@@ -149,13 +149,15 @@ impl<T: Send + Sync + 'static> Operations<T> {
     }
 
     /// What is held, without what has expired.
-    fn lock(&self) -> MutexGuard<'_, Held<T>> {
+    fn lock(&self) -> MutexGuard<'_, HeldOperations<T>> {
         // Entries are whole.
         let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
         let now = SystemTime::now();
         held.all.retain(|_, o| match *o.state.borrow() {
-            State::Going => true,
-            State::Ended { at, .. } => now.duration_since(at).unwrap_or_default() < self.limits.ttl,
+            OperationState::Going => true,
+            OperationState::Ended { at, .. } => {
+                now.duration_since(at).unwrap_or_default() < self.limits.ttl
+            }
         });
         held
     }
@@ -167,7 +169,7 @@ impl<T: Send + Sync + 'static> Operations<T> {
     pub fn start<W>(
         self: &Arc<Self>,
         principal: Arc<str>,
-        work: impl FnOnce(Progress) -> W,
+        work: impl FnOnce(WorkProgress) -> W,
         size: fn(&T) -> u64,
     ) -> Result<Arc<Operation<T>>, Fault>
     where
@@ -182,8 +184,8 @@ impl<T: Send + Sync + 'static> Operations<T> {
             id: format!("operation-{number}"),
             principal,
             created: SystemTime::now(),
-            progress: Progress::default(),
-            state: watch::Sender::new(State::Going),
+            progress: WorkProgress::default(),
+            state: watch::Sender::new(OperationState::Going),
             work: Mutex::default(),
         });
         held.all.insert(number, operation.clone());
@@ -262,9 +264,9 @@ impl<T: Send + Sync + 'static> Operations<T> {
     }
 }
 
-impl<T> Held<T> {
+impl<T> HeldOperations<T> {
     /// Makes room for one more of a principal by forgetting the oldest that have ended.
-    fn make_room(&mut self, limits: &Limits, principal: &str) -> Result<(), Fault> {
+    fn make_room(&mut self, limits: &OperationLimits, principal: &str) -> Result<(), Fault> {
         let own = part(limits.most, limits.share);
         for (most, whose) in [(own, Some(principal)), (limits.most, None)] {
             let is_theirs = |o: &Operation<T>| whose.is_none_or(|p| *o.principal == *p);
@@ -337,7 +339,7 @@ mod tests {
     use tokio::sync::Notify;
 
     fn all(most: u64, bytes: u64) -> Arc<Operations<String>> {
-        Operations::new(Limits {
+        Operations::new(OperationLimits {
             most,
             share: 0.5,
             bytes,
@@ -352,23 +354,23 @@ mod tests {
 
     fn outcome(o: &Operation<String>) -> Option<Result<String, Fault>> {
         match o.state() {
-            State::Going => panic!("it goes on"),
-            State::Ended { outcome, .. } => outcome.map(|o| o.map(|text| (*text).clone())),
+            OperationState::Going => panic!("it goes on"),
+            OperationState::Ended { outcome, .. } => outcome.map(|o| o.map(|text| (*text).clone())),
         }
     }
 
     #[tokio::test]
     async fn an_operation_ends_with_what_came_of_it() {
         let all = all(8, 100);
-        let text = |_: Progress| async { Ok("done".to_owned()) };
+        let text = |_: WorkProgress| async { Ok("done".to_owned()) };
         let o = all.start("ann".into(), text, size).unwrap();
         o.ended().await;
         assert_eq!(outcome(&o), Some(Ok("done".into())));
-        let refused = |_: Progress| async { Err(Fault::invalid("bvh.data", "is empty")) };
+        let refused = |_: WorkProgress| async { Err(Fault::invalid("bvh.data", "is empty")) };
         let o = all.start("ann".into(), refused, size).unwrap();
         o.ended().await;
         assert_eq!(outcome(&o).unwrap().unwrap_err().reason(), "INVALID_FIELD");
-        let broken = |_: Progress| async { panic!("on purpose") };
+        let broken = |_: WorkProgress| async { panic!("on purpose") };
         let o = all.start("ann".into(), broken, size).unwrap();
         o.ended().await;
         assert_eq!(outcome(&o).unwrap().unwrap_err().reason(), "INTERNAL");
@@ -385,7 +387,7 @@ mod tests {
         let all = all(8, 100);
         let (gone, begun) = (Arc::new(AtomicBool::new(false)), Arc::new(Notify::new()));
         let (watched, told) = (gone.clone(), begun.clone());
-        let work = |_: Progress| async move {
+        let work = |_: WorkProgress| async move {
             let _dropped = Dropped(watched);
             told.notify_one();
             std::future::pending::<Result<String, Fault>>().await
@@ -407,10 +409,10 @@ mod tests {
     #[tokio::test]
     async fn nobody_sees_those_of_others_or_fills_their_room() {
         let all = all(8, 100);
-        let text = |_: Progress| async { Ok("done".to_owned()) };
+        let text = |_: WorkProgress| async { Ok("done".to_owned()) };
         let bobs = all.start("bob".into(), text, size).unwrap();
         bobs.ended().await;
-        let endless = |_: Progress| std::future::pending::<Result<String, Fault>>();
+        let endless = |_: WorkProgress| std::future::pending::<Result<String, Fault>>();
         for _ in 0..4 {
             all.start("ann".into(), endless, size).unwrap();
         }
@@ -431,7 +433,7 @@ mod tests {
     #[tokio::test]
     async fn who_has_the_most_makes_room() {
         let all = all(64, 100);
-        let text = |n: usize| move |_: Progress| async move { Ok("x".repeat(n)) };
+        let text = |n: usize| move |_: WorkProgress| async move { Ok("x".repeat(n)) };
         let start = async |who: &str, n: usize| {
             let o = all.start(who.into(), text(n), size).unwrap();
             o.ended().await;
@@ -461,7 +463,7 @@ mod tests {
     #[tokio::test]
     async fn results_are_bounded_by_their_bytes() {
         let all = all(64, 100);
-        let text = |n: usize| move |_: Progress| async move { Ok("x".repeat(n)) };
+        let text = |n: usize| move |_: WorkProgress| async move { Ok("x".repeat(n)) };
         let large = all.start("ann".into(), text(101), size).unwrap();
         large.ended().await;
         assert_eq!(

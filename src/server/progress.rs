@@ -9,15 +9,15 @@ const NEARLY: f64 = 0.99;
 
 /// How far a piece of work is: nothing while it waits for its turn, then a share of 0…1.
 #[derive(Clone, Debug)]
-pub struct Progress(watch::Sender<Option<f64>>);
+pub struct WorkProgress(watch::Sender<Option<f64>>);
 
-impl Default for Progress {
+impl Default for WorkProgress {
     fn default() -> Self {
         Self(watch::Sender::new(None))
     }
 }
 
-impl Progress {
+impl WorkProgress {
     /// So much is done, of all that there is to do. It never goes back.
     pub fn tell(&self, done: f64, all: f64) {
         let share = if all > 0.0 { done / all } else { 0.0 };
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn progress_goes_on_in_steps_and_never_back() {
-        let progress = Progress::default();
+        let progress = WorkProgress::default();
         let mut seen = progress.watch();
         assert_eq!(*seen.borrow_and_update(), None);
         for (done, told, news) in [

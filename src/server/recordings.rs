@@ -1,7 +1,7 @@
 //! Recordings of worlds: parts of their past that are kept, in memory, and written as files on demand.
 
-use super::shares::{Client, check_part};
-use super::tick::journal::{Journal, Pin, PinEnd, Segment};
+use super::shares::{ClientKey, check_part};
+use super::tick::journal::{Journal, JournalSegment, Pin, PinEnd};
 use sinew_wire::status::Fault;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -9,14 +9,14 @@ use std::time::SystemTime;
 
 /// A recording.
 #[derive(Debug)]
-pub struct Recording {
+pub struct KeptRecording {
     /// Last part of the name of its world.
     pub world: String,
     /// Last part of its name.
     pub id: String,
     /// When it was begun.
     pub created: SystemTime,
-    owner: Client,
+    owner: ClientKey,
     journal: Arc<Journal>,
     pin: Arc<Pin>,
 }
@@ -31,10 +31,10 @@ pub struct Recorded {
     /// Why it has ended.
     pub end: Option<PinEnd>,
     /// What is kept.
-    pub segments: Vec<Arc<Segment>>,
+    pub segments: Vec<Arc<JournalSegment>>,
 }
 
-impl Recording {
+impl KeptRecording {
     /// As it is now.
     pub fn now(&self) -> Recorded {
         let (segments, last, bytes) = self.journal.pinned(&self.pin);
@@ -75,7 +75,7 @@ pub struct StoredRecording {
     pub created_ms: u64,
 }
 
-impl Recording {
+impl KeptRecording {
     /// As it is stored.
     fn stored(&self) -> StoredRecording {
         let end = self.pin.end();
@@ -111,7 +111,7 @@ fn end_of(name: &str) -> Option<PinEnd> {
 /// All recordings, by world and name.
 #[derive(Debug)]
 pub struct Recordings {
-    all: Mutex<BTreeMap<(String, String), Arc<Recording>>>,
+    all: Mutex<BTreeMap<(String, String), Arc<KeptRecording>>>,
     most: u64,
     most_bytes: u64,
     share: f64,
@@ -127,7 +127,7 @@ pub struct NewRecording {
     /// Tick to begin with; `None`: now.
     pub first: Option<u64>,
     /// Who begins it.
-    pub owner: Client,
+    pub owner: ClientKey,
 }
 
 impl Recordings {
@@ -146,7 +146,7 @@ impl Recordings {
         self.most_bytes
     }
 
-    fn all(&self) -> MutexGuard<'_, BTreeMap<(String, String), Arc<Recording>>> {
+    fn all(&self) -> MutexGuard<'_, BTreeMap<(String, String), Arc<KeptRecording>>> {
         // Entries are whole.
         self.all.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -161,7 +161,7 @@ impl Recordings {
         journal: Arc<Journal>,
         new: NewRecording,
         there: impl FnOnce() -> Result<(), Fault>,
-    ) -> Result<Arc<Recording>, Fault> {
+    ) -> Result<Arc<KeptRecording>, Fault> {
         let mut all = self.all();
         there()?;
         let key = |id: &str| (new.world.clone(), id.to_owned());
@@ -188,7 +188,7 @@ impl Recordings {
         }
         let own = all.values().filter(|r| r.owner == new.owner).count() as u64;
         check_part("max_recordings", own, self.most, self.share)?;
-        let recording = Arc::new(Recording {
+        let recording = Arc::new(KeptRecording {
             pin: journal.pin(new.first, self.most_bytes)?,
             world: new.world.clone(),
             id: id.clone(),
@@ -211,7 +211,7 @@ impl Recordings {
         journal: &Arc<Journal>,
         (world, now): (&str, u64),
         stored: StoredRecording,
-        kept: Vec<Arc<Segment>>,
+        kept: Vec<Arc<JournalSegment>>,
     ) {
         let first = kept
             .first()
@@ -239,7 +239,7 @@ impl Recordings {
             );
         }
         let created = SystemTime::UNIX_EPOCH + std::time::Duration::from_millis(stored.created_ms);
-        let recording = Arc::new(Recording {
+        let recording = Arc::new(KeptRecording {
             pin: journal.pin_again(kept, (first, self.most_bytes), end),
             world: world.to_owned(),
             id: stored.id.clone(),
@@ -254,13 +254,13 @@ impl Recordings {
     ///
     /// # Errors
     /// There is none of that name.
-    pub fn get(&self, world: &str, id: &str) -> Result<Arc<Recording>, Fault> {
+    pub fn get(&self, world: &str, id: &str) -> Result<Arc<KeptRecording>, Fault> {
         let found = self.all().get(&(world.to_owned(), id.to_owned())).cloned();
         found.ok_or_else(|| missing(world, id))
     }
 
     /// Those of a world, by name.
-    pub fn of_world(&self, world: &str) -> Vec<Arc<Recording>> {
+    pub fn of_world(&self, world: &str) -> Vec<Arc<KeptRecording>> {
         let all = self.all();
         all.values().filter(|r| r.world == world).cloned().collect()
     }

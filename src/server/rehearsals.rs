@@ -1,29 +1,27 @@
-//! Clips that are rehearsed for figures: whom for, the work itself, and what is kept of it.
+//! Rehearsals of clips for figures: the figure that a clip is rehearsed for, the work itself, and its result.
 
 use super::engine::{self, Clip};
 use super::workers::Turn;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
-use sinew_evaluate::follow as evaluation;
-use sinew_evaluate::forecast::forecast;
-use sinew_evaluate::survey::{Conditions, Reference};
 use sinew_physics::body::{Body, Links, Profile};
-use sinew_physics::figure::rehearsed::RootStep;
 use sinew_physics::figure::{FigureOptions, HeldLoad, Perturbation, StrengthScale};
-use sinew_physics::motion::{Bvh, Target};
-use sinew_physics::rehearsal::Progress;
-use sinew_physics::retarget::{Preparation, RetargetError, retarget_unless};
+use sinew_physics::forecast::forecast;
+use sinew_physics::motion::{self, Target};
+use sinew_physics::plan::prepare_recording_unless;
+use sinew_physics::reference::{Preparation, RetargetError};
+use sinew_physics::rehearsal::follow::{FollowResult, FollowWay, RehearsalOptions, follow};
+use sinew_physics::rehearsal::{Conditions, Progress, TrackingReference};
+use sinew_physics::stepper::pelvis_wrench::RootStep;
 use sinew_physics::strength::Strength;
 use sinew_physics::world::{Figure, RehearsedMotion, WorldParams};
 use sinew_wire::status::Fault;
-use sinew_wire::types::{
-    BvhReading, Follow, FollowSettings, FollowWay, MotionSource, RehearsalInfo,
-};
+use sinew_wire::types::{BvhReading, FollowSettings, MotionSource, RehearsalInfo};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Whom a clip is rehearsed for: a figure as it is, in its world.
+/// The figure that a clip is rehearsed for, as it is, in its world.
 #[derive(Clone, Debug)]
 pub struct Performer {
     body: Arc<Body>,
@@ -52,7 +50,7 @@ impl Performer {
                 facts: vec![],
             });
         }
-        // What is held now is held all the time.
+        // A load that is held now is held all the time.
         let always = |load: HeldLoad| {
             Perturbation::Held(HeldLoad {
                 from: 0.0,
@@ -69,7 +67,7 @@ impl Performer {
         })
     }
 
-    /// True if what is rehearsed for the one is so for the other.
+    /// Whether a rehearsal for the one is one for the other.
     pub fn is_like(&self, other: &Self) -> bool {
         self.body.profile == other.body.profile
             && self.links == other.links
@@ -77,7 +75,7 @@ impl Performer {
             && self.decisive() == other.decisive()
     }
 
-    /// What of its world counts.
+    /// The parameters of its world that matter.
     fn decisive(&self) -> [f64; 4] {
         let w = &self.world;
         [w.rate_hz, f64::from(w.substeps), w.gravity, w.friction]
@@ -103,19 +101,19 @@ impl Performer {
 /// A rehearsal that was found.
 #[derive(Clone, Debug)]
 pub struct Rehearsed {
-    /// Whom it is for.
+    /// The figure that it is for.
     pub performer: Performer,
     /// There is help in it.
     pub helps: bool,
-    /// What is played.
+    /// The motion that is played.
     pub motion: Arc<RehearsedMotion>,
-    /// When it was found, ms since 1970: of many the oldest go first.
+    /// When it was found, ms since 1970: the oldest are forgotten first.
     pub found_ms: u64,
 }
 
 /// A rehearsal as it is stored.
 #[derive(Serialize, Deserialize)]
-struct Stored<'a> {
+struct StoredRehearsal<'a> {
     /// Version of the server that has found it: what it adds is for that simulator.
     version: Cow<'a, str>,
     profile: Profile,
@@ -135,7 +133,7 @@ impl Rehearsed {
     /// As it is stored.
     pub fn to_bytes(&self) -> Vec<u8> {
         let p = &self.performer;
-        postcard::to_stdvec(&Stored {
+        postcard::to_stdvec(&StoredRehearsal {
             version: VERSION.into(),
             profile: p.body.profile,
             links: Cow::Borrowed(&p.links),
@@ -149,7 +147,7 @@ impl Rehearsed {
         .expect("values in memory can be written")
     }
 
-    /// What was stored.
+    /// Reads a stored rehearsal.
     ///
     /// # Errors
     /// It cannot have been written, or another version has found it.
@@ -161,7 +159,8 @@ impl Rehearsed {
         if version != VERSION {
             return Err(cannot(&format!("version {version:.20} has found it")));
         }
-        let stored: Stored<'_> = postcard::from_bytes(bytes).map_err(|e| cannot(&e.to_string()))?;
+        let stored: StoredRehearsal<'_> =
+            postcard::from_bytes(bytes).map_err(|e| cannot(&e.to_string()))?;
         if !(stored.links.is_valid() && stored.motion.is_valid()) {
             return Err(cannot("no rehearsal is like that"));
         }
@@ -179,7 +178,7 @@ impl Rehearsed {
         })
     }
 
-    /// A short name of whom it is for, the same for all that are alike ([`Performer::is_like`]).
+    /// A short name of the figure that it is for, the same for all that are alike ([`Performer::is_like`]).
     pub fn figure(&self) -> String {
         let p = &self.performer;
         let like = (&p.body.profile, &p.links, &p.strength, p.decisive());
@@ -195,25 +194,25 @@ impl Rehearsed {
 }
 
 /// A recording in the forms that it takes.
-struct Forms {
-    reference: Reference,
-    /// What is rehearsed.
+struct RehearsalForms {
+    reference: TrackingReference,
+    /// The clip that is rehearsed.
     as_recorded: Arc<Clip>,
 }
 
-/// What a clip is rehearsed from.
+/// The source that a clip is rehearsed from.
 #[derive(Debug)]
 pub struct Score {
     /// Last part of its name.
     pub id: String,
-    /// What it was made of; `None`: it comes with the server.
+    /// Its source; `None`: it comes with the server.
     pub source: Option<MotionSource>,
     /// Which of all that have had this name it is.
     pub number: u64,
 }
 
 impl Score {
-    fn forms(&self, body: &Body, stop: &dyn Fn() -> bool) -> Result<Forms, Fault> {
+    fn forms(&self, body: &Body, stop: &dyn Fn() -> bool) -> Result<RehearsalForms, Fault> {
         if let Some(MotionSource::Bvh(bytes, reading)) = &self.source {
             return self.recorded(bytes, reading, body, stop);
         }
@@ -223,8 +222,8 @@ impl Score {
             Some(source) => engine::prepare("clip", &self.id, source, body, 1.0, stop)?.0,
         };
         let clip = Arc::new(clip);
-        Ok(Forms {
-            reference: Reference::authored(Arc::clone(&clip)),
+        Ok(RehearsalForms {
+            reference: TrackingReference::authored(Arc::clone(&clip)),
             as_recorded: clip,
         })
     }
@@ -235,18 +234,18 @@ impl Score {
         reading: &BvhReading,
         body: &Body,
         stop: &dyn Fn() -> bool,
-    ) -> Result<Forms, Fault> {
-        let bvh = Bvh::parse(bytes).map_err(|e| Fault::invalid("clip", e.to_string()))?;
+    ) -> Result<RehearsalForms, Fault> {
+        let recording = motion::read(bytes).map_err(|e| Fault::invalid("clip", e.to_string()))?;
         let fitted = |preparation: Preparation| {
             let options = engine::options(&self.id, reading, preparation);
-            retarget_unless(&bvh, body, &options, stop).map_err(|e| match e {
+            prepare_recording_unless(&recording, body, &options, stop).map_err(|e| match e {
                 RetargetError::Stopped => Turn::gone(),
                 other => Fault::invalid("clip", other.to_string()),
             })
         };
         let prepared = fitted(Preparation::walking(false))?;
-        Ok(Forms {
-            reference: Reference {
+        Ok(RehearsalForms {
+            reference: TrackingReference {
                 phases: prepared.report.feet.phases.clone(),
                 recorded: Arc::new(fitted(Preparation::NONE)?.clip),
                 prepared: Arc::new(prepared.clip),
@@ -278,19 +277,15 @@ pub fn rehearse(
         &performer.strength,
         &forms.reference.prepared,
     );
-    let options = evaluation::RehearsalOptions {
-        follow: match settings.follow {
-            Follow::Strict => evaluation::Follow::Strict,
-            Follow::Rehearsed => evaluation::Follow::Rehearsed,
-            Follow::Assisted => evaluation::Follow::Assisted,
-        },
+    let options = RehearsalOptions {
+        follow: settings.follow,
         most_help: settings.most_help,
-        ..evaluation::RehearsalOptions::default()
+        ..RehearsalOptions::default()
     };
     let polish = options.settings.trials.polish.rounds;
     let mut told = |p: &Progress| go_on(share(p, polish));
     let clip = (&*forms.as_recorded, &said);
-    let found = evaluation::follow(&conditions, &forms.reference, clip, &options, &mut told)
+    let found = follow(&conditions, &forms.reference, clip, &options, &mut told)
         .map_err(|e| Fault::invalid("clip", e.to_string()))?;
     if stop() {
         return Err(Turn::gone());
@@ -314,29 +309,16 @@ fn share(p: &Progress, polish: usize) -> f64 {
     0.5 * reached / all.max(1.0) + 0.5 * polished.min(1.0)
 }
 
-fn info(found: &evaluation::Found) -> RehearsalInfo {
+fn info(found: &FollowResult) -> RehearsalInfo {
     let report = found.followed.rehearsal.clone().unwrap_or_default();
-    let outcome = &found.outcome;
+    let trial = &found.trial;
     RehearsalInfo {
-        way: match found.followed.way {
-            evaluation::Way::Tracked => FollowWay::Tracked,
-            evaluation::Way::Rehearsed => FollowWay::Rehearsed,
-            evaluation::Way::Helped => FollowWay::Helped,
-            evaluation::Way::Lost => FollowWay::Lost,
-        },
+        way: found.followed.way,
         reason: found.followed.reason.clone(),
-        lost_at: outcome.lost_at_s,
-        error: [
-            1e-3 * outcome.recorded.mpjpe_global_mm,
-            1e-3 * outcome.recorded.mpjpe_root_mm,
-        ],
+        lost_at: trial.lost_at,
+        error: [1e-3 * trial.global_mm, 1e-3 * trial.root_relative_mm],
         help: match &found.helped {
-            Some(live) => [
-                live.impulse,
-                outcome.assist_share,
-                outcome.assist_max_n,
-                live.acts,
-            ],
+            Some(live) => [live.impulse, trial.help.share, trial.help.most, live.acts],
             None => [
                 report.help_ns,
                 report.help_share,

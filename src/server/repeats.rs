@@ -23,7 +23,7 @@ const SPARE: usize = 16;
 
 /// Which request.
 #[derive(Clone, Debug)]
-pub struct Key {
+pub struct RequestKey {
     /// Whose.
     pub principal: Arc<str>,
     /// Which call.
@@ -33,17 +33,17 @@ pub struct Key {
 }
 
 /// The outcome of a request; `None` as long as it is worked on.
-type Outcome = Option<Result<Bytes, Fault>>;
+type RepeatOutcome = Option<Result<Bytes, Fault>>;
 
 #[derive(Debug)]
-struct Entry {
+struct RepeatEntry {
     /// Tells this entry from later ones of the same key.
     number: u64,
     /// Hash of the request: another one must not have its name.
     request: u64,
     since: Instant,
     bytes: usize,
-    outcome: watch::Receiver<Outcome>,
+    outcome: watch::Receiver<RepeatOutcome>,
 }
 
 /// Call and id of a request of one principal.
@@ -52,14 +52,14 @@ type Name = (Arc<str>, String);
 /// Requests of one principal.
 #[derive(Debug, Default)]
 struct Own {
-    entries: HashMap<Name, Entry>,
+    entries: HashMap<Name, RepeatEntry>,
     /// Oldest first. What is not in `entries` under its number any more is passed over.
     order: VecDeque<(u64, Name)>,
     bytes: usize,
 }
 
 #[derive(Debug, Default)]
-struct Held {
+struct HeldAnswers {
     of: HashMap<Arc<str>, Own>,
     count: usize,
     bytes: usize,
@@ -69,20 +69,20 @@ struct Held {
 /// Recent requests with their answers.
 #[derive(Debug)]
 pub struct Repeats {
-    held: Mutex<Held>,
+    held: Mutex<HeldAnswers>,
     most: usize,
     most_of_one: usize,
 }
 
 impl Own {
-    fn remove(&mut self, name: &Name) -> Option<Entry> {
+    fn remove(&mut self, name: &Name) -> Option<RepeatEntry> {
         let entry = self.entries.remove(name)?;
         self.bytes -= entry.bytes;
         Some(entry)
     }
 
     /// Forgets the oldest request, if it is from before `since`; `None` for any.
-    fn forget_oldest(&mut self, since: Option<Instant>) -> Option<Entry> {
+    fn forget_oldest(&mut self, since: Option<Instant>) -> Option<RepeatEntry> {
         while let Some((number, name)) = self.order.front() {
             match self.entries.get(name).filter(|e| e.number == *number) {
                 Some(entry) if since.is_some_and(|since| entry.since >= since) => return None,
@@ -99,8 +99,8 @@ impl Own {
     }
 }
 
-impl Held {
-    fn count_off(&mut self, gone: &Entry) {
+impl HeldAnswers {
+    fn count_off(&mut self, gone: &RepeatEntry) {
         self.count -= 1;
         self.bytes -= gone.bytes;
     }
@@ -148,21 +148,21 @@ impl Held {
 }
 
 /// Puts the outcome into its entry, also that of work that ended abnormally.
-struct Report {
+struct OutcomeGuard {
     repeats: Arc<Repeats>,
-    key: Key,
+    key: RequestKey,
     number: u64,
-    tell: watch::Sender<Outcome>,
+    tell: watch::Sender<RepeatOutcome>,
 }
 
-impl Report {
+impl OutcomeGuard {
     fn done(self, result: Result<Bytes, Fault>) {
         self.repeats.settle(&self.key, self.number, &result);
         self.tell.send_replace(Some(result));
     }
 }
 
-impl Drop for Report {
+impl Drop for OutcomeGuard {
     fn drop(&mut self) {
         if self.tell.borrow().is_none() {
             let lost = Err(Fault::Internal("the request ended abnormally".into()));
@@ -181,13 +181,13 @@ impl Repeats {
         })
     }
 
-    fn lock(&self) -> MutexGuard<'_, Held> {
+    fn lock(&self) -> MutexGuard<'_, HeldAnswers> {
         // Entries are whole.
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Keeps an answer; forgets a request that was refused.
-    fn settle(&self, key: &Key, number: u64, result: &Result<Bytes, Fault>) {
+    fn settle(&self, key: &RequestKey, number: u64, result: &Result<Bytes, Fault>) {
         let held = &mut *self.lock();
         let name = (key.call.clone(), key.id.clone());
         let Some(own) = held.of.get_mut(&key.principal) else {
@@ -217,7 +217,7 @@ impl Repeats {
     /// Those of the work; another request has the same name.
     pub async fn once(
         self: &Arc<Self>,
-        key: Key,
+        key: RequestKey,
         request: u64,
         work: impl Future<Output = Result<Bytes, Fault>> + Send + 'static,
     ) -> Result<Bytes, Fault> {
@@ -229,10 +229,10 @@ impl Repeats {
 
     fn enter(
         self: &Arc<Self>,
-        key: Key,
+        key: RequestKey,
         request: u64,
         work: impl Future<Output = Result<Bytes, Fault>> + Send + 'static,
-    ) -> Result<watch::Receiver<Outcome>, Fault> {
+    ) -> Result<watch::Receiver<RepeatOutcome>, Fault> {
         let now = Instant::now();
         let mut lock = self.lock();
         let held = &mut *lock;
@@ -256,7 +256,7 @@ impl Repeats {
         held.next += 1;
         held.count += 1;
         let (tell, outcome) = watch::channel(None);
-        let entry = Entry {
+        let entry = RepeatEntry {
             number,
             request,
             since: now,
@@ -274,7 +274,7 @@ impl Repeats {
         held.trim(&key.principal, now, self.most_of_one);
         held.make_room(self.most);
         drop(lock);
-        let report = Report {
+        let report = OutcomeGuard {
             repeats: self.clone(),
             key,
             number,
@@ -302,8 +302,8 @@ mod tests {
     use std::sync::atomic::{AtomicU32, Ordering};
     use tokio::sync::Notify;
 
-    fn key(principal: &str, id: &str) -> Key {
-        Key {
+    fn key(principal: &str, id: &str) -> RequestKey {
+        RequestKey {
             principal: principal.into(),
             call: "Create".into(),
             id: id.into(),

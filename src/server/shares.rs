@@ -9,10 +9,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// Who asks. What belongs to one client shares its part of workers, streams and worlds.
-pub type Client = Arc<str>;
+pub type ClientKey = Arc<str>;
 
 /// The client behind a peer address.
-pub fn client_at(peer: Option<SocketAddr>) -> Client {
+pub fn client_at(peer: Option<SocketAddr>) -> ClientKey {
     match peer {
         None => "".into(),
         Some(at) if at.ip().to_canonical().is_loopback() => at.to_string().into(),
@@ -57,7 +57,7 @@ pub fn check_part(limit: &'static str, own: u64, most: u64, share: f64) -> Resul
 /// Places for streams of one kind.
 #[derive(Debug)]
 pub struct Places {
-    taken: Arc<Mutex<Vec<Client>>>,
+    taken: Arc<Mutex<Vec<ClientKey>>>,
     limit: &'static str,
     most: u64,
     share: f64,
@@ -66,18 +66,18 @@ pub struct Places {
 
 /// A place that is given back when the stream ends.
 #[derive(Debug)]
-pub struct Place {
-    taken: Arc<Mutex<Vec<Client>>>,
-    client: Client,
+pub struct HeldPlace {
+    taken: Arc<Mutex<Vec<ClientKey>>>,
+    client: ClientKey,
     gauge: &'static str,
 }
 
-fn locked(taken: &Mutex<Vec<Client>>) -> MutexGuard<'_, Vec<Client>> {
+fn locked(taken: &Mutex<Vec<ClientKey>>) -> MutexGuard<'_, Vec<ClientKey>> {
     // Entries are whole.
     taken.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Drop for Place {
+impl Drop for HeldPlace {
     fn drop(&mut self) {
         let mut taken = locked(&self.taken);
         if let Some(i) = taken.iter().position(|c| *c == self.client) {
@@ -103,7 +103,7 @@ impl Places {
     ///
     /// # Errors
     /// All are taken, or the client has its part.
-    pub fn take(&self, client: Client) -> Result<Place, Fault> {
+    pub fn take(&self, client: ClientKey) -> Result<HeldPlace, Fault> {
         let mut taken = locked(&self.taken);
         if taken.len() as u64 >= self.most {
             return Err(Fault::Exhausted {
@@ -117,7 +117,7 @@ impl Places {
         check_part(self.limit, own, self.most, self.share)?;
         taken.push(client.clone());
         metrics::gauge!(self.gauge).increment(1.0);
-        Ok(Place {
+        Ok(HeldPlace {
             taken: Arc::clone(&self.taken),
             client,
             gauge: self.gauge,
@@ -134,7 +134,7 @@ impl Places {
 mod tests {
     use super::*;
 
-    fn at(text: &str) -> Client {
+    fn at(text: &str) -> ClientKey {
         client_at(Some(text.parse().unwrap()))
     }
 
@@ -153,13 +153,13 @@ mod tests {
     fn one_client_leaves_places_for_others_and_gives_its_own_back() {
         let places = Places::new("max_viewers", 5, 0.5, "test_places");
         let (a, b) = (at("127.0.0.1:1"), at("127.0.0.1:2"));
-        let held: Vec<Place> = (0..3).map(|_| places.take(a.clone()).unwrap()).collect();
+        let held: Vec<HeldPlace> = (0..3).map(|_| places.take(a.clone()).unwrap()).collect();
         let refused = places.take(a.clone()).unwrap_err();
         assert!(
             refused.to_string().contains("max_client_share"),
             "{refused}"
         );
-        let others: Vec<Place> = (0..2).map(|_| places.take(b.clone()).unwrap()).collect();
+        let others: Vec<HeldPlace> = (0..2).map(|_| places.take(b.clone()).unwrap()).collect();
         let full = places.take(b.clone()).unwrap_err();
         assert!(full.to_string().contains("one more stream"), "{full}");
         drop(held);

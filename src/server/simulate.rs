@@ -1,8 +1,8 @@
 //! One clip tracked by one figure, without clock and world: as fast as it computes.
 
 use super::encoded::{Encoded, List};
-use super::engine::{self, Clip, Drive, FigureKey, World};
-use super::progress::Progress;
+use super::engine::{self, Clip, FigureKey, Motion, World};
+use super::progress::WorkProgress;
 use super::tick::stage_times::percentiles;
 use super::workers::Turn;
 use sinew_physics::body::{Body, DOF_COUNT};
@@ -13,15 +13,15 @@ use sinew_wire::frame::world_frame;
 use sinew_wire::pb;
 use sinew_wire::status::Fault;
 use sinew_wire::types::{
-    Overrun, Pace, RosterEntry, SimulationSettings, SimulationSummary, Snapshot, ViewSpec,
-    WorldEvent, WorldSettings,
+    Overrun, RosterEntry, SimulationSettings, SimulationSummary, Snapshot, ViewSpec, WorldEvent,
+    WorldPace, WorldSettings,
 };
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What a simulation gives.
+/// The result of a simulation.
 #[derive(Debug)]
-pub struct Outcome {
+pub struct SimulationOutcome {
     /// Figures of merit.
     pub summary: SimulationSummary,
     /// Frames of the view: field [`FRAMES`] of the answer.
@@ -32,7 +32,7 @@ pub struct Outcome {
 
 /// Limits of one simulation.
 #[derive(Clone, Copy, Debug)]
-pub struct Limits {
+pub struct SimulationLimits {
     /// Longest simulated time, s.
     pub seconds: f64,
     /// Most bytes of frames.
@@ -106,8 +106,8 @@ impl Merit {
     }
 }
 
-/// Who takes frames as they are computed.
-pub trait Parts {
+/// The receiver of frames as they are computed.
+pub trait FrameSink {
     /// So much is done; a frame, if this tick has one for the view.
     ///
     /// # Errors
@@ -121,12 +121,12 @@ pub trait Parts {
     fn end(&mut self) -> Result<(), Fault>;
 }
 
-/// Where what is computed goes meanwhile.
+/// The receiver of frames during the simulation.
 pub struct Sink<'a> {
     /// Told how far it is.
-    pub progress: &'a Progress,
+    pub progress: &'a WorkProgress,
     /// Takes the frames in place of the outcome.
-    pub parts: Option<&'a mut dyn Parts>,
+    pub parts: Option<&'a mut dyn FrameSink>,
 }
 
 /// Simulates, tick by tick as long as its turn lasts.
@@ -137,9 +137,9 @@ pub fn run(
     s: &SimulationSettings,
     body: &Arc<Body>,
     clip: Arc<Clip>,
-    limits: Limits,
+    limits: SimulationLimits,
     (turn, mut sink): (&Turn, Sink<'_>),
-) -> Result<Outcome, Fault> {
+) -> Result<SimulationOutcome, Fault> {
     let duration = s.duration.unwrap_or_else(|| clip.duration());
     if duration > limits.seconds {
         return Err(Fault::Exhausted {
@@ -155,7 +155,7 @@ pub fn run(
         saturated: vec![0; DOF_COUNT],
         ..Merit::default()
     };
-    let mut frames = Frames::new(s, limits.bytes);
+    let mut frames = EncodedFrames::new(s, limits.bytes);
     let mut events = Vec::new();
     for _ in 0..ticks {
         if turn.stop() {
@@ -193,7 +193,7 @@ pub fn run(
     if let Some(parts) = sink.parts {
         parts.end()?;
     }
-    Ok(Outcome {
+    Ok(SimulationOutcome {
         summary: merit.summary(ticks, s.rate_hz, world.state_hash()),
         frames: frames.taken.into_encoded(),
         events,
@@ -212,7 +212,7 @@ fn scene(
         gravity: GRAVITY,
         friction: WorldParams::default().friction,
         collisions: false,
-        pace: Pace {
+        pace: WorldPace {
             display_name: String::new(),
             overrun: Overrun::Dilate,
             catch_up_limit: 1,
@@ -224,7 +224,7 @@ fn scene(
     let place = engine::place_of(clip.posture(0));
     let figure = world.figure_mut(key).expect("it was just added");
     let state = engine::first_state(&clip, place);
-    figure.set_drive(Drive::Clip(engine::playback(
+    figure.set_drive(Motion::Clip(engine::playback(
         clip,
         0.0,
         1.0,
@@ -241,13 +241,13 @@ fn scene(
 
 /// Frames of the view, as long as they fit into the response. They are kept encoded: a small frame takes a hundred
 /// times as much memory as bytes on the wire.
-struct Frames {
+struct EncodedFrames {
     taken: List,
     most: u64,
     roster: Arc<[RosterEntry]>,
 }
 
-impl Frames {
+impl EncodedFrames {
     fn new(s: &SimulationSettings, most: u64) -> Self {
         Self {
             taken: List::new(FRAMES),

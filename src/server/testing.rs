@@ -1,6 +1,6 @@
 //! What unit tests of the server share: a directory that goes, and a server on it.
 
-use super::api::App;
+use super::app::App;
 use super::config::Config;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -1,6 +1,5 @@
 //! The viewer: the files of `clients/web/dist`, which is built and committed there and needs nothing from elsewhere.
 
-use super::api::App;
 use axum::Router;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -9,7 +8,7 @@ use bytes::Bytes;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use std::io::Write as _;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 /// The page may run its own script and style, draw its own pictures and talk to this server; nothing else.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; \
@@ -165,7 +164,7 @@ fn answer(file: &File, asked: &HeaderMap) -> Response {
 }
 
 /// `/` and what it loads.
-pub(super) fn router() -> Router<Arc<App>> {
+pub(super) fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
     FILES.iter().fold(Router::new(), |router, file| {
         router.route(
             file.path,

@@ -7,7 +7,7 @@
 //!
 //! Work that takes much memory says so before. It begins when there is room for it beside other such work.
 
-use crate::shares::Client;
+use crate::shares::ClientKey;
 use sinew_wire::status::Fault;
 use std::any::Any;
 use std::cell::Cell;
@@ -37,25 +37,25 @@ const NICE: i32 = 10;
 
 /// The workers for one kind of work.
 #[derive(Clone, Debug)]
-pub struct Pool(Arc<Shared>);
+pub struct Pool(Arc<PoolShared>);
 
 #[derive(Debug)]
-struct Shared {
+struct PoolShared {
     what: &'static str,
     limit: &'static str,
     most: usize,
     most_waiting: u64,
-    state: Mutex<State>,
+    state: Mutex<PoolState>,
 }
 
 #[derive(Debug, Default)]
-struct State {
+struct PoolState {
     running: usize,
     /// Pieces of work that have begun and are not done.
     begun: usize,
     /// Bytes that they take.
     memory: u64,
-    clients: BTreeMap<Client, Use>,
+    clients: BTreeMap<ClientKey, PoolUse>,
     waiting: Vec<Waiter>,
     turns: u64,
     /// The server ends: no work is begun or finished any more.
@@ -64,9 +64,9 @@ struct State {
     mean: f64,
 }
 
-/// What one client has of a pool.
+/// The part of a pool that one client has.
 #[derive(Debug, Default)]
-struct Use {
+struct PoolUse {
     running: usize,
     waiting: usize,
     /// Number of its last turn.
@@ -75,7 +75,7 @@ struct Use {
 
 #[derive(Debug)]
 struct Waiter {
-    client: Client,
+    client: ClientKey,
     cancelled: Cancelled,
     /// It had a turn before, so its place in the queue is not counted.
     begun: bool,
@@ -106,7 +106,7 @@ impl Drop for CancelOnDrop {
 #[derive(Debug)]
 pub struct Turn {
     pool: Pool,
-    client: Client,
+    client: ClientKey,
     cancelled: Cancelled,
     since: Cell<Instant>,
     /// It occupies a worker.
@@ -133,7 +133,7 @@ impl Drop for Turn {
 }
 
 impl Turn {
-    /// True if the work is to be given up. Work asks often; this may take as long as the turns of others.
+    /// Whether the work is to be given up. Work asks often; this may take as long as the turns of others.
     pub fn stop(&self) -> bool {
         if self.cancelled.is_set() {
             return true;
@@ -191,14 +191,14 @@ impl Turn {
     }
 }
 
-impl State {
-    fn running_of(&self, client: &Client) -> usize {
+impl PoolState {
+    fn running_of(&self, client: &ClientKey) -> usize {
         self.clients.get(client).map_or(0, |u| u.running)
     }
 
     fn wait(
         &mut self,
-        client: &Client,
+        client: &ClientKey,
         cancelled: &Cancelled,
         (begun, memory): (bool, u64),
     ) -> oneshot::Receiver<Turn> {
@@ -214,7 +214,7 @@ impl State {
         granted
     }
 
-    fn leave(&mut self, client: &Client) {
+    fn leave(&mut self, client: &ClientKey) {
         self.running -= 1;
         if let Some(used) = self.clients.get_mut(client) {
             used.running -= 1;
@@ -237,7 +237,7 @@ impl State {
         next.map(|(i, _)| i)
     }
 
-    fn turn_of(&self, client: &Client) -> u64 {
+    fn turn_of(&self, client: &ClientKey) -> u64 {
         self.clients.get(client).map_or(0, |u| u.turn)
     }
 
@@ -295,7 +295,7 @@ impl Pool {
     /// `most` at a time, and `most_waiting` that wait. `limit` is the setting that bounds those, `what` one piece of
     /// work.
     pub fn new(what: &'static str, limit: &'static str, most: u64, most_waiting: u64) -> Self {
-        Self(Arc::new(Shared {
+        Self(Arc::new(PoolShared {
             what,
             limit,
             most: most as usize,
@@ -304,7 +304,7 @@ impl Pool {
         }))
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, PoolState> {
         // Nothing in it is left half done by a panic.
         self.0.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -317,7 +317,7 @@ impl Pool {
     /// A place in the queue. One client has at most half of them.
     fn queue(
         &self,
-        client: &Client,
+        client: &ClientKey,
         cancelled: &Cancelled,
         memory: u64,
     ) -> Result<oneshot::Receiver<Turn>, Fault> {
@@ -351,7 +351,7 @@ impl Pool {
     /// Those of the work; too much work waits; the work panicked.
     pub async fn run<T: Send + 'static>(
         &self,
-        client: &Client,
+        client: &ClientKey,
         work: impl FnOnce(&Turn) -> Result<T, Fault> + Send + 'static,
     ) -> Result<T, Fault> {
         self.run_large(client, 0, work).await
@@ -363,7 +363,7 @@ impl Pool {
     /// Those of [`Self::run`].
     pub async fn run_large<T: Send + 'static>(
         &self,
-        client: &Client,
+        client: &ClientKey,
         memory: u64,
         work: impl FnOnce(&Turn) -> Result<T, Fault> + Send + 'static,
     ) -> Result<T, Fault> {
@@ -435,7 +435,7 @@ mod tests {
     use super::*;
     use std::sync::mpsc::sync_channel;
 
-    fn client(name: &str) -> Client {
+    fn client(name: &str) -> ClientKey {
         name.into()
     }
 

@@ -29,7 +29,7 @@ use params::layout::{LYING_HEIGHT, NEAR_HEIGHT, ON_SIDE, PRONE, TOUCH_HEIGHT, UP
 use reference_pose::ReferencePoses;
 use serde::{Deserialize, Serialize};
 use solver::{BALL, KNEE, Solver};
-use stages::{FloorContacts, Layout, Stage};
+use stages::{FloorContacts, GetUpStage, Layout};
 use std::f64::consts::FRAC_PI_2;
 
 /// The stage at which a body that lies on its side begins.
@@ -174,7 +174,7 @@ impl GetUpMotion {
     }
 
     /// The stages of the present part of the motion.
-    fn stages(&self) -> &'static [Stage] {
+    fn stages(&self) -> &'static [GetUpStage] {
         if self.turns_over {
             stages::OVER
         } else {

@@ -1,6 +1,6 @@
 //! Physics and control: pure, synchronous, without I/O, clock or logging.
 //!
-//! `world` ─► `rehearsal` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `retarget` ─► `plan` ─►
+//! `world` ─► `rehearsal` ─► `figure` ─► `track` ─► `control` ─► `collide` ─► `contact` ─► `plan` ─► `reference` ─►
 //! `motion`, `support` ─► `setup` ─► `strength` ─► `dynamics` ─► `report` ─► `touch` ─► `body` ─► `math` ─► `saved`.
 //!
 //! # Example
@@ -36,18 +36,38 @@ pub mod contact;
 pub mod control;
 pub mod dynamics;
 pub mod figure;
+pub mod forecast;
 pub mod get_up;
 pub mod math;
 pub mod motion;
+pub mod paper;
 pub mod params;
 pub mod plan;
+pub mod reference;
 pub mod rehearsal;
 pub mod report;
-pub mod retarget;
 pub mod saved;
 pub mod setup;
+pub mod stepper;
 pub mod strength;
 pub mod support;
+pub mod tick_context;
 pub mod touch;
 pub mod track;
 pub mod world;
+
+/// Every tunable number, by the part and the subject that it belongs to.
+pub fn parameters() -> Vec<params::ParamGroup> {
+    let group =
+        |part| move |&(name, all): &(&'static str, _)| params::ParamGroup { part, name, all };
+    let mut out = Vec::new();
+    out.extend(reference::params::groups().iter().map(group("reference")));
+    out.extend(plan::params::groups().iter().map(group("plan")));
+    out.extend(track::params::groups().iter().map(group("track")));
+    out.extend(get_up::params::groups().iter().map(group("get_up")));
+    out.extend(control::params::groups().iter().map(group("control")));
+    out.extend(stepper::params::groups().iter().map(group("stepper")));
+    out.extend(paper::params::groups().iter().map(group("paper")));
+    out.extend(figure::params::groups().iter().map(group("figure")));
+    out
+}

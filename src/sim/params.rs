@@ -1,13 +1,14 @@
 //! Tunable numbers: each is declared once, in the `params` module of its part, with unit, range and source.
 //!
-//! A parameter is a constant, so it costs nothing in a tick. The list of all of them makes `docs/parameters.md`.
+//! A parameter is a constant, so it costs nothing in a tick. [`crate::parameters`] lists them all, and the command
+//! `sinew parameters` prints them.
 
-/// A tunable number with its documentation.
+/// A tunable number and what is known about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Param {
     /// Name of the constant.
     pub name: &'static str,
-    /// Its description, from its doc comment.
+    /// What it is, as its documentation says.
     pub what: &'static str,
     /// Its value, in its unit.
     pub value: f64,
@@ -17,6 +18,24 @@ pub struct Param {
     pub range: [f64; 2],
     /// Publication, measurement, derivation, or the command of the repository that shows its effect.
     pub source: &'static str,
+}
+
+/// The tunable numbers of one subject.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParamGroup {
+    /// Part of the physics that declares them.
+    pub part: &'static str,
+    /// Their module within `params` of that part.
+    pub name: &'static str,
+    /// The numbers, in the order of their declaration.
+    pub all: &'static [Param],
+}
+
+impl ParamGroup {
+    /// Path of the module that declares the numbers, within this crate.
+    pub fn module(&self) -> String {
+        format!("{}::params::{}", self.part, self.name)
+    }
 }
 
 /// Declares constants of a `params` module, and `ALL`, the list of them.
@@ -34,7 +53,7 @@ macro_rules! params {
     )+) => {
         $($(#[doc = $doc])+ pub(crate) const $name: $type = $value;)+
 
-        /// All parameters declared here, in order.
+        /// Everything that is declared here, in order.
         pub const ALL: &[$crate::params::Param] = &[$($crate::params::Param {
             name: stringify!($name),
             what: concat!($($doc),+),
@@ -72,15 +91,15 @@ mod tests {
         );
     }
 
-    /// A parameter that is in no list is missing from docs/parameters.md, and nothing checks its range.
+    /// A group that is missing in the list is neither printed nor checked.
     #[test]
     fn every_module_of_parameters_is_in_the_list_of_its_part() {
-        use crate::{figure, get_up, plan, retarget, track};
+        use crate::{control, figure, get_up, paper, plan, reference, stepper, track};
         type Groups = Vec<(&'static str, &'static [super::Param])>;
-        let parts: [(&str, Groups); 5] = [
+        let parts: [(&str, Groups); 8] = [
             (
-                include_str!("retarget/params.rs"),
-                retarget::params::groups().to_vec(),
+                include_str!("reference/params.rs"),
+                reference::params::groups().to_vec(),
             ),
             (
                 include_str!("plan/params.rs"),
@@ -95,6 +114,18 @@ mod tests {
                 get_up::params::groups().to_vec(),
             ),
             (
+                include_str!("control/params.rs"),
+                control::params::groups().to_vec(),
+            ),
+            (
+                include_str!("stepper/params.rs"),
+                stepper::params::groups().to_vec(),
+            ),
+            (
+                include_str!("paper/params.rs"),
+                paper::params::groups().to_vec(),
+            ),
+            (
                 include_str!("figure/params.rs"),
                 figure::params::groups().to_vec(),
             ),
@@ -104,6 +135,28 @@ mod tests {
             let declared: Vec<_> = declared.filter_map(|l| l.strip_suffix(" {")).collect();
             let listed: Vec<_> = groups.iter().map(|g| g.0).collect();
             assert_eq!(listed, declared);
+        }
+    }
+
+    #[test]
+    fn every_parameter_has_a_unit_a_text_a_source_and_a_value_in_its_range() {
+        let mut names = std::collections::BTreeSet::new();
+        for group in crate::parameters() {
+            for p in group.all {
+                let at = format!("{} {}", group.module(), p.name);
+                let [low, high] = p.range;
+                assert!(low < high, "{at}: {low} to {high} is no range");
+                assert!(
+                    low <= p.value && p.value <= high,
+                    "{at}: {} is outside {low} to {high}",
+                    p.value
+                );
+                assert!(
+                    ![p.unit, p.what.trim(), p.source].contains(&""),
+                    "{at}: unit, text or source is missing"
+                );
+                assert!(names.insert(at.clone()), "{at}: declared twice");
+            }
         }
     }
 }

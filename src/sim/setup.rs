@@ -8,6 +8,9 @@ use std::sync::Arc;
 
 pub use crate::strength::StrengthScale;
 
+/// Most perturbations a figure can have scheduled at once.
+pub const MAX_PERTURBATIONS: usize = 64;
+
 /// All properties of a figure at its creation.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FigureSetup {
@@ -180,10 +183,10 @@ impl ControlParams {
 pub struct FigureOptions {
     /// Seconds of muscle fatigue per simulated second, 0…1000; 0: muscles never tire.
     pub fatigue_time_scale: f64,
-    /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](crate::figure::assist::Assist). 0: none.
+    /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](crate::stepper::pelvis_wrench::Assist). 0: none.
     pub assist: f64,
     /// Largest force over the weight of the help while a motion is being lost, 0…2:
-    /// [`Help`](crate::figure::help::Help). 0: none. It needs the modern controller, and no `assist`.
+    /// [`Help`](crate::figure::balance::live_help::LiveHelp). 0: none. It needs the modern controller, and no `assist`.
     pub max_help: f64,
     /// Keeps the body from passing through itself: [`self_contact`](crate::figure::self_contact). It does not act
     /// within a rehearsed motion. Off by default, because controllers do not account for it, and recover balance

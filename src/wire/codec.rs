@@ -30,14 +30,14 @@ where
     type Encode = T;
     type Decode = U;
     type Encoder = ProstEncoder<T>;
-    type Decoder = Reader<U>;
+    type Decoder = MessageReader<U>;
 
     fn encoder(&mut self) -> Self::Encoder {
         ProstEncoder::default()
     }
 
     fn decoder(&mut self) -> Self::Decoder {
-        Reader {
+        MessageReader {
             name: U::full_name(),
             message: PhantomData,
         }
@@ -46,12 +46,12 @@ where
 
 /// Reads messages of one type.
 #[derive(Debug)]
-pub struct Reader<U> {
+pub struct MessageReader<U> {
     name: String,
     message: PhantomData<U>,
 }
 
-impl<U: Message + Default> Decoder for Reader<U> {
+impl<U: Message + Default> Decoder for MessageReader<U> {
     type Item = U;
     type Error = Status;
 

@@ -4,7 +4,7 @@ use super::convert::motion::follow_mode_out;
 use super::pb;
 use super::posture::{joint_rotation, positions, segment_poses};
 use super::types::{
-    Fields, FigureSnapshot, NumberFormat, ObstacleInfo, RosterEntry, Snapshot, ViewSpec,
+    FieldSet, FigureSnapshot, NumberFormat, ObstacleInfo, RosterEntry, Snapshot, ViewSpec,
 };
 use super::watched::WatchWorldResponse;
 use prost::bytes::Bytes;
@@ -14,7 +14,7 @@ use sinew_physics::collide::{Other, Touch};
 use sinew_physics::figure::{Audit, ContactPoint, TickReport};
 use sinew_physics::math::Vec3;
 
-/// Names of the fields of a figure's frame that a view can choose, by bit of [`Fields`].
+/// Names of the fields of a figure's frame that a view can choose, by bit of [`FieldSet`].
 pub const FIELD_NAMES: [&str; 19] = [
     "root_pose",
     "joint_angles",
@@ -37,8 +37,8 @@ pub const FIELD_NAMES: [&str; 19] = [
     "constraint_error",
 ];
 
-impl Fields {
-    /// What a view without a field mask gets.
+impl FieldSet {
+    /// The fields of a view without a field mask.
     pub const DEFAULT: Self = Self(1 | 1 << 1 | 1 << 6 | 1 << 12);
     /// Every field.
     pub const ALL: Self = Self((1 << FIELD_NAMES.len()) - 1);
@@ -235,7 +235,7 @@ pub fn figure_frame(
     index: i32,
     f: &FigureSnapshot,
     gravity: f64,
-    fields: Fields,
+    fields: FieldSet,
     format: NumberFormat,
 ) -> pb::FigureFrame {
     let posture = &f.state.posture;

@@ -27,7 +27,7 @@ const WORD: usize = 8;
 
 /// How a field looks on the wire.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+enum FieldKind {
     /// A number of variable length; so many bytes decoded.
     Varint(usize),
     /// A number of four or eight bytes.
@@ -41,13 +41,13 @@ enum Kind {
 struct Field {
     number: u32,
     name: String,
-    kind: Kind,
+    kind: FieldKind,
     repeated: bool,
 }
 
 /// A message type.
 #[derive(Debug, Default)]
-struct Shape {
+struct MessageShape {
     /// By number.
     fields: Vec<Field>,
     /// Bytes of the decoded message, without what it points to. At least as many as the Rust type has.
@@ -57,7 +57,7 @@ struct Shape {
 /// The message types of the protos.
 #[derive(Debug)]
 struct Shapes {
-    all: Vec<Shape>,
+    all: Vec<MessageShape>,
     /// Types that methods take, by full name.
     requests: BTreeMap<String, usize>,
 }
@@ -77,7 +77,7 @@ impl Shapes {
             }
         }
         let index: BTreeMap<&str, usize> = (messages.keys().map(String::as_str)).zip(0..).collect();
-        let mut all: Vec<Shape> = messages.values().map(|m| shape(m, &index)).collect();
+        let mut all: Vec<MessageShape> = messages.values().map(|m| shape(m, &index)).collect();
         for (i, message) in messages.values().enumerate() {
             all[i].bytes = struct_bytes(message, &messages);
         }
@@ -109,7 +109,7 @@ fn collect<'a>(
     out.insert(name, m);
 }
 
-fn shape(message: &DescriptorProto, index: &BTreeMap<&str, usize>) -> Shape {
+fn shape(message: &DescriptorProto, index: &BTreeMap<&str, usize>) -> MessageShape {
     let mut fields: Vec<Field> = message
         .field
         .iter()
@@ -117,20 +117,22 @@ fn shape(message: &DescriptorProto, index: &BTreeMap<&str, usize>) -> Shape {
             number: f.number() as u32,
             name: f.name().to_owned(),
             kind: match f.r#type() {
-                Scalar::Double | Scalar::Fixed64 | Scalar::Sfixed64 => Kind::Fixed(8),
-                Scalar::Float | Scalar::Fixed32 | Scalar::Sfixed32 => Kind::Fixed(4),
-                Scalar::Int64 | Scalar::Uint64 | Scalar::Sint64 => Kind::Varint(8),
-                Scalar::Int32 | Scalar::Uint32 | Scalar::Sint32 | Scalar::Enum => Kind::Varint(4),
-                Scalar::Bool => Kind::Varint(1),
-                Scalar::String => Kind::Text,
-                Scalar::Bytes => Kind::Bytes,
-                Scalar::Message | Scalar::Group => Kind::Message(index[f.type_name()]),
+                Scalar::Double | Scalar::Fixed64 | Scalar::Sfixed64 => FieldKind::Fixed(8),
+                Scalar::Float | Scalar::Fixed32 | Scalar::Sfixed32 => FieldKind::Fixed(4),
+                Scalar::Int64 | Scalar::Uint64 | Scalar::Sint64 => FieldKind::Varint(8),
+                Scalar::Int32 | Scalar::Uint32 | Scalar::Sint32 | Scalar::Enum => {
+                    FieldKind::Varint(4)
+                }
+                Scalar::Bool => FieldKind::Varint(1),
+                Scalar::String => FieldKind::Text,
+                Scalar::Bytes => FieldKind::Bytes,
+                Scalar::Message | Scalar::Group => FieldKind::Message(index[f.type_name()]),
             },
             repeated: f.label() == Label::Repeated,
         })
         .collect();
     fields.sort_by_key(|f| f.number);
-    Shape { fields, bytes: 0 }
+    MessageShape { fields, bytes: 0 }
 }
 
 /// Bytes of the Rust struct of a message. No message of the protos contains itself, so this ends.
@@ -167,7 +169,7 @@ pub fn scan(name: &str, bytes: &[u8]) -> Result<(), Fault> {
     let Some(&root) = SHAPES.requests.get(name) else {
         return Ok(());
     };
-    let mut walk = Walk {
+    let mut walk = ScanWalk {
         shapes: &SHAPES.all,
         left: DECODED_BYTES + DECODED_PER_BYTE * bytes.len(),
         path: Vec::with_capacity(DEPTH),
@@ -176,11 +178,11 @@ pub fn scan(name: &str, bytes: &[u8]) -> Result<(), Fault> {
     walk.message(root, bytes).map_err(|problem| {
         let field = walk.field();
         match problem {
-            Problem::Malformed(what) => Fault::Malformed {
+            ScanProblem::Malformed(what) => Fault::Malformed {
                 field,
                 problem: what,
             },
-            Problem::TooLarge => Fault::TooLarge {
+            ScanProblem::TooLarge => Fault::TooLarge {
                 field,
                 limit: "decoded_bytes",
                 value: (DECODED_BYTES + DECODED_PER_BYTE * bytes.len()) as u64,
@@ -190,16 +192,16 @@ pub fn scan(name: &str, bytes: &[u8]) -> Result<(), Fault> {
     })
 }
 
-enum Problem {
+enum ScanProblem {
     Malformed(&'static str),
     TooLarge,
 }
 
-const ENDS_EARLY: Problem = Problem::Malformed("ends in the middle of a value");
-const WRONG_TYPE: Problem = Problem::Malformed("has another type on the wire");
+const ENDS_EARLY: ScanProblem = ScanProblem::Malformed("ends in the middle of a value");
+const WRONG_TYPE: ScanProblem = ScanProblem::Malformed("has another type on the wire");
 
-struct Walk<'a> {
-    shapes: &'a [Shape],
+struct ScanWalk<'a> {
+    shapes: &'a [MessageShape],
     /// Decoded bytes that may still come.
     left: usize,
     /// Messages that are entered: type, position of the field in it, element of the field.
@@ -208,8 +210,8 @@ struct Walk<'a> {
     counts: Vec<usize>,
 }
 
-impl<'a> Walk<'a> {
-    fn message(&mut self, shape: usize, mut bytes: &'a [u8]) -> Result<(), Problem> {
+impl<'a> ScanWalk<'a> {
+    fn message(&mut self, shape: usize, mut bytes: &'a [u8]) -> Result<(), ScanProblem> {
         let of = &self.shapes[shape];
         let base = self.counts.len();
         self.counts.resize(base + of.fields.len(), 0);
@@ -218,8 +220,8 @@ impl<'a> Walk<'a> {
             let number = u32::try_from(key >> 3)
                 .ok()
                 .filter(|n| (1..1 << 29).contains(n));
-            let number = number.ok_or(Problem::Malformed("has a field number out of range"))?;
-            let value = Value::take(key & 7, &mut bytes)?;
+            let number = number.ok_or(ScanProblem::Malformed("has a field number out of range"))?;
+            let value = WireValue::take(key & 7, &mut bytes)?;
             // A field of a newer version is skipped, here and by the decoder.
             if let Ok(i) = of.fields.binary_search_by_key(&number, |f| f.number) {
                 self.path.push((shape, i, self.counts[base + i]));
@@ -232,11 +234,11 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    fn value(&mut self, field: &Field, value: Value<'a>) -> Result<(), Problem> {
+    fn value(&mut self, field: &Field, value: WireValue<'a>) -> Result<(), ScanProblem> {
         match (field.kind, value) {
-            (Kind::Varint(size), Value::Varint) => self.take(size),
-            (Kind::Fixed(size), Value::Fixed(given)) if size == given => self.take(size),
-            (Kind::Varint(size), Value::Bytes(packed)) if field.repeated => {
+            (FieldKind::Varint(size), WireValue::Varint) => self.take(size),
+            (FieldKind::Fixed(size), WireValue::Fixed(given)) if size == given => self.take(size),
+            (FieldKind::Varint(size), WireValue::Bytes(packed)) if field.repeated => {
                 let ends = packed.iter().filter(|b| **b < 0x80).count();
                 self.take(size * ends)?;
                 let mut rest = packed;
@@ -245,24 +247,26 @@ impl<'a> Walk<'a> {
                 }
                 Ok(())
             }
-            (Kind::Fixed(size), Value::Bytes(packed)) if field.repeated => {
+            (FieldKind::Fixed(size), WireValue::Bytes(packed)) if field.repeated => {
                 if packed.len() % size != 0 {
                     return Err(ENDS_EARLY);
                 }
                 self.take(packed.len())
             }
-            (Kind::Text, Value::Bytes(text)) => {
+            (FieldKind::Text, WireValue::Bytes(text)) => {
                 self.take(text.len() + if field.repeated { HANDLE } else { 0 })?;
                 let valid = std::str::from_utf8(text).is_ok();
                 valid
                     .then_some(())
-                    .ok_or(Problem::Malformed("is not UTF-8"))
+                    .ok_or(ScanProblem::Malformed("is not UTF-8"))
             }
             // Singular bytes share the buffer of the request.
-            (Kind::Bytes, Value::Bytes(_)) => self.take(if field.repeated { HANDLE } else { 0 }),
-            (Kind::Message(shape), Value::Bytes(inner)) => {
+            (FieldKind::Bytes, WireValue::Bytes(_)) => {
+                self.take(if field.repeated { HANDLE } else { 0 })
+            }
+            (FieldKind::Message(shape), WireValue::Bytes(inner)) => {
                 if self.path.len() > DEPTH {
-                    return Err(Problem::Malformed("is nested too deeply"));
+                    return Err(ScanProblem::Malformed("is nested too deeply"));
                 }
                 // A singular message lies inside the one that has it.
                 self.take(if field.repeated {
@@ -276,8 +280,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    fn take(&mut self, bytes: usize) -> Result<(), Problem> {
-        self.left = self.left.checked_sub(bytes).ok_or(Problem::TooLarge)?;
+    fn take(&mut self, bytes: usize) -> Result<(), ScanProblem> {
+        self.left = self.left.checked_sub(bytes).ok_or(ScanProblem::TooLarge)?;
         Ok(())
     }
 
@@ -296,14 +300,14 @@ impl<'a> Walk<'a> {
 }
 
 /// A value on the wire.
-enum Value<'a> {
+enum WireValue<'a> {
     Varint,
     Fixed(usize),
     Bytes(&'a [u8]),
 }
 
-impl<'a> Value<'a> {
-    fn take(wire_type: u64, bytes: &mut &'a [u8]) -> Result<Self, Problem> {
+impl<'a> WireValue<'a> {
+    fn take(wire_type: u64, bytes: &mut &'a [u8]) -> Result<Self, ScanProblem> {
         let split = |bytes: &mut &'a [u8], n: usize| {
             let (value, rest) = bytes.split_at_checked(n).ok_or(ENDS_EARLY)?;
             *bytes = rest;
@@ -317,12 +321,12 @@ impl<'a> Value<'a> {
                 let length = usize::try_from(varint(bytes)?).map_err(|_| ENDS_EARLY)?;
                 split(bytes, length).map(Self::Bytes)
             }
-            _ => Err(Problem::Malformed("has an unknown type on the wire")),
+            _ => Err(ScanProblem::Malformed("has an unknown type on the wire")),
         }
     }
 }
 
-fn varint(bytes: &mut &[u8]) -> Result<u64, Problem> {
+fn varint(bytes: &mut &[u8]) -> Result<u64, ScanProblem> {
     let mut value = 0;
     for (i, byte) in bytes.iter().take(10).enumerate() {
         // The tenth byte holds one bit.
@@ -338,7 +342,7 @@ fn varint(bytes: &mut &[u8]) -> Result<u64, Problem> {
     Err(if bytes.len() < 10 {
         ENDS_EARLY
     } else {
-        Problem::Malformed("has a number of more than 64 bits")
+        ScanProblem::Malformed("has a number of more than 64 bits")
     })
 }
 

@@ -19,7 +19,7 @@ pub enum Fault {
     Invalid {
         /// Path of the field, for example `batch.frames[3].figures[0].velocity[7]`.
         field: String,
-        /// What is wrong and what was expected.
+        /// The problem, and the expected value.
         problem: String,
     },
     /// The bytes of a request are not a message.
@@ -27,7 +27,7 @@ pub enum Fault {
     Malformed {
         /// Path of the field; empty for the message as a whole.
         field: String,
-        /// What is wrong with it.
+        /// The problem.
         problem: &'static str,
     },
     /// A message is larger than the server takes, on the wire or decoded.
@@ -39,7 +39,7 @@ pub enum Fault {
         limit: &'static str,
         /// Its value.
         value: u64,
-        /// What passes it.
+        /// The amount that passes it.
         message: String,
     },
     /// There is no such resource.
@@ -63,7 +63,7 @@ pub enum Fault {
     Refused {
         /// Reason in UPPER_SNAKE.
         reason: &'static str,
-        /// What it says.
+        /// The message.
         message: String,
         /// Name of the setting that lists what is answered.
         setting: &'static str,
@@ -73,7 +73,7 @@ pub enum Fault {
     Unauthenticated {
         /// Reason in UPPER_SNAKE.
         reason: &'static str,
-        /// What is wrong. Never the credentials themselves.
+        /// The problem. Never the credentials themselves.
         message: String,
     },
     /// The caller may not do this.
@@ -81,7 +81,7 @@ pub enum Fault {
     Denied {
         /// Reason in UPPER_SNAKE.
         reason: &'static str,
-        /// What it lacks.
+        /// The missing role.
         message: String,
         /// Further facts.
         facts: Vec<(&'static str, String)>,
@@ -91,7 +91,7 @@ pub enum Fault {
     Precondition {
         /// Reason in UPPER_SNAKE.
         reason: &'static str,
-        /// What is in the way.
+        /// The obstacle to the request.
         message: String,
         /// Further facts.
         facts: Vec<(&'static str, String)>,
@@ -103,7 +103,7 @@ pub enum Fault {
         limit: &'static str,
         /// Its value.
         value: u64,
-        /// What would pass it.
+        /// The amount that would pass it.
         message: String,
         /// When trying again may work; `None` if only giving something up helps.
         retry: Option<Duration>,
@@ -115,9 +115,9 @@ pub enum Fault {
     Budget {
         /// `the world` or `the machine`.
         whose: &'static str,
-        /// What would be needed, %.
+        /// The needed share, %.
         percent: f64,
-        /// What may be used, %.
+        /// The allowed share, %.
         limit: f64,
     },
     /// A tick is not held any more or not computed yet.
@@ -130,20 +130,20 @@ pub enum Fault {
         /// Newest tick.
         newest: i64,
     },
-    /// Something else took over meanwhile.
+    /// Something else took over in the meantime.
     #[error("{message}")]
     Aborted {
         /// Reason in UPPER_SNAKE.
         reason: &'static str,
-        /// What happened.
+        /// The message.
         message: String,
     },
-    /// What was kept cannot be read any more.
+    /// Stored data cannot be read any more.
     #[error("{message}")]
     DataLoss {
         /// Reason in UPPER_SNAKE.
         reason: &'static str,
-        /// What is lost.
+        /// The lost data.
         message: String,
     },
     /// This server cannot do it.
@@ -186,7 +186,7 @@ fn spaced(field: &str) -> String {
 /// Characters of `worlds/{world}/obstacles/{obstacle}` with the longest ids there are.
 const LONGEST_NAME: usize = 144;
 
-/// What exists instead, for kinds of resource that are the same on every server.
+/// The existing names, for kinds of resource that are the same on every server.
 fn valid_names(kind: &str) -> String {
     match kind {
         "body" => format!(
@@ -259,7 +259,7 @@ impl Fault {
     }
 }
 
-/// What a code says where nothing else does.
+/// The message of a code that has no other.
 fn foreign_reason(code: Code) -> &'static str {
     match code {
         Code::Cancelled => "CANCELLED",

@@ -1,6 +1,6 @@
 //! The message of a watch, which the server encodes once for all viewers.
 //!
-//! Generated code would encode it anew for each viewer. This type can hold the bytes of an encoded message instead:
+//! Generated code would encode it again for each viewer. This type can hold the bytes of an encoded message instead:
 //! sending it to one more viewer then copies bytes and does nothing else.
 
 use super::pb::{Roster, WorldFrame};

@@ -15,7 +15,7 @@ use sinew_physics::figure::{
 };
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::plan::stream::{RATE, StreamPlan};
-use sinew_physics::world::{ClipPlayback, Drive, LivePlayback, World};
+use sinew_physics::world::{ClipPlayback, LivePlayback, MotionSource, World};
 use std::sync::Arc;
 
 const KINDS: [ControllerKind; 3] = [
@@ -108,10 +108,10 @@ fn playing_a_clip_allocates_nothing() {
         // Over the seam of a loop.
         let clip = authored(&body, "step");
         let mut scene = Scene::playing(&body, kind, &clip);
-        if let Drive::Clip(mut play) = play(&clip) {
+        if let MotionSource::Clip(mut play) = play(&clip) {
             play.looped = true;
             play.speed = 2.0;
-            scene.figure_mut().set_drive(Drive::Clip(play));
+            scene.figure_mut().set_drive(MotionSource::Clip(play));
         }
         assert_none(&format!("{kind:?} loop"), &mut scene, 0.6 * clip.duration());
     }
@@ -234,7 +234,7 @@ fn getting_up_allocates_nothing() {
     let mut scene = Scene::of(figure(&body, ControllerKind::Modern, still(prone)));
     scene
         .figure_mut()
-        .set_drive(Drive::Clip(ClipPlayback::new(clip, -4.5)));
+        .set_drive(MotionSource::Clip(ClipPlayback::new(clip, -4.5)));
     // Whether it comes to its feet is not the subject here; that it tries is.
     let mut tries = 0;
     for _ in 0..40 {
@@ -304,7 +304,9 @@ fn a_prepared_stream_allocates_nothing() {
         motion,
         offset: 0.0,
     };
-    scene.figure_mut().set_drive(Drive::Live(Box::new(live)));
+    scene
+        .figure_mut()
+        .set_drive(MotionSource::Live(Box::new(live)));
     let mut walked = false;
     for tick in 0..scene.ticks(walk.duration()) {
         let (world, key) = (&mut scene.world, scene.key);

@@ -8,6 +8,7 @@ mod chaos;
 mod cli;
 mod operations;
 mod pages;
+mod parameters;
 #[path = "../common/raw.rs"]
 mod raw;
 mod run_cli;

@@ -4,11 +4,12 @@
 
 use serde_json::Value;
 use sinew_evaluate::survey::compare::compare;
-use sinew_evaluate::survey::{Conditions, Kind, Lacks, Measured, Reference, Row, run};
+use sinew_evaluate::survey::{Lacks, MeasuredClip, MotionKind, SurveyRow, run};
 use sinew_physics::body::Body;
 use sinew_physics::figure::{FigureOptions, StrengthScale};
 use sinew_physics::motion::builtin::builtin;
 use sinew_physics::motion::write_bvh;
+use sinew_physics::rehearsal::{Conditions, TrackingReference};
 use sinew_physics::world::WorldParams;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -225,23 +226,24 @@ fn unchanged_code_compares_clean_and_wrong_gravity_does_not() {
 #[test]
 fn tables_are_put_into_a_page_with_their_command() {
     let f = Folder::new("page");
-    let (out, page, md) = (f.path("s.json"), f.path("limits.md"), f.path("s.md"));
+    let (out, page) = (f.path("s.json"), f.path("limits.md"));
     let before = "# Limits\n\n<!-- survey quick begin: -->\n<!-- survey quick end -->\n\nEnd.\n";
     std::fs::write(&page, before).unwrap();
     let section = format!("{page}#quick");
+    let folder = f.path("corpus#quick");
     let given = [
         "builtin:idle",
         "--out",
         &out,
         "--page",
         &section,
-        "--markdown",
-        &md,
+        "--summary",
+        &folder,
     ];
     good(&given);
     let once = f.text("limits.md");
     let begin = "# Limits\n\n<!-- survey quick begin: sinew survey builtin:idle --out s.json --page limits.md#quick \
-        --markdown s.md -->";
+        --summary corpus#quick -->";
     assert!(once.starts_with(begin), "{once}");
     assert!(once.ends_with("<!-- survey quick end -->\n\nEnd.\n"));
     assert!(
@@ -250,10 +252,12 @@ fn tables_are_put_into_a_page_with_their_command() {
     );
     assert!(
         !once.contains("| builtin:idle | stand |"),
-        "clips are in the other file"
+        "clips are in the file"
     );
-    let all = f.text("s.md");
-    assert!(all.contains("| builtin:idle | stand |") && all.contains("| stand | 1 | 1 of 1 |"));
+    let all = f.text("corpus/README.md");
+    assert!(all.contains("| quick | 1 | 1 |") && all.contains("--summary corpus#quick` |"));
+    let numbers = json(&f.0.join("corpus/summary.json"));
+    assert_eq!(numbers[0]["clips"][0]["clip"], "builtin:idle");
     good(&given);
     assert_eq!(f.text("limits.md"), once);
     let missing = survey(&[
@@ -285,13 +289,13 @@ fn conditions() -> Conditions {
     }
 }
 
-fn row(reference: &Reference) -> Row {
-    Row {
+fn row(reference: &TrackingReference) -> SurveyRow {
+    SurveyRow {
         clip: "walk".into(),
         input: "1".into(),
         error: None,
-        result: Some(Measured {
-            kind: Kind::Walk,
+        result: Some(MeasuredClip {
+            kind: MotionKind::Walk,
             clip_s: reference.recorded.duration(),
             walked: false,
             prepared_off_m: 0.0,
@@ -309,7 +313,7 @@ fn row(reference: &Reference) -> Row {
 #[test]
 fn labels_of_one_foot_that_are_wrong_are_seen() {
     let body = Body::adult_man();
-    let right = Reference::authored(Arc::new(builtin(&body, "walk").unwrap()));
+    let right = TrackingReference::authored(Arc::new(builtin(&body, "walk").unwrap()));
     let good = row(&right);
     // Labels of the left foot are given to the right one, too.
     let mut mirrored = right.clone();
@@ -349,7 +353,7 @@ fn labels_of_one_foot_that_are_wrong_are_seen() {
 #[test]
 fn a_stream_through_a_window_is_followed_like_a_clip() {
     let body = Body::adult_man();
-    let reference = Reference::authored(Arc::new(builtin(&body, "wave").unwrap()));
+    let reference = TrackingReference::authored(Arc::new(builtin(&body, "wave").unwrap()));
     let live = Conditions {
         live_window: Some(0.5),
         ..conditions()

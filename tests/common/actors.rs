@@ -7,7 +7,7 @@ use sinew_physics::body::{Body, Posture, Sex};
 use sinew_physics::figure::{ControllerKind, FigureSetup, HeldLoad, Perturbation};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::Clip;
-use sinew_physics::world::{Drive, FigureKey, World, WorldParams};
+use sinew_physics::world::{FigureKey, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
 /// All controllers.
@@ -96,7 +96,7 @@ pub fn swing(body: &Body) -> Arc<Clip> {
 /// A figure, its drive and its disturbances.
 pub struct Actor {
     pub setup: FigureSetup,
-    pub drive: Drive,
+    pub drive: MotionSource,
     pub perturbations: Vec<Perturbation>,
 }
 
@@ -105,7 +105,7 @@ impl Actor {
     pub fn shift(&mut self, by: Vec3) {
         let p = &mut self.setup.state.posture.root_position;
         *p += by;
-        if let Drive::Clip(play) = &mut self.drive {
+        if let MotionSource::Clip(play) = &mut self.drive {
             (play.origin.x, play.origin.y) = (play.origin.x + by.x, play.origin.y + by.y);
         }
     }

@@ -15,9 +15,10 @@ use sinew_physics::figure::ControllerKind;
 use sinew_physics::motion::builtin::builtin;
 use sinew_physics::motion::{Bvh, Clip};
 use sinew_physics::plan::cycle;
-use sinew_physics::retarget::{RetargetOptions, retarget};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::RetargetOptions;
 use sinew_physics::world::{
-    ClipPlayback, Drive, Figure, FigureKey, FigureSetup, World, WorldParams,
+    ClipPlayback, Figure, FigureKey, FigureSetup, MotionSource, World, WorldParams,
 };
 use std::sync::Arc;
 
@@ -29,14 +30,14 @@ pub fn man() -> Arc<Body> {
 /// The synthesised recording `name` (`walk-normal.vrm`) fitted to `body`.
 pub fn synthesised(body: &Body, name: &str) -> Arc<Clip> {
     let bvh = Bvh::parse(&corpus::read(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let fitted = retarget(&bvh, body, &RetargetOptions::default());
+    let fitted = prepare_recording(&bvh.recording().unwrap(), body, &RetargetOptions::default());
     Arc::new(fitted.unwrap_or_else(|e| panic!("{name}: {e}")).clip)
 }
 
 /// A walk that repeats: the strides in the middle of the synthesised one.
 pub fn synthesised_cycle(body: &Body) -> Arc<Clip> {
     let bvh = Bvh::parse(&corpus::piece("walk-normal.vrm", 1.8, 5.4)).unwrap();
-    let clip = retarget(&bvh, body, &RetargetOptions::default())
+    let clip = prepare_recording(&bvh.recording().unwrap(), body, &RetargetOptions::default())
         .unwrap()
         .clip;
     Arc::new(cycle(body, &clip).expect("a walk repeats"))
@@ -51,7 +52,7 @@ pub fn recorded(body: &Body, name: &str) -> Arc<Clip> {
 pub fn recorded_with(body: &Body, name: &str, options: &RetargetOptions) -> Arc<Clip> {
     let bvh =
         Bvh::parse(&mocap::read(&format!("{name}.bvh"))).unwrap_or_else(|e| panic!("{name}: {e}"));
-    let fitted = retarget(&bvh, body, options);
+    let fitted = prepare_recording(&bvh.recording().unwrap(), body, options);
     Arc::new(fitted.unwrap_or_else(|e| panic!("{name}: {e}")).clip)
 }
 
@@ -90,8 +91,8 @@ pub fn figure(body: &Arc<Body>, controller: ControllerKind, state: State) -> Fig
 }
 
 /// `clip` from world time 0 on, once.
-pub fn play(clip: &Arc<Clip>) -> Drive {
-    Drive::Clip(ClipPlayback::new(Arc::clone(clip), 0.0))
+pub fn play(clip: &Arc<Clip>) -> MotionSource {
+    MotionSource::Clip(ClipPlayback::new(Arc::clone(clip), 0.0))
 }
 
 /// A world (60 ticks/s, two substeps) with one figure.

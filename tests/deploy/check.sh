@@ -28,13 +28,7 @@ fi
 "$promtool" test rules "$root/deploy/prometheus/rules_test.yaml"
 python3 -m json.tool "$root/deploy/grafana/sinew.json" >/dev/null
 
-if [ -n "${SINEW_BIN:-}" ]; then
-    binary=$SINEW_BIN
-else
-    # Selected like this it has the features of `cargo test`, so that nothing is compiled twice.
-    (cd "$root" && cargo build --quiet --locked --workspace --bin sinew --bin dump_dynamics --bin dump_paper --example client)
-    binary=${CARGO_TARGET_DIR:-$root/target}/debug/sinew
-fi
+binary=$("$root/tests/programs.sh")
 work=$(mktemp -d)
 server=
 finish() {

@@ -14,12 +14,11 @@ scale=${LOAD_SCALE:-1}
 ghz=$root/.tools/ghz
 PATH=$PATH:$root/.venv/bin
 
-profile=debug
 flag=
 table=
 for option in "$@"; do
     case $option in
-    --release) profile=release flag=--release ;;
+    --release) flag=--release ;;
     --table) table="--table $root/docs/performance.md" ;;
     *)
         echo "load: unknown option $option" >&2
@@ -40,14 +39,8 @@ if ! [ -x "$ghz" ]; then
     fi
 fi
 
-if [ -n "${SINEW_BIN:-}" ]; then
-    binary=$SINEW_BIN
-else
-    # Selected like this it has the features of `cargo test`, so that nothing is compiled twice.
-    # shellcheck disable=SC2086 # an empty flag must vanish
-    (cd "$root" && cargo build --quiet --locked $flag --workspace --bin sinew --bin dump_dynamics --bin dump_paper --example client)
-    binary=${CARGO_TARGET_DIR:-$root/target}/$profile/sinew
-fi
+# shellcheck disable=SC2086 # an empty flag must vanish
+binary=$("$root/tests/programs.sh" $flag)
 
 work=$(mktemp -d)
 server=

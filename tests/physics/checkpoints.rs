@@ -15,7 +15,7 @@ use sinew_physics::body::palm::load_point;
 use sinew_physics::body::topology::{L_HAND, PELVIS, R_HAND};
 use sinew_physics::body::{Body, Profile, Sex};
 use sinew_physics::collide::{Mobility, Shape};
-use sinew_physics::figure::rehearsed::Stage;
+use sinew_physics::figure::motion::rehearsed::RehearsalWorld;
 use sinew_physics::figure::{
     Constrained, Constraint, ControllerKind, FigureOptions, HeldLoad, LatePlans, Perturbation,
     Planning, SecondHand, StepperKind, StrengthScale,
@@ -23,14 +23,15 @@ use sinew_physics::figure::{
 use sinew_physics::math::Vec3;
 use sinew_physics::math::vec3::vec3;
 use sinew_physics::motion::{Bvh, Clip};
+use sinew_physics::plan::prepare_recording;
 use sinew_physics::plan::stream::{RATE, StreamPlan};
+use sinew_physics::reference::RetargetOptions;
 use sinew_physics::rehearsal::{Problem, Settings, rehearse};
-use sinew_physics::retarget::{RetargetOptions, retarget};
 use sinew_physics::world::checkpoint::{
     Checkpoint, CheckpointError, DefinitionHash, Definitions, FORMAT,
 };
 use sinew_physics::world::{
-    ClipPlayback, Drive, FigureKey, LivePlayback, RehearsedPlayback, World, WorldParams,
+    ClipPlayback, FigureKey, LivePlayback, MotionSource, RehearsedPlayback, World, WorldParams,
 };
 use std::sync::Arc;
 
@@ -272,10 +273,12 @@ fn transitions() -> Scenario {
     let cycle = synthesised_cycle(&body);
     let state = cycle.sample(0.0).state();
     let mut scene = Scene::of(figure(&body, ControllerKind::Modern, state));
-    scene.figure_mut().set_drive(Drive::Clip(ClipPlayback {
-        looped: true,
-        ..ClipPlayback::new(Arc::clone(&cycle), 0.0)
-    }));
+    scene
+        .figure_mut()
+        .set_drive(MotionSource::Clip(ClipPlayback {
+            looped: true,
+            ..ClipPlayback::new(Arc::clone(&cycle), 0.0)
+        }));
     Scenario::new("transitions", scene.world, 520, 23).with(
         &[60, 61, 62, 70, 71, 200, 201, 203, 330, 331, 333, 480],
         move |world, tick| {
@@ -307,7 +310,7 @@ fn a_rehearsed_motion_and_what_comes_after_it() {
     let body = man();
     let clip = authored(&body, "squat");
     let params = WorldParams::default();
-    let stage = Stage {
+    let stage = RehearsalWorld {
         dt: 1.0 / params.rate_hz,
         substeps: params.substeps,
         gravity: params.gravity,
@@ -326,7 +329,7 @@ fn a_rehearsed_motion_and_what_comes_after_it() {
     let motion = Arc::new(found.motion);
     let mut scene = Scene::of(figure(&body, ControllerKind::Modern, motion.start()));
     let play = RehearsedPlayback::new(Arc::clone(&motion), 0.0);
-    scene.figure_mut().set_drive(Drive::Rehearsed(play));
+    scene.figure_mut().set_drive(MotionSource::Rehearsed(play));
     // Held back on its path, then pushed out of reach.
     let gentle = push(vec3(60.0, 0.0, 0.0), 0.2);
     scene.world.perturb(scene.key, gentle).unwrap();
@@ -362,7 +365,9 @@ fn streamed() -> Scenario {
         motion,
         offset: 0.0,
     };
-    scene.figure_mut().set_drive(Drive::Live(Box::new(live)));
+    scene
+        .figure_mut()
+        .set_drive(MotionSource::Live(Box::new(live)));
     Scenario::new("stream", scene.world, 280, 17).with(&[1, 5], move |world, tick| {
         // It stops in mid-step after 2.5 s, and repeats its last sample.
         if let Some(live) = of_figure(world).stream_mut() {
@@ -380,7 +385,7 @@ fn a_live_stream_that_breaks_off() {
 /// Lies down, and rises by the reversed motion.
 fn lying_down_and_up(body: &Body) -> Arc<Clip> {
     let bvh = Bvh::parse(&corpus::read("lie-down.vrm")).unwrap();
-    let clip = retarget(&bvh, body, &RetargetOptions::default())
+    let clip = prepare_recording(&bvh.recording().unwrap(), body, &RetargetOptions::default())
         .unwrap()
         .clip;
     let there: Vec<_> = clip.samples().map(|(p, planted)| (*p, planted)).collect();
@@ -530,7 +535,7 @@ fn targets_that_the_caller_sets() {
         let wave = Arc::clone(&wave);
         let s = Scenario::new("external", world, 60, 9).with(&[], move |world, _| {
             let targets = play(&wave).targets(world.time(), world.dt());
-            of_figure(world).set_drive(Drive::External(Box::new(targets)));
+            of_figure(world).set_drive(MotionSource::External(Box::new(targets)));
         });
         goes_on_bit_for_bit(s);
     }

@@ -2,7 +2,7 @@
 //! any other figures in the world. Method: hashes over all bits of the state after a run. Golden hashes are committed
 //! in `tests/golden/hashes.txt`; their scenes are built with the arithmetic of the simulation alone (no platform
 //! mathematics), so they hold on every machine. After an intended change of the physics: `SINEW_MINT_GOLDEN=1 cargo
-//! test --no-default-features --test determinism golden`.
+//! test --no-default-features --test physics determinism::golden`.
 
 use crate::common::actors::{KINDS, crowd, in_both_hands, subject, world};
 use crate::common::{Scene, bent, figure, still};

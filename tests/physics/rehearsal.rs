@@ -4,14 +4,14 @@
 
 use sinew_physics::body::topology::CHEST;
 use sinew_physics::body::{Body, NV, State};
-use sinew_physics::figure::rehearsed::Stage;
+use sinew_physics::figure::motion::rehearsed::RehearsalWorld;
 use sinew_physics::figure::{ControllerKind, Perturbation, StrengthScale};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::Clip;
 use sinew_physics::motion::builtin::builtin;
 use sinew_physics::rehearsal::{Problem, ProblemError, Reference, Rehearsal, Settings, rehearse};
 use sinew_physics::world::{
-    ClipPlayback, Drive, FigureKey, FigureSetup, RehearsedMotion, RehearsedPlayback, World,
+    ClipPlayback, FigureKey, FigureSetup, MotionSource, RehearsedMotion, RehearsedPlayback, World,
     WorldParams,
 };
 use std::sync::{Arc, OnceLock};
@@ -35,7 +35,7 @@ fn few() -> Settings {
 
 fn problem() -> Problem {
     let world = WorldParams::default();
-    let stage = Stage {
+    let stage = RehearsalWorld {
         dt: 1.0 / world.rate_hz,
         substeps: world.substeps,
         gravity: world.gravity,
@@ -78,12 +78,15 @@ fn playing(motion: &Arc<RehearsedMotion>, state: State) -> (World, FigureKey) {
         .unwrap();
     let play = RehearsedPlayback::new(Arc::clone(motion), 0.0);
     let figure = world.figure_mut(key).unwrap();
-    figure.set_drive(Drive::Rehearsed(play));
+    figure.set_drive(MotionSource::Rehearsed(play));
     (world, key)
 }
 
 fn is_rehearsed(world: &World, key: FigureKey) -> bool {
-    matches!(world.figure(key).unwrap().drive(), Drive::Rehearsed(_))
+    matches!(
+        world.figure(key).unwrap().drive(),
+        MotionSource::Rehearsed(_)
+    )
 }
 
 #[test]
@@ -174,7 +177,7 @@ fn a_motion_that_is_over_is_left_for_a_stand() {
         world.step();
     }
     let figure = world.figure(key).unwrap();
-    assert!(matches!(figure.drive(), Drive::Hold(_)) && !figure.is_fallen());
+    assert!(matches!(figure.drive(), MotionSource::Hold(_)) && !figure.is_fallen());
     assert_eq!(figure.report().unwrap().assist, [0.0; 6]);
 }
 
@@ -214,7 +217,7 @@ fn a_world_of_another_stage_does_not_play_it() {
     world
         .figure_mut(key)
         .unwrap()
-        .set_drive(Drive::Rehearsed(play));
+        .set_drive(MotionSource::Rehearsed(play));
     world.step();
     assert!(!is_rehearsed(&world, key));
 }
@@ -230,7 +233,7 @@ fn it_plays_wherever_its_origin_lies() {
     world
         .figure_mut(key)
         .unwrap()
-        .set_drive(Drive::Rehearsed(play));
+        .set_drive(MotionSource::Rehearsed(play));
     for wanted in &rehearsed().states[1..] {
         world.step();
         let is = world.figure(key).unwrap().state().posture.root_position;

@@ -11,7 +11,7 @@ use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
 use sinew_physics::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StepperKind};
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::{Target, TargetPair};
-use sinew_physics::world::{Drive, FigureKey, World, WorldError, WorldParams};
+use sinew_physics::world::{FigureKey, MotionSource, World, WorldError, WorldParams};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -191,7 +191,7 @@ impl Chaos {
                 }
             };
             let (now, next) = (target(self), target(self));
-            let drive = Drive::External(Box::new(TargetPair { now, next }));
+            let drive = MotionSource::External(Box::new(TargetPair { now, next }));
             world.figure_mut(key).unwrap().set_drive(drive);
         }
         if self.often(0.03) {

@@ -11,7 +11,7 @@ use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
 use sinew_physics::figure::ControllerKind;
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::Clip;
-use sinew_physics::retarget::RetargetOptions;
+use sinew_physics::reference::RetargetOptions;
 use sinew_physics::world::{World, WorldParams};
 use std::sync::Arc;
 

@@ -12,8 +12,8 @@ use sinew_physics::motion::Clip;
 use sinew_physics::motion::leg_ik::forward;
 use sinew_physics::plan::cycle;
 use sinew_physics::plan::stream::{RATE, StreamPlan};
-use sinew_physics::retarget::{Preparation, RetargetOptions};
-use sinew_physics::world::{ClipPlayback, Drive, LivePlayback, World, WorldParams};
+use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::world::{ClipPlayback, LivePlayback, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
 /// A recording as it would be streamed.
@@ -81,7 +81,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
         let r = f.report().unwrap();
         assert!(r.joints.over_limit <= 1e-9 && !r.flags.has(Flags::QUARANTINED));
         // No figure is ahead of the frames received, or knows its footholds in advance.
-        if matches!(f.drive(), Drive::Live(_)) {
+        if matches!(f.drive(), MotionSource::Live(_)) {
             assert!(f.tracker().lag() > -1e-9 && !f.tracker().has_planned_footholds());
         }
         if f.is_fallen() {
@@ -104,7 +104,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
 }
 
 /// A world with a figure in the state in which a motion begins.
-fn beginning(body: &Arc<Body>, drive: Drive) -> World {
+fn beginning(body: &Arc<Body>, drive: MotionSource) -> World {
     let mut world = World::new(WorldParams::default()).unwrap();
     let first = drive.targets(0.0, 1.0 / RATE).now;
     let state = first.state();
@@ -144,7 +144,7 @@ fn follow_pushed(
         motion,
         offset: 0.0,
     });
-    let mut world = beginning(body, Drive::Live(live));
+    let mut world = beginning(body, MotionSource::Live(live));
     let key = world.figures().next().unwrap().0;
     if let Some(push) = push {
         world.perturb(key, push).unwrap();
@@ -321,7 +321,7 @@ fn a_clip_that_is_stopped_ends_in_a_stand() {
         let stop = 3.0 + 0.14 * f64::from(phase);
         let mut world = beginning(
             &body,
-            Drive::Clip(ClipPlayback {
+            MotionSource::Clip(ClipPlayback {
                 looped: true,
                 ..ClipPlayback::new(Arc::clone(&walk), 0.0)
             }),
@@ -360,7 +360,7 @@ fn a_stop_takes_over_at_its_tick_however_fast_it_is_worked_out() {
             looped: true,
             ..ClipPlayback::new(Arc::clone(&walk), 0.0)
         };
-        let mut world = beginning(&body, Drive::Clip(play));
+        let mut world = beginning(&body, MotionSource::Clip(play));
         let key = world.figures().next().unwrap().0;
         (0..150).for_each(|_| world.step());
         (world, key)
@@ -381,7 +381,7 @@ fn a_stop_takes_over_at_its_tick_however_fast_it_is_worked_out() {
         let mut took_over = None;
         for tick in 0..60 {
             world.step();
-            let Drive::Clip(play) = world.figure(key).unwrap().drive() else {
+            let MotionSource::Clip(play) = world.figure(key).unwrap().drive() else {
                 panic!("it walks to a stand");
             };
             if took_over.is_none() && !Arc::ptr_eq(&play.clip, &walk) {

@@ -9,8 +9,8 @@ use sinew_physics::body::{Body, Sex};
 use sinew_physics::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
 use sinew_physics::math::Vec3;
 use sinew_physics::plan::stream::{RATE, StreamPlan};
-use sinew_physics::retarget::{Preparation, RetargetOptions};
-use sinew_physics::world::{ClipPlayback, Drive, LivePlayback, WorldParams};
+use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::world::{ClipPlayback, LivePlayback, MotionSource, WorldParams};
 use std::sync::Arc;
 
 /// Feet and toes.
@@ -161,7 +161,7 @@ fn who_lies_on_the_back_rolls_over_and_gets_up() {
     setup.strength.all = 1.0;
     let mut scene = Scene::of(setup);
     let clip = ClipPlayback::new(clip, lead);
-    scene.figure_mut().set_drive(Drive::Clip(clip));
+    scene.figure_mut().set_drive(MotionSource::Clip(clip));
     let mut on_back = false;
     scene.run(9.0, |s| {
         let front = s.figure().state().posture.root_rotation.rotate(Vec3::X);
@@ -236,7 +236,9 @@ fn who_lies_under_a_stream_gets_up_when_it_does() {
         motion,
         offset: 0.0,
     };
-    scene.figure_mut().set_drive(Drive::Live(Box::new(live)));
+    scene
+        .figure_mut()
+        .set_drive(MotionSource::Live(Box::new(live)));
     let mut up = None;
     for _ in 0..scene.ticks(40.0) {
         if let Some(live) = scene.figure_mut().stream_mut() {

@@ -3,12 +3,12 @@
 //! end in full stride: the figure begins in the state of the first sample.
 
 use crate::common::{man, mocap, recorded_with};
-use sinew_evaluate::experiments::walk::{Walk, Walker, walk};
+use sinew_evaluate::experiments::walk::{WalkTrial, Walker, walk};
 use sinew_physics::body::Posture;
 use sinew_physics::motion::Bvh;
 use sinew_physics::plan::pelvis_shift::mass_track;
-use sinew_physics::retarget::RetargetOptions;
-use sinew_physics::retarget::retarget;
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::RetargetOptions;
 use sinew_physics::track::StepPlan;
 
 const GRAVITY: f64 = 9.81;
@@ -19,7 +19,12 @@ fn the_feet_of_a_run_stand_as_long_as_they_carry() {
     // Duration of the run in each clip, s.
     for (name, until) in [("run", 1.0), ("quick-stop", 0.7)] {
         let bvh = Bvh::parse(&mocap::read(&format!("{name}.bvh"))).unwrap();
-        let r = retarget(&bvh, &body, &RetargetOptions::default()).unwrap();
+        let r = prepare_recording(
+            &bvh.recording().unwrap(),
+            &body,
+            &RetargetOptions::default(),
+        )
+        .unwrap();
         let phases = &r.report.feet.phases;
         let text: Vec<String> = (phases.iter())
             .map(|p| format!("{}{:.3}", p.letter(), p.end - p.start))
@@ -88,9 +93,9 @@ fn a_run_is_followed_to_its_last_sample() {
             strength,
             ..Walker::new(&body)
         };
-        let kept = Walk {
+        let kept = WalkTrial {
             seconds: clip.duration(),
-            ..Walk::once(&clip)
+            ..WalkTrial::once(&clip)
         };
         let w = walk(&who, &kept);
         let rms = w.report.tracking_joint_rms_deg;

@@ -3,14 +3,14 @@
 //! for at moments spread over the first one, in torque simulation, 60 Hz with two substeps, the modern controller.
 
 use crate::common::{authored, figure, man, recorded, recorded_with};
-use sinew_evaluate::experiments::walk::Stance;
+use sinew_evaluate::experiments::walk::FootSliding;
 use sinew_physics::body::Body;
 use sinew_physics::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew_physics::figure::ControllerKind;
 use sinew_physics::motion::Clip;
 use sinew_physics::plan::cycle;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
-use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
+use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
 const RATE: f64 = 60.0;
@@ -87,7 +87,10 @@ fn begun(body: &Arc<Body>, what: &Played, seconds: f64) -> (World, FigureKey) {
         start: -from,
         ..what.playback(0.0)
     };
-    world.figure_mut(key).unwrap().set_drive(Drive::Clip(play));
+    world
+        .figure_mut(key)
+        .unwrap()
+        .set_drive(MotionSource::Clip(play));
     (0..(seconds * RATE) as usize).for_each(|_| world.step());
     (world, key)
 }
@@ -95,7 +98,7 @@ fn begun(body: &Arc<Body>, what: &Played, seconds: f64) -> (World, FigureKey) {
 /// The clip that plays.
 fn playing(world: &World, key: FigureKey) -> &ClipPlayback {
     match world.figure(key).unwrap().drive() {
-        Drive::Clip(play) => play,
+        MotionSource::Clip(play) => play,
         other => panic!("no clip: {other:?}"),
     }
 }
@@ -137,7 +140,7 @@ fn passes(body: &Arc<Body>, first: &Played, second: Option<&Played>, at: f64) ->
         slip: 0.0,
         joints: 0.0,
     };
-    let mut stances = [Stance::default(), Stance::default()];
+    let mut stances = [FootSliding::default(), FootSliding::default()];
     while world.time() < until {
         let figure = world.figure(key).unwrap();
         if out.began.is_nan() && figure.next_clip().is_none() {

@@ -4,13 +4,13 @@
 //! pace and played faster and slower.
 
 use crate::common::{man, mocap, recorded_with};
-use sinew_evaluate::experiments::walk::{Walk, Walker, walk};
+use sinew_evaluate::experiments::walk::{WalkTrial, Walker, walk};
 use sinew_physics::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew_physics::body::{Body, Posture};
 use sinew_physics::motion::Bvh;
 use sinew_physics::motion::leg_ik::forward;
-use sinew_physics::retarget::retarget;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::{Preparation, RetargetOptions};
 use std::sync::Arc;
 
 /// The recording as a server prepares it for a pace.
@@ -47,19 +47,19 @@ fn recordings_are_followed_at_the_pace_they_are_prepared_for() {
         for name in names {
             let w = walk(
                 &Walker::new(&body),
-                &Walk::once(&recorded_with(&body, name, &at(tempo))),
+                &WalkTrial::once(&recorded_with(&body, name, &at(tempo))),
             );
             let rms = w.report.tracking_joint_rms_deg;
             assert!(w.stood() && rms < most, "{name} at {tempo}: {rms} deg");
             prepared += rms / names.len() as f64;
 
-            let once = Walk::once(&recorded_with(&body, name, &at(1.0)));
+            let once = WalkTrial::once(&recorded_with(&body, name, &at(1.0)));
             let seconds = once.seconds / tempo;
             let walker = Walker {
                 speed: tempo,
                 ..Walker::new(&body)
             };
-            let w = walk(&walker, &Walk { seconds, ..once });
+            let w = walk(&walker, &WalkTrial { seconds, ..once });
             played += w.report.tracking_joint_rms_deg / names.len() as f64;
         }
         println!("{tempo}: joints {prepared:.2} deg rms in the mean, {played:.2} as prepared at 1");
@@ -130,7 +130,7 @@ fn a_foot_that_is_left_behind_steps_before_its_leg_is_stretched() {
             .map(|i| clip.duration() + i as f64 / rate)
             .flat_map(|t| soles(&body, &clip.sample(t).posture))
             .fold(f64::INFINITY, f64::min);
-        let w = walk(&Walker::new(&body), &Walk::once(&clip));
+        let w = walk(&Walker::new(&body), &WalkTrial::once(&clip));
         let rms = w.report.tracking_joint_rms_deg;
         println!("{tempo}: lowest point {:.1} mm, {rms:.2} deg", 1e3 * lowest);
         assert!(lowest > -0.004, "{tempo}: {lowest} m");
@@ -152,8 +152,10 @@ fn mirrored_recordings_are_followed_as_well() {
     ] {
         let bvh = Bvh::parse(&mocap::read(&format!("{name}.bvh"))).unwrap();
         let [plain, mirrored] = [bvh.clone(), bvh.mirrored()].map(|bvh| {
-            let clip = retarget(&bvh, &body, &at(1.0)).unwrap().clip;
-            walk(&Walker::new(&body), &Walk::once(&Arc::new(clip)))
+            let clip = prepare_recording(&bvh.recording().unwrap(), &body, &at(1.0))
+                .unwrap()
+                .clip;
+            walk(&Walker::new(&body), &WalkTrial::once(&Arc::new(clip)))
         });
         let rms = [&plain, &mirrored].map(|w| w.report.tracking_joint_rms_deg);
         println!("{name}: {:.2} deg, mirrored {:.2} deg", rms[0], rms[1]);

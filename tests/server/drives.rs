@@ -5,7 +5,7 @@ use sinew_wire::pb;
 use tonic::Code;
 
 /// Waits until the server has taken everything up to `sequence`.
-async fn taken(driver: &mut sinew_client::Driver, sequence: i64) {
+async fn taken(driver: &mut sinew_client::LiveDriver, sequence: i64) {
     while driver.feedback().await.unwrap().unwrap().received_sequence < sequence {}
 }
 

@@ -227,7 +227,7 @@ fn was_never_sent(status: &Status) -> bool {
 }
 
 /// The reason why a drive ended.
-async fn end_of(mut driver: sinew_client::Driver) -> Status {
+async fn end_of(mut driver: sinew_client::LiveDriver) -> Status {
     loop {
         match driver.feedback().await {
             Ok(Some(_)) => {}
@@ -325,7 +325,7 @@ async fn a_world_whose_tick_does_not_end_is_given_up_and_no_other_notices() {
     let world = server.world("w", false, pb::World::default()).await;
     let (go, wait) = std::sync::mpsc::sync_channel::<()>(1);
     let handle = server.app.worlds.get("w").unwrap();
-    let origin = sinew_server::tick::command::Origin {
+    let origin = sinew_server::tick::command::CommandOrigin {
         client: "c".into(),
         sequence: 0,
     };

@@ -1,7 +1,7 @@
 //! The past of a world over the wire: going back, forking, replaying and recording it.
 
 use crate::support::{TestServer, arm_frame, header, refusal, view};
-use sinew_client::Driver;
+use sinew_client::LiveDriver;
 use sinew_physics::motion::Bvh;
 use sinew_wire::pb;
 use sinew_wire::pb::fork_world_request::Source as From;
@@ -130,7 +130,7 @@ fn frames_of(file: &[u8]) -> Vec<(i64, i64)> {
 }
 
 /// A world with a figure that walks and one that is driven, after some ticks; the hash after each.
-async fn driven(server: &TestServer) -> (String, Vec<i64>, Driver) {
+async fn driven(server: &TestServer) -> (String, Vec<i64>, LiveDriver) {
     let world = server.paused_world("w").await;
     server.figure(&world, "a").await;
     server.figure(&world, "b").await;

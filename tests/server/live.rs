@@ -6,8 +6,8 @@ use sinew_client::Network;
 use sinew_physics::body::{Body, Posture};
 use sinew_physics::motion::{Bvh, Clip};
 use sinew_physics::plan::cycle;
-use sinew_physics::retarget::RetargetOptions;
-use sinew_physics::retarget::retarget;
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::RetargetOptions;
 use sinew_server::engine;
 use sinew_wire::convert::motion::figure_motion;
 use sinew_wire::pb;
@@ -16,7 +16,7 @@ use tonic::Code;
 
 fn walk(body: &Body) -> Clip {
     let bvh = Bvh::parse(&corpus::piece("walk-normal.vrm", 1.8, 5.4)).unwrap();
-    let clip = retarget(&bvh, body, &RetargetOptions::default())
+    let clip = prepare_recording(&bvh.recording().unwrap(), body, &RetargetOptions::default())
         .unwrap()
         .clip;
     cycle(body, &clip).unwrap()

@@ -3,7 +3,7 @@
 
 use crate::support::{TestServer, arm_frame, header, refusal, view};
 use sinew_client::Client;
-use sinew_server::tick::command::Origin;
+use sinew_server::tick::command::CommandOrigin;
 use sinew_wire::pb;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::time::Duration;
@@ -14,7 +14,7 @@ use tonic_types::StatusExt;
 fn busy(server: &TestServer, world: &str) -> SyncSender<()> {
     let (end, ended) = sync_channel::<()>(1);
     let (begin, begun) = sync_channel(1);
-    let origin = Origin {
+    let origin = CommandOrigin {
         client: "test".into(),
         sequence: 0,
     };

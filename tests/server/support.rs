@@ -1,7 +1,7 @@
 //! The server in this process, with requests that many tests make.
 
 use sinew_client::Client;
-use sinew_server::api::App;
+use sinew_server::app::App;
 use sinew_server::config::Config;
 use sinew_wire::pb;
 use std::net::SocketAddr;

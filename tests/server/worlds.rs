@@ -618,7 +618,7 @@ async fn a_panic_fails_its_world_and_no_other() {
     server.figure(&broken, "a").await;
     server.figure(&sound, "a").await;
     server.step(&broken, 3).await;
-    let origin = sinew_server::tick::command::Origin {
+    let origin = sinew_server::tick::command::CommandOrigin {
         client: "test".into(),
         sequence: 0,
     };

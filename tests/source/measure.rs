@@ -1,5 +1,11 @@
 //! What the source says about itself: sizes, tunable numbers, fields, parameters and duplicates, read with `syn`.
 
+pub mod imports;
+pub mod packages;
+pub mod tokens;
+pub mod words;
+
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use syn::spanned::Spanned;
@@ -15,13 +21,16 @@ const LOCOMOTION: &[&str] = &[
     "sim/plan",
     "sim/track",
     "sim/get_up",
-    "sim/retarget/run_detection",
-    "sim/retarget/run_to_walk",
+    "sim/reference/run_detection",
+    "sim/reference/run_to_walk",
     "sim/motion/leg_ik",
     "sim/math/banded",
     "sim/math/curve",
     "sim/math/polygon",
     "sim/math/rotation_vector",
+    "sim/figure/motion/get_up",
+    "sim/figure/motion/activity",
+    "sim/figure/motion/exit",
     "sim/figure/get_up",
     "sim/figure/activity",
     "sim/figure/background",
@@ -37,6 +46,9 @@ const LOCOMOTION: &[&str] = &[
 /// What lies in `sim/motion` and reads, keeps or samples motions, without planning them.
 const READING: &[&str] = &[
     "sim/motion/bvh",
+    "sim/motion/read",
+    "sim/motion/recording",
+    "sim/motion/skeleton",
     "sim/motion/bvh_write",
     "sim/motion/skeleton_map",
     "sim/motion/retarget",
@@ -45,8 +57,15 @@ const READING: &[&str] = &[
     "sim/motion/builtin",
     "sim/motion/target",
 ];
+/// Parts whose functions take no tuples, by their names of now and before.
+const WITHOUT_TUPLES: &[&str] = &["sim/plan", "sim/figure", "sim/reference", "sim/retarget"];
 /// Parts whose types are held to [`FIELDS`], besides those of locomotion.
-const HOUSE: &[&str] = &["sim/figure", "sim/retarget"];
+const HOUSE: &[&str] = &[
+    "sim/figure",
+    "sim/stepper",
+    "sim/paper/params",
+    "sim/reference",
+];
 
 /// A function or type of the source.
 #[derive(Clone, Debug)]
@@ -74,6 +93,8 @@ pub struct Source {
     pub types: Vec<Item>,
     /// Functions.
     pub functions: Vec<Item>,
+    /// Functions with a tuple among their parameters.
+    pub tuples: Vec<Item>,
 }
 
 impl Source {
@@ -84,17 +105,22 @@ impl Source {
         })
     }
 
-    /// True if it plans or follows motions.
+    /// Whether it plans or follows motions.
     pub fn is_locomotion(&self) -> bool {
         self.is_in(LOCOMOTION) && !self.is_in(READING) && self.module != "sim/motion"
     }
 
-    /// True if its types are held to [`FIELDS`].
+    /// Whether its types are held to [`FIELDS`].
     pub fn is_of_the_house(&self) -> bool {
         self.is_locomotion() || self.is_in(HOUSE)
     }
 
-    /// True if it declares tunable numbers with unit, range and source.
+    /// Whether its functions should take no tuples.
+    pub fn is_without_tuples(&self) -> bool {
+        self.is_in(WITHOUT_TUPLES)
+    }
+
+    /// Whether it declares tunable numbers with unit, range and source.
     pub fn has_params(&self) -> bool {
         self.module.ends_with("/params")
     }
@@ -156,6 +182,22 @@ fn parameters(signature: &syn::Signature) -> usize {
     typed.sum()
 }
 
+/// Parameters of a function that are tuples, or are taken apart as such.
+fn tuples(signature: &syn::Signature) -> usize {
+    fn is_tuple(kind: &syn::Type) -> bool {
+        match kind {
+            syn::Type::Tuple(t) => t.elems.len() > 1,
+            syn::Type::Reference(t) => is_tuple(&t.elem),
+            _ => false,
+        }
+    }
+    let tuple = |i: &&syn::FnArg| match i {
+        syn::FnArg::Typed(t) => is_tuple(&t.ty) || matches!(*t.pat, syn::Pat::Tuple(_)),
+        syn::FnArg::Receiver(_) => false,
+    };
+    signature.inputs.iter().filter(tuple).count()
+}
+
 impl Reader {
     fn item(&self, name: &syn::Ident, count: usize) -> Item {
         Item {
@@ -168,6 +210,11 @@ impl Reader {
     fn function(&mut self, signature: &syn::Signature) {
         let item = self.item(&signature.ident, parameters(signature));
         self.out.functions.push(item);
+        let tuples = tuples(signature);
+        if tuples > 0 {
+            let item = self.item(&signature.ident, tuples);
+            self.out.tuples.push(item);
+        }
     }
 
     fn skip(&mut self, item: &impl Spanned) {
@@ -322,6 +369,46 @@ pub fn sources(root: &Path) -> Vec<Source> {
         .collect()
 }
 
+/// Names of types that are defined more than once, with how often, the most frequent first. Types of a trait and types
+/// within functions do not count.
+pub fn reused_names(root: &Path) -> Vec<(String, usize)> {
+    let mut count: BTreeMap<String, usize> = BTreeMap::new();
+    for file in files(&root.join("src"), ".rs") {
+        let text = fs::read_to_string(file).expect("the file was listed");
+        for line in text.lines() {
+            // Only at the beginning of a line: not within a trait or a function.
+            let line = match line.strip_prefix("pub") {
+                Some(rest) if rest.starts_with('(') => rest.split_once(") ").map_or("", |(_, r)| r),
+                Some(rest) => rest.strip_prefix(' ').unwrap_or_default(),
+                None => line,
+            };
+            let mut words = line.split(' ');
+            if let Some("struct" | "enum" | "trait" | "type") = words.next()
+                && let Some(name) = words.next()
+            {
+                let end = name.find(|c: char| !c.is_alphanumeric() && c != '_');
+                *count
+                    .entry(name[..end.unwrap_or(name.len())].to_owned())
+                    .or_default() += 1;
+            }
+        }
+    }
+    let mut out: Vec<(String, usize)> = count.into_iter().filter(|(_, n)| *n > 1).collect();
+    out.sort_by_key(|(_, n)| std::cmp::Reverse(*n));
+    out
+}
+
+/// Modules directly below the one of a figure, without its tests.
+pub fn submodules_of_figure(root: &Path) -> Vec<String> {
+    let text = fs::read_to_string(root.join("src/sim/figure/mod.rs")).unwrap_or_default();
+    let tokens = tokens::without_tests(&tokens::tokens(&text));
+    let modules = (0..tokens.len()).filter(|i| {
+        tokens::word(tokens.get(*i)) == Some("mod") && tokens::sign(tokens.get(i + 2), ';')
+    });
+    let names = modules.filter_map(|i| tokens::word(tokens.get(i + 1)).map(str::to_owned));
+    names.collect()
+}
+
 /// Number of decision records; their index is none.
 pub fn decisions(root: &Path) -> usize {
     let records = files(&root.join("docs/adr"), ".md");
@@ -329,4 +416,54 @@ pub fn decisions(root: &Path) -> usize {
         .iter()
         .filter(|p| p.file_name().is_some_and(|n| n != "README.md"))
         .count()
+}
+
+/// Names and numbers of the measures that `tests/source/house.rs` holds to limits.
+pub fn measures(root: &Path) -> Vec<(&'static str, usize)> {
+    let all = sources(root);
+    let circles = imports::graph(root).circles();
+    let tuples = |of: &dyn Fn(&&Source) -> bool| -> usize {
+        all.iter().filter(of).map(|s| s.tuples.len()).sum()
+    };
+    let locomotion = || all.iter().filter(|s| s.is_locomotion());
+    let numbers = |s: &Source| -> usize { s.constants.iter().map(|c| c.count).sum() };
+    let [written, generated] = words::of_documents(root);
+    let mut out = vec![
+        ("links of cargo test", packages::links(root)),
+        (
+            "crates of the physics, by the lock file",
+            packages::closure(root, "src/sim").len(),
+        ),
+        ("circles of files", circles.len()),
+        (
+            "files in the largest circle",
+            circles.first().map_or(0, Vec::len),
+        ),
+        (
+            "modules directly below figure",
+            submodules_of_figure(root).len(),
+        ),
+        ("reused names of types", reused_names(root).len()),
+        (
+            "tuple parameters of plan, figure and reference",
+            tuples(&|s| s.is_without_tuples()),
+        ),
+        ("tuple parameters", tuples(&|_| true)),
+        (
+            "tunable numbers of locomotion",
+            locomotion().map(numbers).sum(),
+        ),
+        (
+            "numbers of locomotion outside a params module",
+            locomotion().filter(|s| !s.has_params()).map(numbers).sum(),
+        ),
+        ("words of documents written by hand", written),
+        ("words of documents written by commands", generated),
+    ];
+    out.extend(
+        words::PATTERNS
+            .into_iter()
+            .zip(words::patterns_of_all(root)),
+    );
+    out
 }

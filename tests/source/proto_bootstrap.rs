@@ -2,7 +2,7 @@
 //! checked in.
 //!
 //! Building needs no protobuf compiler because the generated files are part of the source. After a change of `proto/`:
-//! `SINEW_REWRITE=1 cargo test --no-default-features --test proto_bootstrap`.
+//! `SINEW_REWRITE=1 cargo test --test source proto_bootstrap`.
 
 use std::path::Path;
 
@@ -51,12 +51,12 @@ fn generated_code_matches_the_protos() {
         // Encoded once and shared by all viewers: wire::watched implements this message by hand.
         .extern_path(
             ".sinew.v1.WatchWorldResponse",
-            "crate::proto_bootstrap::wire::watched::WatchWorldResponse",
+            "crate::watched::WatchWorldResponse",
         )
         // Of googleapis only the errors of operations are used in code; annotations are read from descriptors.
         .extern_path(".google.rpc", "tonic_types::pb")
         // Requests are scanned before they are decoded, by the name of their type.
-        .codec_path("crate::proto_bootstrap::wire::codec::Codec")
+        .codec_path("crate::codec::Codec")
         .emit_rerun_if_changed(false)
         .compile_fds_with_config(with_comments, with_names)
         .expect("code is generated");
@@ -78,7 +78,7 @@ fn generated_code_matches_the_protos() {
         let checked_in = std::fs::read(dir.join(name)).unwrap_or_default();
         assert!(
             checked_in == *bytes,
-            "src/wire/gen/{name} is out of date: run `SINEW_REWRITE=1 cargo test --no-default-features --test \
+            "src/wire/gen/{name} is out of date: run `SINEW_REWRITE=1 cargo test --test source \
              proto_bootstrap`"
         );
     }

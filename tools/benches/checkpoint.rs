@@ -7,7 +7,9 @@ use sinew_physics::motion::builtin::builtin;
 use sinew_physics::plan::StreamPlan;
 use sinew_physics::plan::stream::RATE;
 use sinew_physics::world::checkpoint::{Checkpoint, Definitions};
-use sinew_physics::world::{ClipPlayback, Drive, FigureSetup, LivePlayback, World, WorldParams};
+use sinew_physics::world::{
+    ClipPlayback, FigureSetup, LivePlayback, MotionSource, World, WorldParams,
+};
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
@@ -31,14 +33,14 @@ fn world(live: bool) -> World {
                 motion.push(&clip.sample(f64::from(k) / RATE).posture, None);
             }
             motion.advance(1.0 / RATE);
-            Drive::Live(Box::new(LivePlayback {
+            MotionSource::Live(Box::new(LivePlayback {
                 motion,
                 offset: 0.0,
             }))
         } else {
             let mut play = ClipPlayback::new(Arc::clone(&clip), 0.0);
             play.origin.y = 3.0 * i as f64;
-            Drive::Clip(play)
+            MotionSource::Clip(play)
         };
         world.figure_mut(key).expect("just added").set_drive(drive);
     }

@@ -2,12 +2,13 @@
 //! without stepping. `paper` does the work of the assembled Pinocchio + Eigen tick; `decide` is the controller alone.
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use benches::{DT, Decision};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use sinew_physics::body::Body;
-use sinew_physics::control::{Modern, Paper};
+use sinew_physics::control::Modern;
 use sinew_physics::motion::TargetPair;
 use sinew_physics::motion::builtin::builtin;
+use sinew_physics::paper::Paper;
 use std::hint::black_box;
 
 /// In the middle of a squat.

@@ -4,16 +4,17 @@ use sinew_physics::body::angles::anatomical_angles;
 use sinew_physics::body::topology::DOF_COUNT;
 use sinew_physics::body::{Body, Links, Posture, State};
 use sinew_physics::control::{
-    CentroidalTarget, ContactPhase, ContactTargets, ControlInput, Controller,
+    CentroidalTarget, ContactTargets, ControlInput, Controller, StancePhase,
 };
 use sinew_physics::dynamics::Terms;
 use sinew_physics::figure::ControlParams;
-use sinew_physics::figure::tasks::TaskWorkspace;
+use sinew_physics::figure::motion::tasks::TaskWorkspace;
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::{Target, TargetPair};
 use sinew_physics::strength::{MuscleScale, Strength};
 use sinew_physics::support::Support;
 
+/// Duration of a tick, s.
 pub const DT: f64 = 1.0 / 60.0;
 const GRAVITY: f64 = 9.81;
 
@@ -94,7 +95,7 @@ impl Decision {
             },
             contacts: ContactTargets {
                 feet: &tasks.feet,
-                phase: ContactPhase::Stance,
+                phase: StancePhase::Stance,
                 places_known: false,
                 floor: None,
             },

@@ -3,7 +3,7 @@
 #![allow(missing_docs)] // criterion's macro writes undocumented functions
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use sinew_physics::collide::island::{Articulated, ContactLaw, Island, Parts};
+use sinew_physics::collide::island::{Articulated, ArticulatedParts, ContactLaw, Island};
 use sinew_physics::collide::narrow::Near;
 use sinew_physics::math::Vec3;
 
@@ -11,7 +11,7 @@ use sinew_physics::math::Vec3;
 enum Nobody {}
 
 impl Articulated for Nobody {
-    fn parts(&mut self) -> Parts<'_> {
+    fn parts(&mut self) -> ArticulatedParts<'_> {
         match *self {}
     }
 }

@@ -34,7 +34,7 @@ fi
 
 cd "$root"
 target=${CARGO_TARGET_DIR:-$root/target}
-cargo bench -p tools --bench dynamics --bench control --bench world_step --no-run
+cargo bench -p benches --bench dynamics --bench control --bench world_step --no-run
 run_ours() {
     taskset -c "$core" cargo bench --quiet -p tools --bench "$1" -- \
         --noplot --warm-up-time 0.5 --measurement-time 2 "$2"

@@ -11,7 +11,7 @@ use sinew_physics::control::Modern;
 use sinew_physics::figure::{ControllerKind, Perturbation};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::builtin::builtin;
-use sinew_physics::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
+use sinew_physics::world::{ClipPlayback, FigureSetup, MotionSource, World, WorldParams};
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
@@ -37,7 +37,7 @@ fn run(scene: &Scene) -> [Vec<f64>; 2] {
     let setup = FigureSetup::new(Arc::clone(&body), ControllerKind::Modern, state);
     let key = world.add_figure(setup).expect("a valid figure");
     let figure = world.figure_mut(key).expect("just added");
-    figure.set_drive(Drive::Clip(ClipPlayback {
+    figure.set_drive(MotionSource::Clip(ClipPlayback {
         looped: true,
         ..ClipPlayback::new(Arc::clone(&clip), 0.0)
     }));

@@ -6,7 +6,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use sinew_physics::body::Body;
 use sinew_physics::figure::ControllerKind;
 use sinew_physics::motion::builtin::builtin;
-use sinew_physics::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
+use sinew_physics::world::{ClipPlayback, FigureSetup, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
 /// A world of `count` endlessly squatting men, each at another phase of the motion.
@@ -24,7 +24,7 @@ fn world(controller: ControllerKind, count: usize) -> World {
             })
             .expect("a valid figure");
         let figure = world.figure_mut(key).expect("just added");
-        figure.set_drive(Drive::Clip(ClipPlayback {
+        figure.set_drive(MotionSource::Clip(ClipPlayback {
             looped: true,
             ..ClipPlayback::new(Arc::clone(&clip), -lead)
         }));

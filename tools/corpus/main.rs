@@ -1,7 +1,7 @@
 //! Writes the corpus of synthesised motion capture recordings with their truth: see tests/corpus/README.md.
 //!
 //! ```sh
-//! cargo run --example corpus -- tests/corpus
+//! cargo run -p tools --bin corpus -- tests/corpus
 //! ```
 //! With `--check` it writes nothing and prints, per motion, the length that legs lack to reach their feet, and the
 //! depth of feet in the floor: both are 0 unless a motion is authored wrongly.

@@ -1,5 +1,5 @@
-//! A small client: a man lifts 6 kg, and we see what that asks of his shoulder. `cargo run --example client [ADDRESS]`,
-//! with a server running.
+//! A small client: a man lifts 6 kg, and we see what that asks of his shoulder. `cargo run -p sinew-client --example
+//! client [ADDRESS]`, with a server running.
 use sinew_client::{Client, Simulation, values};
 
 #[tokio::main]

@@ -308,7 +308,7 @@ test("two futures of one moment side by side", async ({ page, server }) => {
 });
 
 for (const scheme of ["light", "dark"] as const)
-  test(`time line and futures on large and small screens (${scheme})`, async ({ page, server }) => {
+  test(`time line and futures on large and small screens (${scheme}) @nightly`, async ({ page, server }) => {
     await server.start("--no-demo");
     const api = await stepped(server, "looks", "crate", 8 * RATE, 20);
     await page.emulateMedia({ colorScheme: scheme, reducedMotion: "reduce" });

@@ -266,7 +266,7 @@ for (const scheme of ["light", "dark"] as const)
     await shot(page, `phone-${scheme}`);
   });
 
-test("twenty figures", async ({ page, server }) => {
+test("twenty figures @nightly", async ({ page, server }) => {
   await server.start("--no-demo");
   const api = new Sinew(`http://${server.address}`);
   await api.worlds.createWorld({ worldId: "crowd" });

@@ -1,6 +1,6 @@
 //! Which body the figure has.
 
-use crate::exit::{Usage, usage};
+use crate::exit::{UsageError, usage};
 use crate::number::kilograms;
 use anyhow::Result;
 use clap::builder::{PossibleValue, TypedValueParser};
@@ -29,7 +29,7 @@ pub struct BodyArgs {
 }
 
 impl BodyArgs {
-    /// True if none of the options is given.
+    /// Whether none of the options is given.
     pub fn is_default(&self) -> bool {
         self.body.is_none() && !self.changes_profile()
     }
@@ -55,7 +55,7 @@ impl BodyArgs {
                 "--body {} gives age, height and mass already: leave out --age, --height and --mass",
                 base.name()
             );
-            return Err(Usage(text).into());
+            return Err(UsageError(text).into());
         }
         let average = Profile::ordinary(base.sex, self.age.unwrap_or(base.age));
         Ok(Profile {
@@ -105,7 +105,7 @@ impl BodyArgs {
         };
         let text =
             format!("{flag} {value}: outside {lower}…{upper}, what the body tables cover{of_age}");
-        Usage(text).into()
+        UsageError(text).into()
     }
 }
 
@@ -178,7 +178,7 @@ mod tests {
     fn the_option_that_is_to_be_changed_is_named() {
         let refused = |args: &BodyArgs| {
             let error = args.build().expect_err("outside the tables");
-            assert!(error.is::<Usage>());
+            assert!(error.is::<UsageError>());
             error.to_string()
         };
         let age = BodyArgs {

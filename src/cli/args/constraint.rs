@@ -1,9 +1,8 @@
 //! `--constrain`: target positions of segments and of the centre of mass.
 
 use super::spec::{SpecError, interval, number, segment};
-use sinew_physics::body::topology::{L_HAND, R_HAND};
 use sinew_physics::body::{Body, SegmentId};
-use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::motion::tasks::held_point;
 use sinew_physics::figure::{Constrained, Constraint};
 use sinew_physics::math::{Quat, Vec3};
 use std::str::FromStr;
@@ -30,19 +29,11 @@ impl ConstraintSpec {
 
     /// The constraint on a figure of this body.
     pub fn constraint(&self, body: &Body) -> Constraint {
-        let hand = |s: SegmentId| s == L_HAND || s == R_HAND;
-        let point = |s: SegmentId| {
-            if hand(s) {
-                grip(body, s)
-            } else {
-                body.segment(s).com
-            }
-        };
         let [x, y, z] = self.position.map(|x| x.unwrap_or(0.0));
         let any = self.position.iter().any(Option::is_some);
         Constraint {
             on: self.part.map_or(Constrained::CenterOfMass, |s| {
-                Constrained::Point(s, point(s))
+                Constrained::Point(s, held_point(body, s))
             }),
             position: any.then_some(Vec3 { x, y, z }),
             axes: self.position.map(|x| f64::from(u8::from(x.is_some()))),

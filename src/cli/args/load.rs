@@ -2,12 +2,12 @@
 
 use super::spec::{SpecError, interval, number, segment};
 use crate::exit::usage;
-use sinew_evaluate::follow::FollowError;
 use sinew_physics::body::palm::load_point;
 use sinew_physics::body::topology::{L_HAND, R_HAND};
 use sinew_physics::body::{Body, SegmentId};
 use sinew_physics::figure::{HeldLoad, Perturbation, SecondHand};
 use sinew_physics::math::Vec3;
+use sinew_physics::rehearsal::follow::FollowError;
 use std::fmt;
 use std::str::FromStr;
 
@@ -179,7 +179,7 @@ mod tests {
             ("3@r_hand@0..2", "taken up or let go"),
         ] {
             let error = check(text).expect_err(text);
-            assert!(error.is::<crate::exit::Usage>(), "{text}");
+            assert!(error.is::<crate::exit::UsageError>(), "{text}");
             let error = error.to_string();
             assert!(
                 error.starts_with(&format!("--load {text}: ")) && error.contains(says),

@@ -2,7 +2,7 @@
 
 use crate::exit::within;
 use clap::ValueEnum;
-use sinew_physics::retarget::{FileFacts, Preparation, RetargetOptions, TEMPI, UpAxis};
+use sinew_physics::reference::{FileFacts, Preparation, RetargetOptions, TEMPI, UpAxis};
 
 /// Which axis of the file points up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,6 @@
 //! Strength files: `sinew.v1.StrengthScale` as JSON, so that a request takes the same text.
 
-use crate::exit::Usage;
+use crate::exit::UsageError;
 use anyhow::{Context, Result};
 use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES};
 use sinew_physics::figure::StrengthScale;
@@ -14,7 +14,7 @@ const LARGEST: u64 = 1 << 20;
 #[serde(deny_unknown_fields, default)]
 pub struct StrengthFile {
     all: f64,
-    dofs: Vec<Factor>,
+    dofs: Vec<DofFactor>,
     percentile: f64,
     effort: f64,
 }
@@ -22,7 +22,7 @@ pub struct StrengthFile {
 /// The factor on one DOF.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Factor {
+struct DofFactor {
     dof: String,
     factor: f64,
 }
@@ -39,7 +39,7 @@ impl From<&StrengthScale> for StrengthFile {
         Self {
             all: scale.all,
             dofs: dofs
-                .map(|d| Factor {
+                .map(|d| DofFactor {
                     dof: DOF_NAMES[d].to_owned(),
                     factor: (scale.dof[d] * 1e4).ceil() / 1e4,
                 })
@@ -66,11 +66,13 @@ impl StrengthFile {
             .with_context(|| format!("cannot read {}", path.display()))?
             .len();
         if size > LARGEST {
-            return Err(Usage(format!("{}: more than {LARGEST} bytes", path.display())).into());
+            return Err(
+                UsageError(format!("{}: more than {LARGEST} bytes", path.display())).into(),
+            );
         }
         let text = std::fs::read_to_string(path)
             .with_context(|| format!("cannot read {}", path.display()))?;
-        Self::parse(&text).map_err(|e| Usage(format!("{}: {e:#}", path.display())).into())
+        Self::parse(&text).map_err(|e| UsageError(format!("{}: {e:#}", path.display())).into())
     }
 
     /// The strength that a text says.

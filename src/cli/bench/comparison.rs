@@ -1,35 +1,39 @@
 //! What it costs to store worlds: the same load on servers that store in different ways, as a table of ratios.
 
-use super::own::Storing;
-use super::report::{Delays, Report};
+use super::args::Storing;
+use super::report::{BenchReport, Delays};
 use serde::Serialize;
 use std::fmt::Write as _;
 
 /// The reports of several servers.
 #[derive(Debug, Serialize)]
-pub(super) struct Comparison {
-    rows: Vec<Row>,
+pub(super) struct BenchComparison {
+    rows: Vec<ComparisonRow>,
 }
 
 /// The reports of servers that store in one way, one of each round.
 #[derive(Debug, Serialize)]
-struct Row {
+struct ComparisonRow {
     durability: Storing,
-    reports: Vec<Report>,
+    reports: Vec<BenchReport>,
 }
 
 /// A column of the table.
-struct Column {
+struct ComparisonColumn {
     head: &'static str,
     digits: usize,
     /// What it shows of a report.
-    value: fn(&Report) -> Option<f64>,
+    value: fn(&BenchReport) -> Option<f64>,
     /// The ratio to the first row is shown beside.
     compared: bool,
 }
 
-const fn compared(head: &'static str, digits: usize, value: fn(&Report) -> Option<f64>) -> Column {
-    Column {
+const fn compared(
+    head: &'static str,
+    digits: usize,
+    value: fn(&BenchReport) -> Option<f64>,
+) -> ComparisonColumn {
+    ComparisonColumn {
         head,
         digits,
         value,
@@ -37,8 +41,12 @@ const fn compared(head: &'static str, digits: usize, value: fn(&Report) -> Optio
     }
 }
 
-const fn plain(head: &'static str, digits: usize, value: fn(&Report) -> Option<f64>) -> Column {
-    Column {
+const fn plain(
+    head: &'static str,
+    digits: usize,
+    value: fn(&BenchReport) -> Option<f64>,
+) -> ComparisonColumn {
+    ComparisonColumn {
         compared: false,
         ..compared(head, digits, value)
     }
@@ -52,7 +60,7 @@ fn p99(delays: &Option<Delays>) -> Option<f64> {
     delays.as_ref().map(|d| d.p99_ms)
 }
 
-const COLUMNS: [Column; 11] = [
+const COLUMNS: [ComparisonColumn; 11] = [
     compared("ticks", 0, |r| Some(r.server.ticks)),
     plain("left out", 0, |r| Some(r.server.ticks_skipped)),
     compared("processors", 2, |r| Some(r.server.processors)),
@@ -79,19 +87,19 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
     Some(0.5 * (lower + upper))
 }
 
-impl Row {
-    fn value(&self, column: &Column) -> Option<f64> {
+impl ComparisonRow {
+    fn value(&self, column: &ComparisonColumn) -> Option<f64> {
         median(self.reports.iter().filter_map(column.value).collect())
     }
 }
 
-impl Comparison {
+impl BenchComparison {
     /// Rows in this order, without reports. A way that is named twice has one row.
     pub(super) fn new(ways: &[Storing]) -> Self {
-        let mut rows: Vec<Row> = Vec::new();
+        let mut rows: Vec<ComparisonRow> = Vec::new();
         for way in ways {
             if !rows.iter().any(|r| r.durability == *way) {
-                rows.push(Row {
+                rows.push(ComparisonRow {
                     durability: *way,
                     reports: Vec::new(),
                 });
@@ -101,7 +109,7 @@ impl Comparison {
     }
 
     /// Adds the report of one round.
-    pub(super) fn add(&mut self, way: Storing, report: Report) {
+    pub(super) fn add(&mut self, way: Storing, report: BenchReport) {
         if let Some(row) = self.rows.iter_mut().find(|r| r.durability == way) {
             row.reports.push(report);
         }
@@ -147,7 +155,7 @@ mod tests {
     #[test]
     fn each_way_has_one_row() {
         let ways = [Storing::Group, Storing::Off, Storing::Group];
-        let text = Comparison::new(&ways).text();
+        let text = BenchComparison::new(&ways).text();
         assert_eq!(text.matches("`group`").count(), 1, "{text}");
         let widths: Vec<usize> = text.lines().map(|l| l.matches('|').count()).collect();
         assert_eq!(widths, [13; 4], "{text}");

@@ -1,7 +1,7 @@
 //! The load: drivers that send by a schedule, viewers that notice what they are shown, and calls.
 
-use super::{Args, TAIL};
-use crate::explain;
+use super::args::{BenchArgs, TAIL};
+use crate::remote::explain;
 use hdrhistogram::Histogram;
 use sinew_client::Client;
 use sinew_physics::body::topology::DOF_COUNT;
@@ -53,7 +53,7 @@ fn due(begun: Instant, (rate, phase): (f64, f64), i: u64) -> Instant {
 
 /// What was measured on this side.
 #[derive(Debug)]
-pub(super) struct Measured {
+pub(super) struct LoadMeasures {
     /// From when a frame of motion was due to be sent to when a viewer had the frame that shows it, µs.
     pub shown: Histogram<u64>,
     /// From when a frame of motion was due to be sent to when it was, µs: what of that is this side's fault.
@@ -72,7 +72,7 @@ pub(super) struct Load {
     /// When the schedule began; nothing until all streams are open.
     begun: OnceLock<Instant>,
     stopped: AtomicBool,
-    measured: Mutex<Measured>,
+    measured: Mutex<LoadMeasures>,
     /// Frames of motion that were due while it was measured.
     pub due: AtomicU64,
     /// Frames that viewers received meanwhile.
@@ -89,7 +89,7 @@ impl Load {
             schedule,
             begun: OnceLock::new(),
             stopped: AtomicBool::new(false),
-            measured: Mutex::new(Measured {
+            measured: Mutex::new(LoadMeasures {
                 shown: histogram()?,
                 sent: histogram()?,
                 calls: histogram()?,
@@ -117,7 +117,7 @@ impl Load {
         self.stopped.load(Ordering::Relaxed)
     }
 
-    pub(super) fn measured(&self) -> MutexGuard<'_, Measured> {
+    pub(super) fn measured(&self) -> MutexGuard<'_, LoadMeasures> {
         // Entries are whole.
         self.measured.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -136,12 +136,12 @@ fn micros(since: Instant) -> u64 {
 }
 
 /// Something that is due again and again: its number, and when that was due.
-type Due = (u64, Instant);
+type DueCall = (u64, Instant);
 
 /// Opens all streams, and begins.
 pub(super) async fn start(
     load: &Arc<Load>,
-    args: &Args,
+    args: &BenchArgs,
     clients: &[Client],
     names: &[String],
 ) -> anyhow::Result<Vec<JoinHandle<()>>> {
@@ -165,7 +165,10 @@ pub(super) async fn start(
     } else {
         0.0
     };
-    for (kind, rate) in [(Call::Read, args.traffic.calls), (Call::Change, changes)] {
+    for (kind, rate) in [
+        (WorldCall::Read, args.traffic.calls),
+        (WorldCall::Change, changes),
+    ] {
         if rate > 0.0 {
             let (queue, task) = calls(load, clients, names, kind);
             paced.push(((rate, 0.0), queue));
@@ -186,7 +189,7 @@ pub(super) async fn start(
     clippy::disallowed_methods,
     reason = "the schedule is one of absolute times"
 )]
-fn pace(load: &Load, paced: &[((f64, f64), mpsc::Sender<Due>)]) {
+fn pace(load: &Load, paced: &[((f64, f64), mpsc::Sender<DueCall>)]) {
     let window = load.window();
     let (begun, end) = (window.start - load.schedule.warm_up, window.end);
     let mut waiting: BinaryHeap<Reverse<(Instant, usize, u64)>> = paced
@@ -233,8 +236,8 @@ async fn driver(
     load: &Arc<Load>,
     client: &Client,
     world: &str,
-    args: &Args,
-) -> anyhow::Result<(mpsc::Sender<Due>, JoinHandle<()>)> {
+    args: &BenchArgs,
+) -> anyhow::Result<(mpsc::Sender<DueCall>, JoinHandle<()>)> {
     let header = pb::DriveHeader {
         world: format!("worlds/{world}"),
         figure_ids: (0..args.figures).map(figure).collect(),
@@ -244,7 +247,7 @@ async fn driver(
         ..Default::default()
     };
     let mut driver = client.drive(header).await.map_err(|e| explain(&e))?;
-    let (queue, mut waiting) = mpsc::channel::<Due>(QUEUE);
+    let (queue, mut waiting) = mpsc::channel::<DueCall>(QUEUE);
     let (load, rate, figures) = (load.clone(), args.traffic.rate, args.figures);
     let task = tokio::spawn(async move {
         let ended = loop {
@@ -293,7 +296,7 @@ async fn viewer(
     let mut frames = watched.map_err(|e| explain(&e))?;
     let load = load.clone();
     Ok(tokio::spawn(async move {
-        let mut seen = Seen::default();
+        let mut seen = ViewerLog::default();
         while !load.is_stopped() {
             match frames.message().await {
                 Ok(Some(WatchWorldResponse::Frame(frame))) => seen.frame(&load, pace, &frame),
@@ -310,13 +313,13 @@ async fn viewer(
 
 /// What a viewer has seen.
 #[derive(Default)]
-struct Seen {
+struct ViewerLog {
     tick: Option<i64>,
     /// Newest sequence by figure.
     newest: BTreeMap<i32, i64>,
 }
 
-impl Seen {
+impl ViewerLog {
     fn frame(&mut self, load: &Load, pace: (f64, f64), frame: &pb::WorldFrame) {
         if load.begun.get().is_none() {
             return;
@@ -352,14 +355,14 @@ impl Seen {
 
 /// What is called of one world after the other.
 #[derive(Clone, Copy, Debug)]
-enum Call {
+enum WorldCall {
     /// Its latest frame.
     Read,
     /// That nothing pushes its first figure: it is carried out by the next tick, and written down like any change.
     Change,
 }
 
-impl Call {
+impl WorldCall {
     async fn carry_out(self, client: &Client, world: String) -> Result<(), Status> {
         match self {
             Self::Read => {
@@ -386,9 +389,9 @@ fn calls(
     load: &Arc<Load>,
     clients: &[Client],
     names: &[String],
-    kind: Call,
-) -> (mpsc::Sender<Due>, JoinHandle<()>) {
-    let (queue, mut waiting) = mpsc::channel::<Due>(QUEUE);
+    kind: WorldCall,
+) -> (mpsc::Sender<DueCall>, JoinHandle<()>) {
+    let (queue, mut waiting) = mpsc::channel::<DueCall>(QUEUE);
     let (load, clients, names) = (load.clone(), clients.to_vec(), names.to_vec());
     let places = Arc::new(Semaphore::new(CALLS));
     let task = tokio::spawn(async move {
@@ -408,8 +411,8 @@ fn calls(
                     Ok(()) if load.window().contains(&at) => {
                         let mut measured = load.measured();
                         let delays = match kind {
-                            Call::Read => &mut measured.calls,
-                            Call::Change => &mut measured.changes,
+                            WorldCall::Read => &mut measured.calls,
+                            WorldCall::Change => &mut measured.changes,
                         };
                         delays.saturating_record(micros(at));
                     }

@@ -4,24 +4,28 @@
 //! not the server kept up. A server that stalls for a second is charged with that second by everything that was due in
 //! it (no coordinated omission).
 
+mod args;
 mod comparison;
 mod load;
 mod own;
 mod page;
 mod report;
 
-use super::args::CredentialArgs;
+pub use args::BenchArgs;
+
 use super::interrupt::interrupted;
+use super::page::progress;
+use super::remote::explain;
 use super::terminal::{note, print_line};
-use super::{explain, page::progress};
 use anyhow::Context as _;
-use comparison::Comparison;
+use args::{Storing, TAIL};
+use comparison::BenchComparison;
 use futures_util::FutureExt as _;
 use futures_util::future::BoxFuture;
 use load::{Load, Schedule};
-use own::{OwnArgs, OwnServer, Storing};
-use page::Page;
-use report::Report;
+use own::OwnServer;
+use page::MetricsPage;
+use report::BenchReport;
 use sinew_client::Client;
 use sinew_wire::pb;
 use std::sync::Arc;
@@ -31,69 +35,8 @@ use std::time::{Duration, Instant};
 const STREAMS_PER_CONNECTION: usize = 64;
 /// Worlds that are created at a time.
 const AT_A_TIME: usize = 8;
-/// Time in which what was sent last can still be shown, s.
-const TAIL: Duration = Duration::from_secs(1);
 /// Time in which the server counts what it has measured.
 const COUNTING: Duration = Duration::from_millis(500);
-
-/// Arguments of `sinew bench`.
-#[derive(Clone, Debug, clap::Args)]
-pub struct Args {
-    /// Server, host:port [default: one that is started for this, in a process of its own]
-    address: Option<String>,
-    /// Worlds
-    #[arg(long, default_value_t = 120, value_parser = clap::value_parser!(u32).range(1..=100_000), value_name = "N")]
-    worlds: u32,
-    /// Figures in each, driven live; 0: empty worlds
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=1000), value_name = "M")]
-    figures: u32,
-    /// Viewers of each
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(0..=1000), value_name = "V")]
-    viewers: u32,
-    #[command(flatten)]
-    traffic: Traffic,
-    /// Time that is measured, s
-    #[arg(long, default_value_t = 30.0, value_parser = between(1.0, 86_400.0), value_name = "S")]
-    seconds: f64,
-    /// Time before that, s
-    #[arg(long, default_value_t = 5.0, value_parser = between(0.0, 3600.0), value_name = "S")]
-    warm_up: f64,
-    /// Print JSON
-    #[arg(long)]
-    json: bool,
-    #[command(flatten)]
-    own: OwnArgs,
-    #[command(flatten)]
-    credentials: CredentialArgs,
-}
-
-/// What is sent to each server.
-#[derive(Clone, Debug, clap::Args)]
-struct Traffic {
-    /// Frames of desired motion per second and driver
-    #[arg(long, default_value_t = 60.0, value_parser = between(1.0, 1000.0), value_name = "HZ")]
-    rate: f64,
-    /// Playout delay of the drivers, ms: it is part of what is measured
-    #[arg(long, default_value_t = 0.0, value_parser = between(0.0, 2000.0), value_name = "MS")]
-    playout: f64,
-    /// Reads of the latest frame per second, of all worlds in turn; 0: none
-    #[arg(long, default_value_t = 50.0, value_parser = between(0.0, 100_000.0), value_name = "N")]
-    calls: f64,
-    /// Calls per second that change a figure (ClearPerturbations), of all worlds in turn; 0: none
-    #[arg(long, default_value_t = 0.0, value_parser = between(0.0, 100_000.0), value_name = "N")]
-    changes: f64,
-}
-
-/// Parses a number within limits.
-fn between(least: f64, most: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
-    move |text| {
-        let value = text
-            .parse::<f64>()
-            .ok()
-            .filter(|v| (least..=most).contains(v));
-        value.ok_or_else(|| format!("expected a number in {least}…{most}"))
-    }
-}
 
 /// Ready once the bench is to end before its time.
 type Interrupt = BoxFuture<'static, ()>;
@@ -102,7 +45,7 @@ type Interrupt = BoxFuture<'static, ()>;
 ///
 /// # Errors
 /// No server, a world that cannot be created, nothing that was measured, or an interruption.
-pub fn run(args: &Args) -> anyhow::Result<()> {
+pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()?;
@@ -134,8 +77,8 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
 
 /// The same load on one server after the other, each of which stores in another way. Rounds are interleaved, so that
 /// what the machine does beside it meets all of them.
-async fn compare(args: &Args, interrupt: &mut Interrupt) -> anyhow::Result<Comparison> {
-    let mut comparison = Comparison::new(&args.own.durability);
+async fn compare(args: &BenchArgs, interrupt: &mut Interrupt) -> anyhow::Result<BenchComparison> {
+    let mut comparison = BenchComparison::new(&args.own.durability);
     for round in 1..=args.own.rounds {
         for storing in &args.own.durability {
             note(&format!("round {round}: {}", storing.name()));
@@ -148,20 +91,20 @@ async fn compare(args: &Args, interrupt: &mut Interrupt) -> anyhow::Result<Compa
 
 /// Loads a server of its own, which ends with it.
 async fn bench_own(
-    args: &Args,
+    args: &BenchArgs,
     storing: Option<Storing>,
     interrupt: &mut Interrupt,
-) -> anyhow::Result<Report> {
+) -> anyhow::Result<BenchReport> {
     let own = OwnServer::start(args, storing)?;
     bench(args, own.address(), Some(&own), interrupt).await
 }
 
 async fn bench(
-    args: &Args,
+    args: &BenchArgs,
     address: &str,
     own: Option<&OwnServer>,
     interrupt: &mut Interrupt,
-) -> anyhow::Result<Report> {
+) -> anyhow::Result<BenchReport> {
     let streams = args.worlds as usize * (args.viewers as usize + usize::from(args.figures > 0));
     let names: Vec<String> = (0..args.worlds)
         .map(|i| format!("bench-{}-{i}", std::process::id()))
@@ -189,7 +132,7 @@ async fn bench(
 }
 
 /// Makes worlds and figures.
-async fn create(args: &Args, client: &Client, names: &[String]) -> anyhow::Result<()> {
+async fn create(args: &BenchArgs, client: &Client, names: &[String]) -> anyhow::Result<()> {
     let bar = progress("worlds", names.len() as u64);
     for some in names.chunks(AT_A_TIME) {
         let bar = &bar;
@@ -238,16 +181,16 @@ async fn delete(client: &Client, names: &[String]) {
 }
 
 async fn measure(
-    args: &Args,
+    args: &BenchArgs,
     clients: &[Client],
     names: &[String],
     own: Option<&OwnServer>,
-) -> anyhow::Result<Report> {
+) -> anyhow::Result<BenchReport> {
     let load = Arc::new(Load::new(Schedule {
         warm_up: Duration::from_secs_f64(args.warm_up),
         length: Duration::from_secs_f64(args.seconds),
     })?);
-    let page = async || Page::read(&clients[0]).await;
+    let page = async || MetricsPage::read(&clients[0]).await;
     let disk = || own.and_then(OwnServer::disk_bytes);
     page().await?; // a server without metrics is told at once
     let work = load::start(&load, args, clients, names).await?;
@@ -273,5 +216,5 @@ async fn measure(
         }
     }
     let disk = disk_before.zip(disk_after).map(|(a, b)| b - a);
-    Report::new(args, &load, [&before, &after], disk)
+    BenchReport::new(args, &load, [&before, &after], disk)
 }

@@ -1,64 +1,10 @@
 //! A server of its own for a bench: another process, so that both do not share threads.
 
-use super::Args;
+use super::args::{BenchArgs, Storing};
 use anyhow::Context as _;
-use clap::ValueEnum as _;
-use serde::Serialize;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-
-/// Arguments of a server that is started for the bench.
-#[derive(Clone, Debug, clap::Args)]
-pub(super) struct OwnArgs {
-    /// A setting of the server that is started (repeatable)
-    #[arg(long = "set", value_name = "NAME=VALUE", conflicts_with = "address")]
-    set: Vec<String>,
-    /// Bench servers that store in these ways, one after the other, and print what each costs
-    #[arg(
-        long,
-        value_enum,
-        value_delimiter = ',',
-        value_name = "HOW,…",
-        conflicts_with = "address"
-    )]
-    pub durability: Vec<Storing>,
-    /// Times that each of them is benched; medians are printed
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100), requires = "durability")]
-    pub rounds: u32,
-    /// Where their data directories are made; they are removed again [default: for temporary files]
-    #[arg(long, value_name = "DIR", requires = "durability")]
-    data_dir: Option<PathBuf>,
-}
-
-impl OwnArgs {
-    /// True if several servers are compared.
-    pub(super) fn compares(&self) -> bool {
-        !self.durability.is_empty()
-    }
-}
-
-/// How a server stores its worlds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, clap::ValueEnum)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Storing {
-    /// It has no data directory
-    Off,
-    /// States at orderly ends
-    None,
-    /// What comes within 10 ms together
-    Group,
-    /// Each input at once
-    Each,
-}
-
-impl Storing {
-    /// As the arguments and the settings have it.
-    pub(super) fn name(self) -> String {
-        let value = self.to_possible_value().expect("no value is hidden");
-        value.get_name().to_owned()
-    }
-}
 
 /// A directory that goes with this.
 struct DataDir(PathBuf);
@@ -89,7 +35,7 @@ pub(super) struct OwnServer {
 
 impl OwnServer {
     /// Starts this binary as a server with room for the load, which stores as its settings say or in a given way.
-    pub(super) fn start(args: &Args, storing: Option<Storing>) -> anyhow::Result<Self> {
+    pub(super) fn start(args: &BenchArgs, storing: Option<Storing>) -> anyhow::Result<Self> {
         let worlds = u64::from(args.worlds);
         let viewers = worlds * u64::from(args.viewers);
         let room = [

@@ -1,14 +1,14 @@
 //! What a server says of itself: its page of metrics.
 
-use crate::explain;
+use crate::remote::explain;
 use anyhow::Context as _;
 use sinew_client::Client;
 use std::collections::BTreeMap;
 
 /// A page of metrics at one instant.
-pub(super) struct Page(BTreeMap<String, f64>);
+pub(super) struct MetricsPage(BTreeMap<String, f64>);
 
-impl Page {
+impl MetricsPage {
     /// The page of a server.
     pub(super) async fn read(client: &Client) -> anyhow::Result<Self> {
         let text = client.page("/metrics").await.map_err(|e| explain(&e))?;
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn quantiles_of_what_was_counted_between_two_pages() {
         let page = |a: u32, b: u32, c: u32| {
-            Page::parse(&format!(
+            MetricsPage::parse(&format!(
                 "# TYPE t histogram\nt_bucket{{le=\"0.001\"}} {a}\nt_bucket{{le=\"0.01\"}} {b}\n\
                  t_bucket{{le=\"+Inf\"}} {c}\nt_sum 3\nt_count {c}\n"
             ))

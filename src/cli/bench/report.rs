@@ -1,8 +1,8 @@
 //! What was measured, as text and as JSON.
 
-use super::Args;
+use super::args::BenchArgs;
 use super::load::Load;
-use super::page::{Page, quantile};
+use super::page::{MetricsPage, quantile};
 use crate::number;
 use hdrhistogram::Histogram;
 use serde::Serialize;
@@ -57,7 +57,7 @@ pub(super) struct Server {
 
 /// What a server with a data directory wrote meanwhile.
 #[derive(Debug, Serialize)]
-pub(super) struct Disk {
+pub(super) struct DiskWrites {
     /// Of worlds: states, inputs and hashes.
     pub bytes_per_s: f64,
     /// With all that the log and the file system add, in whole pages; of a server of its own, on Linux.
@@ -91,11 +91,11 @@ pub(super) struct Clients {
 
 /// The report of a bench.
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
+pub(super) struct BenchReport {
     setup: Setup,
     pub server: Server,
     pub clients: Clients,
-    pub disk: Disk,
+    pub disk: DiskWrites,
 }
 
 fn delays(h: &Histogram<u64>) -> Option<Delays> {
@@ -109,7 +109,7 @@ fn delays(h: &Histogram<u64>) -> Option<Delays> {
     })
 }
 
-fn counted(before: &Page, after: &Page, name: &str) -> Option<Delays> {
+fn counted(before: &MetricsPage, after: &MetricsPage, name: &str) -> Option<Delays> {
     let buckets = after.buckets(before, name);
     let at = |q| quantile(&buckets, q).map(|s| s * 1e3);
     Some(Delays {
@@ -121,15 +121,15 @@ fn counted(before: &Page, after: &Page, name: &str) -> Option<Delays> {
     })
 }
 
-impl Report {
+impl BenchReport {
     /// Of what lies between two pages of the server, and the bytes that it brought to disk meanwhile.
     ///
     /// # Errors
     /// No tick was computed meanwhile.
     pub(super) fn new(
-        args: &Args,
+        args: &BenchArgs,
         load: &Load,
-        [before, after]: [&Page; 2],
+        [before, after]: [&MetricsPage; 2],
         disk_bytes: Option<f64>,
     ) -> anyhow::Result<Self> {
         let grown = |name: &str| after.growth(before, name);
@@ -173,7 +173,7 @@ impl Report {
                 ticks_missed: load.missed.load(Ordering::Relaxed),
                 errors: measured.errors.clone(),
             },
-            disk: Disk {
+            disk: DiskWrites {
                 bytes_per_s: grown("sinew_store_written_bytes_total") / args.seconds,
                 disk_bytes_per_s: disk_bytes.map(|b| b / args.seconds),
                 commits_per_s: grown("sinew_store_commit_seconds_count") / args.seconds,

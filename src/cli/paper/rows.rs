@@ -2,20 +2,21 @@
 
 mod second_hand;
 
-use super::or_dash;
+use crate::number::or_dash;
 use crate::page::Page;
 use anyhow::Result;
-use sinew_evaluate::experiments::Pair;
+use sinew_evaluate::experiments::ControlPair;
 use sinew_evaluate::experiments::again::{Did, MARGIN, QUANTILE, again};
 use sinew_evaluate::experiments::person::{
-    BENDS, FOLDS, HELPS, LOADS, TRACKED, Trial, candidates, search, trial,
+    BENDS, FOLDS, HELPS, LOADS, LiftTrial, TRACKED, candidates, search, trial,
 };
-use sinew_evaluate::experiments::touching::{Against, Prop, hand_support, reach};
+use sinew_evaluate::experiments::touching::{Prop, ReachObstacle, hand_support, reach};
 use sinew_evaluate::strip::View;
 use sinew_physics::body::{Body, Profile, Sex};
-use sinew_physics::motion::Bvh;
 use sinew_physics::motion::builtin::builtin;
-use sinew_physics::retarget::{RetargetOptions, retarget};
+use sinew_physics::motion::read;
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::RetargetOptions;
 use sinew_physics::support::sharing::{ALONG_REST, LEAST_WEIGHT};
 use std::sync::Arc;
 
@@ -58,7 +59,11 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     ));
     let mut rows = Vec::new();
     let mut strips = Vec::new();
-    for pair in [Pair::paper_torque(), Pair::modern(), Pair::motors()] {
+    for pair in [
+        ControlPair::paper_torque(),
+        ControlPair::modern(),
+        ControlPair::motors(),
+    ] {
         for (prop, name) in [
             (Prop::None, "nothing"),
             (Prop::Table, "table"),
@@ -115,12 +120,15 @@ fn stages(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     let mut rows = Vec::new();
     let mut strips = Vec::new();
     for pair in [
-        Pair::paper_staged(),
-        Pair::paper_kinematic(),
-        Pair::paper_torque(),
-        Pair::modern(),
+        ControlPair::paper_staged(),
+        ControlPair::paper_kinematic(),
+        ControlPair::paper_torque(),
+        ControlPair::modern(),
     ] {
-        for (against, name) in [(Against::Wall, "wall"), (Against::Other, "figure")] {
+        for (against, name) in [
+            (ReachObstacle::Wall, "wall"),
+            (ReachObstacle::Other, "figure"),
+        ] {
             for arm in [1.0, 0.15] {
                 let r = reach(body, &pair, against, arm, PANELS);
                 rows.push(vec![
@@ -179,7 +187,7 @@ fn lifting(page: &mut Page) -> Result<()> {
          {FOLDS}°).",
         candidates().count()
     ));
-    let pair = Pair::paper_kinematic();
+    let pair = ControlPair::paper_kinematic();
     let found = search(&pair);
     let rows: Vec<Vec<String>> = found.iter().take(LISTED).map(listed).collect();
     page.say(&format!("{} were run; the best:", found.len()));
@@ -244,7 +252,7 @@ fn lifting(page: &mut Page) -> Result<()> {
     Ok(())
 }
 
-fn listed(t: &Trial) -> Vec<String> {
+fn listed(t: &LiftTrial) -> Vec<String> {
     let c = &t.candidate;
     let need: Vec<String> = t
         .need
@@ -287,7 +295,7 @@ fn strength(page: &mut Page) -> Result<()> {
         ];
         for (name, mass) in motions {
             let clip = if name == JUMP {
-                retarget(&Bvh::parse(JUMPING)?, &body, &RetargetOptions::default())?.clip
+                prepare_recording(&read(JUMPING)?, &body, &RetargetOptions::default())?.clip
             } else {
                 builtin(&body, name).expect("built-in motions exist")
             };

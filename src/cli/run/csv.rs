@@ -1,20 +1,20 @@
 //! The CSV file of `--out`.
 
 use anyhow::{Context, Result};
-use sinew_evaluate::table::{Torques, header, row};
+use sinew_physics::motion::table::{Torques, header, row};
 use sinew_physics::world::Figure;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Posture, torques and limits of every tick, written as the run goes.
-pub(super) struct Csv {
+pub(super) struct RunCsv {
     path: PathBuf,
     file: BufWriter<File>,
     line: String,
 }
 
-impl Csv {
+impl RunCsv {
     pub(super) fn create(path: &Path) -> Result<Self> {
         let file =
             File::create(path).with_context(|| format!("cannot write {}", path.display()))?;

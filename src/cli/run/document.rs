@@ -1,15 +1,15 @@
 //! What `--report` writes.
 
-use super::Scenario;
+use super::scenario::Scenario;
 use crate::args::{ControllerArg, StepperArg};
 use crate::lint;
-use crate::source::Source;
+use crate::source::LoadedClip;
 use serde::Serialize;
 use sinew_evaluate::RunReport;
-use sinew_evaluate::forecast::Forecast;
 use sinew_physics::body::SegmentId;
 use sinew_physics::body::names::sex_name;
 use sinew_physics::figure::SecondHand;
+use sinew_physics::forecast::Forecast;
 
 /// `report.json`: the scenario, how the motion was fitted, and the measures.
 #[derive(Serialize)]
@@ -83,7 +83,7 @@ struct PushEntry {
 /// The document of one clip.
 pub(super) fn document<'a>(
     scenario: &Scenario<'a>,
-    source: &'a Source,
+    source: &'a LoadedClip,
     duration_s: f64,
     (measures, forecast): (&'a RunReport, &'a Forecast),
 ) -> Document<'a> {

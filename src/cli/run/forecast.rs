@@ -1,8 +1,8 @@
 //! What will come of a clip, told beside what came of it.
 
-use super::Scenario;
-use sinew_evaluate::forecast::{Forecast, forecast};
+use super::scenario::Scenario;
 use sinew_physics::body::Links;
+use sinew_physics::forecast::{Forecast, forecast};
 use sinew_physics::motion::Clip;
 use sinew_physics::strength::Strength;
 

@@ -1,36 +1,14 @@
 //! The motion strip of `--strip`.
 
-use super::Scenario;
+use super::scenario::Scenario;
 use crate::args::{LoadSpec, short_name};
 use crate::output::{extension, write};
 use anyhow::{Context, Result};
-use sinew_evaluate::strip::{Frame, StripOptions, Thing, View, draw, raster, svg};
+use sinew_evaluate::strip::{StripFrame, StripOptions, Thing, draw, raster, svg};
 use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
 use sinew_physics::figure::Constraint;
 use sinew_physics::math::{Quat, Vec3};
 use std::path::Path;
-
-/// Camera view of a strip.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum ViewArg {
-    /// From the right side.
-    Side,
-    /// From the front.
-    Front,
-    /// From the front and right, from a little above.
-    #[default]
-    ThreeQuarter,
-}
-
-impl From<ViewArg> for View {
-    fn from(arg: ViewArg) -> Self {
-        match arg {
-            ViewArg::Side => Self::Side,
-            ViewArg::Front => Self::Front,
-            ViewArg::ThreeQuarter => Self::ThreeQuarter,
-        }
-    }
-}
 
 /// A small ball at the target position of a constraint on all three axes that holds at `time` (s).
 pub(super) fn goal_mark(c: &Constraint, time: f64) -> Option<Thing> {
@@ -69,7 +47,7 @@ pub(super) fn held_loads(scenario: &Scenario<'_>, time: f64) -> Vec<(usize, Vec3
 pub(super) fn write_strip(
     scenario: &Scenario<'_>,
     name: &str,
-    frames: &[Frame],
+    frames: &[StripFrame],
     path: &Path,
 ) -> Result<()> {
     let args = scenario.args;

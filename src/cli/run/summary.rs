@@ -1,12 +1,13 @@
 //! What is printed while clips run and when they are done.
 
-use super::{RunArgs, forecast};
+use super::args::RunArgs;
+use super::forecast;
 use crate::number::{fixed, seconds};
 use crate::terminal::{OutputClosed, print_line};
 use anyhow::Result;
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use sinew_evaluate::RunReport;
-use sinew_evaluate::forecast::Forecast;
+use sinew_physics::forecast::Forecast;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Progress of one clip.
@@ -22,7 +23,7 @@ pub(super) fn progress_bar(name: &str, ticks: u64) -> ProgressBar {
 }
 
 /// The table that `sinew run` prints on standard output, with progress bars on standard error beside it.
-pub(super) struct Table<'a> {
+pub(super) struct SummaryTable<'a> {
     bars: &'a MultiProgress,
     /// Width of the column of clip names, characters.
     width: usize,
@@ -32,7 +33,7 @@ pub(super) struct Table<'a> {
     more_than_print: bool,
 }
 
-impl<'a> Table<'a> {
+impl<'a> SummaryTable<'a> {
     /// A table of clips with these names.
     pub(super) fn new<'n>(
         bars: &'a MultiProgress,

@@ -1,14 +1,14 @@
 //! What was given and has no effect.
 
-use super::RunArgs;
+use super::args::RunArgs;
 use crate::args::{ControllerArg, StepperArg};
 use crate::number::seconds;
-use crate::source::Source;
+use crate::source::LoadedClip;
 use crate::terminal::note;
 
 /// Warns of it on standard error.
-pub(super) fn warn(args: &RunArgs, sources: &[Source]) {
-    let late = |s: &Source| {
+pub(super) fn warn(args: &RunArgs, sources: &[LoadedClip]) {
+    let late = |s: &LoadedClip| {
         let texts = too_late(args, args.seconds(&s.clip)).into_iter();
         texts
             .map(|text| format!("{}: {text}", s.name))
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[derive(clap::Parser)]
-    struct Run {
+    struct TestCommand {
         #[command(flatten)]
         args: RunArgs,
     }
@@ -73,7 +73,7 @@ mod tests {
         let all = ["run", "builtin:idle", "--duration", "2"]
             .iter()
             .chain(options);
-        <Run as clap::Parser>::parse_from(all).args
+        <TestCommand as clap::Parser>::parse_from(all).args
     }
 
     #[test]

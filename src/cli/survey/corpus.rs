@@ -1,6 +1,6 @@
 //! Which clips a survey is about.
 
-use crate::exit::Usage;
+use crate::exit::UsageError;
 use crate::source::{BUILTIN, no_builtin};
 use anyhow::{Context, Result, ensure};
 use sinew_physics::motion::builtin::BUILTIN_NAMES;
@@ -11,15 +11,15 @@ const MAX_CLIPS: usize = 10_000;
 
 /// One clip.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
+pub(super) struct CorpusClip {
     /// Folder and file name, or `builtin:NAME`: the same wherever the corpus lies.
     pub name: String,
     /// Where its bytes are.
-    pub source: Source,
+    pub source: ClipSource,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Source {
+pub(super) enum ClipSource {
     /// A file.
     File(PathBuf),
     /// A motion that comes with the program.
@@ -31,14 +31,14 @@ pub(super) enum Source {
 /// # Errors
 /// A path or a built-in motion that is not there, a folder that cannot be listed or holds none, two clips of one name,
 /// too many.
-pub(super) fn gather(corpus: &[String]) -> Result<Vec<Entry>> {
-    let mut out: Vec<Entry> = Vec::new();
+pub(super) fn gather(corpus: &[String]) -> Result<Vec<CorpusClip>> {
+    let mut out: Vec<CorpusClip> = Vec::new();
     for spec in corpus {
         if let Some(name) = spec.strip_prefix(BUILTIN) {
             ensure!(BUILTIN_NAMES.contains(&name), no_builtin(name));
-            out.push(Entry {
+            out.push(CorpusClip {
                 name: spec.clone(),
-                source: Source::Builtin(name.to_owned()),
+                source: ClipSource::Builtin(name.to_owned()),
             });
             continue;
         }
@@ -47,31 +47,31 @@ pub(super) fn gather(corpus: &[String]) -> Result<Vec<Entry>> {
             let found = folder(path)?;
             ensure!(
                 !found.is_empty(),
-                Usage(format!("{spec} holds no .bvh file"))
+                UsageError(format!("{spec} holds no .bvh file"))
             );
-            out.extend(found.iter().map(|p| Entry::file(p)));
+            out.extend(found.iter().map(|p| CorpusClip::file(p)));
         } else {
             ensure!(
                 path.exists(),
-                Usage(format!("{spec}: there is no such file or folder"))
+                UsageError(format!("{spec}: there is no such file or folder"))
             );
-            out.push(Entry::file(path));
+            out.push(CorpusClip::file(path));
         }
     }
     ensure!(
         out.len() <= MAX_CLIPS,
-        Usage(format!("{} clips: at most {MAX_CLIPS}", out.len()))
+        UsageError(format!("{} clips: at most {MAX_CLIPS}", out.len()))
     );
     let mut names: Vec<&str> = out.iter().map(|e| e.name.as_str()).collect();
     names.sort_unstable();
     if let Some(twice) = names.windows(2).find(|w| w[0] == w[1]) {
         let text = format!("two clips of the corpus are called {}", twice[0]);
-        return Err(Usage(text).into());
+        return Err(UsageError(text).into());
     }
     Ok(out)
 }
 
-impl Entry {
+impl CorpusClip {
     fn file(path: &Path) -> Self {
         let last = |p: &Path| p.file_name().map(|n| n.to_string_lossy().into_owned());
         let whole = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
@@ -79,7 +79,7 @@ impl Entry {
         let file = last(path).unwrap_or_else(|| path.display().to_string());
         Self {
             name: folder.map_or(file.clone(), |f| format!("{f}/{file}")),
-            source: Source::File(path.to_owned()),
+            source: ClipSource::File(path.to_owned()),
         }
     }
 }
@@ -138,7 +138,7 @@ mod tests {
             ("builtin:fly", "there is no built-in motion \"fly\""),
         ] {
             let error = gather(&[wrong.to_owned()]).unwrap_err();
-            assert!(error.is::<Usage>(), "{wrong}");
+            assert!(error.is::<UsageError>(), "{wrong}");
             assert!(error.to_string().contains(says), "{error}");
         }
         std::fs::remove_dir_all(&folder).unwrap();

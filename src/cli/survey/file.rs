@@ -1,12 +1,13 @@
 //! The file of a survey.
 
-use crate::exit::Usage;
+use super::identity;
+use crate::exit::UsageError;
 use crate::output::write;
 use anyhow::{Context, Result, bail, ensure};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
-use sinew_evaluate::survey::Row;
-use sinew_evaluate::survey::tables::{self, Table};
+use sinew_evaluate::survey::SurveyRow;
+use sinew_evaluate::survey::tables::{self, SurveyTable};
 use std::path::Path;
 
 /// Counts up when rows change their meaning.
@@ -21,7 +22,7 @@ pub(super) struct Survey {
     /// See [`super::settings`].
     pub settings: Map<String, Value>,
     /// The clips.
-    pub rows: Vec<Row>,
+    pub rows: Vec<SurveyRow>,
 }
 
 /// Reads a survey.
@@ -49,7 +50,11 @@ pub(super) fn read(path: &Path) -> Result<Survey> {
 ///
 /// # Errors
 /// A file that cannot be written.
-pub(super) fn write_survey(path: &Path, settings: &Map<String, Value>, rows: &[Row]) -> Result<()> {
+pub(super) fn write_survey(
+    path: &Path,
+    settings: &Map<String, Value>,
+    rows: &[SurveyRow],
+) -> Result<()> {
     let line = |v: Value| serde_json::to_string(&v);
     let mut clips = Vec::new();
     for row in rows {
@@ -58,7 +63,7 @@ pub(super) fn write_survey(path: &Path, settings: &Map<String, Value>, rows: &[R
     let text = format!(
         "{{\n\"format\": {FORMAT},\n\"build\": {},\n\"settings\": {},\n\"by_kind\": {},\n\
          \"forecasts\": {},\n\"rows\": [\n{}\n]\n}}\n",
-        line(super::build()?.into())?,
+        line(identity::build()?.into())?,
         line(Value::Object(settings.clone()))?,
         line(objects(&tables::by_kind(rows)))?,
         line(objects(&tables::confusion(rows)))?,
@@ -68,7 +73,7 @@ pub(super) fn write_survey(path: &Path, settings: &Map<String, Value>, rows: &[R
 }
 
 /// A table as objects with the heads as names.
-fn objects(table: &Table) -> Value {
+fn objects(table: &SurveyTable) -> Value {
     let object = |row: &Vec<String>| -> Value {
         let cells = table.head.iter().zip(row);
         Value::Object(cells.map(|(h, c)| ((*h).to_owned(), json!(c))).collect())
@@ -87,7 +92,7 @@ pub(super) fn check_settings(
 ) -> Result<()> {
     if let Some(unknown) = across.iter().find(|a| !new.contains_key(*a)) {
         let names: Vec<&str> = new.keys().map(String::as_str).collect();
-        bail!(Usage(format!(
+        bail!(UsageError(format!(
             "--across {unknown}: no such setting; there are {}",
             names.join(", ")
         )));
@@ -132,7 +137,7 @@ mod tests {
         );
         check_settings(&old, &new, &["strength".into()]).unwrap();
         let error = check_settings(&old, &new, &["stength".into()]).unwrap_err();
-        assert!(error.is::<Usage>());
+        assert!(error.is::<UsageError>());
         let error = error.to_string();
         assert!(error.contains("stength: no such setting"), "{error}");
     }

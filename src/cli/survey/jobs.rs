@@ -4,8 +4,9 @@
 //! soon as it is there, under a key made of the bytes of the clip, the settings, the build and the copy, so that
 //! whatever has changed is run again.
 
-use super::SurveyArgs;
-use super::corpus::{Entry, Source};
+use super::args::SurveyArgs;
+use super::corpus::{ClipSource, CorpusClip};
+use super::identity;
 use crate::args::LoadSpec;
 use crate::rehearse::FollowArg;
 use anyhow::{Context, Result, anyhow};
@@ -14,20 +15,19 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-use sinew_evaluate::follow::{Found, RehearsalOptions, follow};
-use sinew_evaluate::forecast::{Forecast, forecast};
 use sinew_evaluate::noise::noisy;
-use sinew_evaluate::survey::stats::short;
-use sinew_evaluate::survey::{
-    self, Conditions, Copies, Lacks, Measured, Outcome, Reference, RehearsedRun, Row,
-};
+use sinew_evaluate::survey::{self, Copies, Lacks, MeasuredClip, SurveyOutcome, SurveyRow};
 use sinew_physics::body::{Body, Links, State};
 use sinew_physics::figure::{FigureOptions, Perturbation, StrengthScale};
+use sinew_physics::forecast::{Forecast, forecast};
+use sinew_physics::math::rounding::short;
 use sinew_physics::motion::builtin::{BUILTIN_NAMES, builtin};
 use sinew_physics::motion::{Bvh, Clip};
 use sinew_physics::plan::feasibility::consistency;
-use sinew_physics::retarget::{Preparation, retarget};
-use sinew_physics::retarget::{RetargetOptions, RetargetReport};
+use sinew_physics::plan::{ReadingReport, prepare_recording};
+use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::rehearsal::follow::{FollowResult, RehearsalOptions, follow};
+use sinew_physics::rehearsal::{Conditions, RehearsedRun, TrackingReference};
 use sinew_physics::strength::Strength;
 use sinew_physics::world::WorldParams;
 use std::collections::HashMap;
@@ -40,34 +40,34 @@ use std::sync::{Arc, Mutex, OnceLock};
 
 /// What came of one job.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-enum Done {
+enum JobResult {
     /// The clip itself.
-    Clip(Box<Measured>),
+    Clip(Box<MeasuredClip>),
     /// A copy of it.
-    Copy(Box<Outcome>),
+    Copy(Box<SurveyOutcome>),
     /// It cannot be run, and why.
     Failed(String),
 }
 
 /// A line of the partial file.
 #[derive(Serialize, Deserialize)]
-struct Line {
+struct PartialLine {
     key: String,
-    done: Done,
+    done: JobResult,
 }
 
 /// A clip that was read.
-struct Input {
-    entry: Entry,
+struct JobInput {
+    entry: CorpusClip,
     bytes: Result<Vec<u8>, String>,
     /// What was found for it and its copies, by whichever of them is first.
-    plan: OnceLock<Result<Plan, String>>,
+    plan: OnceLock<Result<FollowPlan, String>>,
 }
 
 /// How a clip is followed.
-struct Plan {
-    fitted: Fitted,
-    found: Found,
+struct FollowPlan {
+    fitted: FittedRecording,
+    found: FollowResult,
 }
 
 /// Runs everything that no partial file has, and puts the rows together in the order of the clips.
@@ -78,19 +78,19 @@ pub(super) fn run_all(
     args: &SurveyArgs,
     body: &Arc<Body>,
     settings: &Map<String, Value>,
-    clips: &[Entry],
-) -> Result<Vec<Row>> {
+    clips: &[CorpusClip],
+) -> Result<Vec<SurveyRow>> {
     let settings =
         serde_json::to_string(settings).context("the settings cannot be written as JSON")?;
-    let build = super::build()?;
-    let inputs: Vec<Input> = clips
+    let build = identity::build()?;
+    let inputs: Vec<JobInput> = clips
         .iter()
-        .map(|entry| Input {
+        .map(|entry| JobInput {
             entry: entry.clone(),
             bytes: match &entry.source {
-                Source::Builtin(name) => Ok(name.clone().into_bytes()),
+                ClipSource::Builtin(name) => Ok(name.clone().into_bytes()),
                 // The tables say that it cannot be read.
-                Source::File(path) => std::fs::read(path).map_err(|e| e.to_string()),
+                ClipSource::File(path) => std::fs::read(path).map_err(|e| e.to_string()),
             },
             plan: OnceLock::new(),
         })
@@ -103,7 +103,7 @@ pub(super) fn run_all(
         .map(|(i, k)| {
             let bytes = inputs[*i].bytes.as_deref().unwrap_or_default();
             let name = inputs[*i].entry.name.as_bytes();
-            super::hash(&[
+            identity::hash(&[
                 name,
                 bytes,
                 settings.as_bytes(),
@@ -122,7 +122,7 @@ pub(super) fn run_all(
     let file = Mutex::new((file, Ok(())));
     let bar = progress(jobs.len() as u64);
     let next = AtomicUsize::new(0);
-    let results: Mutex<Vec<Option<Done>>> = Mutex::new(vec![None; jobs.len()]);
+    let results: Mutex<Vec<Option<JobResult>>> = Mutex::new(vec![None; jobs.len()]);
     let threads = args
         .jobs
         .or_else(|| std::thread::available_parallelism().ok().map(usize::from))
@@ -163,32 +163,32 @@ pub(super) fn run_all(
 }
 
 /// Built-in motions have no file that could have noise.
-fn copies(args: &SurveyArgs, input: &Input) -> u32 {
+fn copies(args: &SurveyArgs, input: &JobInput) -> u32 {
     match input.entry.source {
-        Source::File(_) if input.bytes.is_ok() => args.copies,
+        ClipSource::File(_) if input.bytes.is_ok() => args.copies,
         _ => 0,
     }
 }
 
 /// The row of a clip from its own result and those of its copies. A copy that cannot be run, where the clip can, is
 /// one that is lost.
-fn row(input: &Input, done: Vec<Done>) -> Row {
-    let mut row = Row {
+fn row(input: &JobInput, done: Vec<JobResult>) -> SurveyRow {
+    let mut row = SurveyRow {
         clip: input.entry.name.clone(),
         input: input
             .bytes
             .as_ref()
-            .map_or(String::new(), |b| super::hash(&[b])),
+            .map_or(String::new(), |b| identity::hash(&[b])),
         error: None,
         result: None,
     };
     let mut outcomes = Vec::new();
     for d in done {
         match d {
-            Done::Clip(measured) => row.result = Some(*measured),
-            Done::Copy(outcome) => outcomes.push(*outcome),
-            Done::Failed(why) if row.result.is_none() => row.error = row.error.or(Some(why)),
-            Done::Failed(_) => outcomes.push(Outcome::default()),
+            JobResult::Clip(measured) => row.result = Some(*measured),
+            JobResult::Copy(outcome) => outcomes.push(*outcome),
+            JobResult::Failed(why) if row.result.is_none() => row.error = row.error.or(Some(why)),
+            JobResult::Failed(_) => outcomes.push(SurveyOutcome::default()),
         }
     }
     if let Some(measured) = &mut row.result
@@ -222,16 +222,16 @@ pub(super) fn forget_partial(out: &Path) {
 }
 
 /// Results of an interrupted run; a line that was cut short is left out.
-fn read_partial(path: &Path) -> HashMap<String, Done> {
+fn read_partial(path: &Path) -> HashMap<String, JobResult> {
     let text = std::fs::read(path).unwrap_or_default();
     text.split(|b| *b == b'\n')
-        .filter_map(|line| serde_json::from_slice::<Line>(line).ok())
+        .filter_map(|line| serde_json::from_slice::<PartialLine>(line).ok())
         .map(|line| (line.key, line.done))
         .collect()
 }
 
-fn keep(file: &Mutex<(File, std::io::Result<()>)>, key: &str, done: &Done) {
-    let line = Line {
+fn keep(file: &Mutex<(File, std::io::Result<()>)>, key: &str, done: &JobResult) {
+    let line = PartialLine {
         key: key.to_owned(),
         done: done.clone(),
     };
@@ -250,18 +250,18 @@ fn keep(file: &Mutex<(File, std::io::Result<()>)>, key: &str, done: &Done) {
 }
 
 /// One job. A panic is a row with its message, not the end of the survey.
-fn one(args: &SurveyArgs, body: &Arc<Body>, input: &Input, copy: u32) -> Done {
+fn one(args: &SurveyArgs, body: &Arc<Body>, input: &JobInput, copy: u32) -> JobResult {
     let work = || match &input.bytes {
         Err(why) => Err(anyhow!("{why}")),
         Ok(bytes) => job(args, body, input, bytes, copy),
     };
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(Ok(done)) => done,
-        Ok(Err(error)) => Done::Failed(format!("{error:#}")),
+        Ok(Err(error)) => JobResult::Failed(format!("{error:#}")),
         Err(panic) => {
             let text = panic.downcast_ref::<String>().map(String::as_str);
             let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-            Done::Failed(format!(
+            JobResult::Failed(format!(
                 "the program failed: {}",
                 text.unwrap_or("no message")
             ))
@@ -270,18 +270,18 @@ fn one(args: &SurveyArgs, body: &Arc<Body>, input: &Input, copy: u32) -> Done {
 }
 
 /// A recording with what was said of it.
-struct Fitted {
-    reference: Reference,
-    prepared: Option<RetargetReport>,
+struct FittedRecording {
+    reference: TrackingReference,
+    prepared: Option<ReadingReport>,
 }
 
 fn job(
     args: &SurveyArgs,
     body: &Arc<Body>,
-    input: &Input,
+    input: &JobInput,
     bytes: &[u8],
     copy: u32,
-) -> Result<Done> {
+) -> Result<JobResult> {
     let source = &input.entry.source;
     if args.follow != FollowArg::Strict && args.live_window.is_none() {
         let plan = input
@@ -289,7 +289,7 @@ fn job(
             .get_or_init(|| plan(args, body, source, bytes).map_err(|e| format!("{e:#}")));
         let plan = plan.as_ref().map_err(|why| anyhow!("{why}"))?;
         if copy == 0 {
-            return Ok(Done::Clip(Box::new(planned(args, body, plan, bytes)?)));
+            return Ok(JobResult::Clip(Box::new(planned(args, body, plan, bytes)?)));
         }
         if let Some(motion) = &plan.found.motion {
             let reference = &plan.fitted.reference;
@@ -300,7 +300,7 @@ fn job(
                 from: disturbed(args, motion.start(), seed(bytes, copy, 0)),
             });
             let outcome = survey::run(&conditions, reference)?;
-            return Ok(Done::Copy(Box::new(outcome)));
+            return Ok(JobResult::Copy(Box::new(outcome)));
         }
     }
     let fitted = fitted(args, body, source, bytes, copy)?;
@@ -312,21 +312,21 @@ fn job(
     let conditions = conditions(args, body, reference, (bytes, copy), lead);
     let outcome = survey::run(&conditions, reference)?;
     if copy > 0 {
-        return Ok(Done::Copy(Box::new(outcome)));
+        return Ok(JobResult::Copy(Box::new(outcome)));
     }
     let measured = measured(args, &conditions, &fitted, outcome);
-    Ok(Done::Clip(Box::new(measured)))
+    Ok(JobResult::Clip(Box::new(measured)))
 }
 
 /// A built-in motion, or a recording fitted to the body.
 fn fitted(
     args: &SurveyArgs,
     body: &Body,
-    source: &Source,
+    source: &ClipSource,
     bytes: &[u8],
     copy: u32,
-) -> Result<Fitted> {
-    let Source::Builtin(name) = source else {
+) -> Result<FittedRecording> {
+    let ClipSource::Builtin(name) = source else {
         return fit(args, body, bytes, copy);
     };
     let clip = builtin(body, name).with_context(|| {
@@ -335,8 +335,8 @@ fn fitted(
             BUILTIN_NAMES.join(", ")
         )
     })?;
-    Ok(Fitted {
-        reference: Reference::authored(Arc::new(clip)),
+    Ok(FittedRecording {
+        reference: TrackingReference::authored(Arc::new(clip)),
         prepared: None,
     })
 }
@@ -346,7 +346,7 @@ fn fitted(
 fn conditions(
     args: &SurveyArgs,
     body: &Arc<Body>,
-    reference: &Reference,
+    reference: &TrackingReference,
     (bytes, copy): (&[u8], u32),
     lead: f64,
 ) -> Conditions {
@@ -385,19 +385,25 @@ fn conditions(
 }
 
 /// Finds out how a clip is followed, without pushes: nobody knows of them before.
-fn plan(args: &SurveyArgs, body: &Arc<Body>, source: &Source, bytes: &[u8]) -> Result<Plan> {
+fn plan(
+    args: &SurveyArgs,
+    body: &Arc<Body>,
+    source: &ClipSource,
+    bytes: &[u8],
+) -> Result<FollowPlan> {
     let fitted = fitted(args, body, source, bytes, 0)?;
     let reference = &fitted.reference;
     let as_recorded = match source {
-        Source::Builtin(_) => Arc::clone(&reference.recorded),
-        Source::File(_) => {
+        ClipSource::Builtin(_) => Arc::clone(&reference.recorded),
+        ClipSource::File(_) => {
             let bvh = Bvh::parse(bytes).context("not a BVH file")?;
+            let recording = bvh.recording().context("does not fit the body")?;
             let options = RetargetOptions {
                 preparation: Preparation::REHEARSED,
                 ..RetargetOptions::default()
             };
             Arc::new(
-                retarget(&bvh, body, &options)
+                prepare_recording(&recording, body, &options)
                     .context("does not fit the body")?
                     .clip,
             )
@@ -416,11 +422,16 @@ fn plan(args: &SurveyArgs, body: &Arc<Body>, source: &Source, bytes: &[u8]) -> R
     };
     let clip = (&*as_recorded, &forecast);
     let found = follow(&conditions, reference, clip, &options, &mut |_| true)?;
-    Ok(Plan { fitted, found })
+    Ok(FollowPlan { fitted, found })
 }
 
-/// What is known of a clip whose way was found; with pushes it is run once more.
-fn planned(args: &SurveyArgs, body: &Arc<Body>, plan: &Plan, bytes: &[u8]) -> Result<Measured> {
+/// What is known of a clip whose way was found.
+fn planned(
+    args: &SurveyArgs,
+    body: &Arc<Body>,
+    plan: &FollowPlan,
+    bytes: &[u8],
+) -> Result<MeasuredClip> {
     let reference = &plan.fitted.reference;
     let lead = match &plan.found.motion {
         Some(motion) => motion.lead_in(),
@@ -428,11 +439,8 @@ fn planned(args: &SurveyArgs, body: &Arc<Body>, plan: &Plan, bytes: &[u8]) -> Re
     };
     let conditions = conditions(args, body, reference, (bytes, 0), lead);
     let conditions = plan.found.conditions(&conditions);
-    let outcome = match args.push.is_empty() {
-        true => plan.found.outcome.clone(),
-        false => survey::run(&conditions, reference)?,
-    };
-    Ok(Measured {
+    let outcome = survey::run(&conditions, reference)?;
+    Ok(MeasuredClip {
         followed: Some(plan.found.followed.clone()),
         ..measured(args, &conditions, &plan.fitted, outcome)
     })
@@ -455,7 +463,7 @@ fn disturbed(args: &SurveyArgs, mut state: State, seed: u64) -> State {
 }
 
 /// Fits a recording, or a copy of it with noise, to the body: as it is, and prepared.
-fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<Fitted> {
+fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<FittedRecording> {
     let as_recorded = RetargetOptions {
         preparation: Preparation::NONE,
         ..RetargetOptions::default()
@@ -465,7 +473,9 @@ fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<Fitted
         ..RetargetOptions::default()
     };
     let mut bvh = Bvh::parse(bytes).context("not a BVH file")?;
-    let mut recorded = retarget(&bvh, body, &as_recorded).context("does not fit the body")?;
+    let mut recording = bvh.recording().context("does not fit the body")?;
+    let mut recorded =
+        prepare_recording(&recording, body, &as_recorded).context("does not fit the body")?;
     if copy > 0 {
         let mut rng = Pcg64Mcg::seed_from_u64(seed(bytes, copy, 0));
         let distance = args.noise.metres / recorded.report.size.unit_m;
@@ -473,11 +483,14 @@ fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<Fitted
         let text = noisy(bytes, &bvh, distance, args.noise.degrees, random)
             .context("has no motion that could have noise")?;
         bvh = Bvh::parse(text.as_bytes()).context("the copy is not a BVH file")?;
-        recorded = retarget(&bvh, body, &as_recorded).context("the copy does not fit the body")?;
+        recording = bvh.recording().context("the copy does not fit the body")?;
+        recorded = prepare_recording(&recording, body, &as_recorded)
+            .context("the copy does not fit the body")?;
     }
-    let prepared = retarget(&bvh, body, &options).context("does not fit the body")?;
-    Ok(Fitted {
-        reference: Reference {
+    let prepared =
+        prepare_recording(&recording, body, &options).context("does not fit the body")?;
+    Ok(FittedRecording {
+        reference: TrackingReference {
             phases: recorded.report.feet.phases.clone(),
             recorded: Arc::new(recorded.clip),
             prepared: Arc::new(prepared.clip),
@@ -488,7 +501,7 @@ fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<Fitted
 
 /// A seed of its own for each clip, copy and purpose.
 fn seed(bytes: &[u8], copy: u32, purpose: u32) -> u64 {
-    let text = super::hash(&[bytes, &copy.to_le_bytes(), &purpose.to_le_bytes()]);
+    let text = identity::hash(&[bytes, &copy.to_le_bytes(), &purpose.to_le_bytes()]);
     u64::from_str_radix(&text, 16).expect("a hash is sixteen hexadecimal digits")
 }
 
@@ -496,9 +509,9 @@ fn seed(bytes: &[u8], copy: u32, purpose: u32) -> u64 {
 fn measured(
     args: &SurveyArgs,
     conditions: &Conditions,
-    fitted: &Fitted,
-    outcome: Outcome,
-) -> Measured {
+    fitted: &FittedRecording,
+    outcome: SurveyOutcome,
+) -> MeasuredClip {
     let (body, reference) = (&conditions.body, &fitted.reference);
     let (recorded, prepared) = (&reference.recorded, &reference.prepared);
     let postures = |clip: &Clip| -> Vec<_> { (0..clip.len()).map(|i| *clip.posture(i)).collect() };
@@ -510,11 +523,11 @@ fn measured(
     let lacks = |postures: &[_], label: &[[bool; 2]], clip: &Clip| {
         Lacks::from(&consistency(body, postures, label, clip.rate_hz()))
     };
-    Measured {
+    MeasuredClip {
         kind: survey::kind::kind(body, &raw, &label, recorded.rate_hz()),
         clip_s: short(recorded.duration()),
         walked: fitted.prepared.as_ref().is_some_and(|r| r.runs.walked),
-        prepared_off_m: short(reference.prepared_off(body)),
+        prepared_off_m: short(survey::prepared_off(reference, body)),
         warnings: fitted
             .prepared
             .as_ref()

@@ -1,13 +1,13 @@
 //! Every clip in variations that change one condition at a time.
 
-use super::{Motion, Study, hundredths};
+use super::study::{LoadedMotion, Study, hundredths};
 use crate::page::Page;
 use anyhow::{Context, Result};
-use sinew_evaluate::experiments::walk::{Hands, Walk, Walker, walk};
+use sinew_evaluate::experiments::walk::{Hands, WalkTrial, Walker, walk};
 use sinew_physics::body::{Body, Profile, Sex};
 use sinew_physics::motion::Bvh;
-use sinew_physics::retarget::RetargetOptions;
-use sinew_physics::retarget::retarget;
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::RetargetOptions;
 use std::sync::Arc;
 
 /// One variation.
@@ -71,16 +71,18 @@ fn cases(man: &Arc<Body>) -> Result<Vec<Case>> {
 }
 
 /// Joint tracking error of a motion in one variation, or when it falls; true if it does not fall.
-fn cell(motion: &Motion, bvh: &Bvh, case: &Case) -> Result<(String, bool)> {
+fn cell(motion: &LoadedMotion, bvh: &Bvh, case: &Case) -> Result<(String, bool)> {
     let options = RetargetOptions {
         tempo: case.tempo,
         ..motion.options.clone()
     };
     let of = if case.mirrored { &bvh.mirrored() } else { bvh };
-    let clip = retarget(of, &case.walker.body, &options)
-        .with_context(|| format!("{}, {}", motion.name, case.name))?
+    let at = || format!("{}, {}", motion.name, case.name);
+    let recording = of.recording().with_context(at)?;
+    let clip = prepare_recording(&recording, &case.walker.body, &options)
+        .with_context(at)?
         .clip;
-    let w = walk(&case.walker, &Walk::once(&Arc::new(clip)));
+    let w = walk(&case.walker, &WalkTrial::once(&Arc::new(clip)));
     let text = w.fell_s.map_or_else(
         || hundredths(w.report.tracking_joint_rms_deg),
         |t| format!("**fell at {t:.1} s**"),

@@ -1,14 +1,14 @@
 //! Strength from motion: somebody too weak for a motion, by the tables, is given the strength that it needs, and does
 //! it again in simulation.
 
-use super::{Pair, Record, carried, record};
+use super::{ControlPair, ExperimentRecord, carried, record};
 use crate::envelope::Envelope;
 use sinew_physics::body::topology::DOF_NAMES;
 use sinew_physics::body::{Body, Links};
 use sinew_physics::figure::{Perturbation, StrengthScale};
 use sinew_physics::motion::Clip;
 use sinew_physics::strength::Strength;
-use sinew_physics::world::{ClipPlayback, Drive};
+use sinew_physics::world::{ClipPlayback, MotionSource};
 use std::sync::Arc;
 
 /// Quantile of the needed torque that counts, and what is given beyond it: defaults of `sinew strength`.
@@ -33,7 +33,7 @@ pub struct Again {
     /// Muscles that were scaled up: number of DOFs and the largest factor.
     pub raised: (usize, f64),
     /// With the strength of the tables, and with that of the motion.
-    pub runs: [Record; 2],
+    pub runs: [ExperimentRecord; 2],
 }
 
 /// Takes the strength from the motion, and does it with both.
@@ -66,12 +66,15 @@ pub fn again(body: &Arc<Body>, percentile: f64, did: &Did, panels: usize) -> Aga
     };
     let runs = [&tables, &merged].map(|scale| {
         let first = did.clip.sample(0.0).state();
-        let (mut world, key) = Pair::modern().world(body, first, scale.clone());
+        let (mut world, key) = ControlPair::modern().world(body, first, scale.clone());
         for p in &held {
             world.perturb(key, *p).expect("loads are valid");
         }
         let figure = world.figure_mut(key).expect("it was just added");
-        figure.set_drive(Drive::Clip(ClipPlayback::new(Arc::clone(&did.clip), 0.0)));
+        figure.set_drive(MotionSource::Clip(ClipPlayback::new(
+            Arc::clone(&did.clip),
+            0.0,
+        )));
         let seconds = did.clip.duration() + 1.0;
         record(&mut world, key, seconds, panels, |_, _| {
             (Vec::new(), Vec::new())

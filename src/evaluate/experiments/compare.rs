@@ -1,13 +1,13 @@
 //! Controllers against each other: the same motions, loads and pushes for every pair of controller and stepper.
 
-use super::{Pair, carried, push_at_chest};
+use super::{ControlPair, carried, push_at_chest};
 use sinew_physics::body::Body;
 use sinew_physics::body::topology::DOF_COUNT;
 use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
 use sinew_physics::figure::{StrengthScale, TickReport};
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::Clip;
-use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World};
+use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World};
 use std::sync::Arc;
 
 /// A push begins at this time and lasts this long, s.
@@ -30,7 +30,7 @@ pub const IMPULSES: [f64; 3] = [10.0, 20.0, 30.0];
 
 /// A motion, with what it needs to stand or sit on.
 #[derive(Clone, Debug)]
-pub struct Motion {
+pub struct ComparedMotion {
     /// What it is called.
     pub name: String,
     /// The motion.
@@ -41,7 +41,7 @@ pub struct Motion {
     pub seconds: f64,
 }
 
-impl Motion {
+impl ComparedMotion {
     /// The whole of `clip`, called `name`, and a second afterwards. The recording called `sit-stand` gets the stool
     /// that it lacks, where it sits: under the pelvis, and as high as a rigid one can be there. It ends where it begins
     /// to walk away: what becomes of that depends on luck (docs/limits.md).
@@ -90,7 +90,7 @@ pub enum Burden {
 
 /// What came of it; errors are those before a fall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outcome {
+pub struct ComparedOutcome {
     /// When it fell, s.
     pub fell_s: Option<f64>,
     /// Ticks that were measured.
@@ -104,7 +104,7 @@ pub struct Outcome {
     pub chatter: (f64, u32),
 }
 
-impl Outcome {
+impl ComparedOutcome {
     /// Joint error, rms, degrees.
     pub fn joints_deg(&self) -> f64 {
         (self.joints / f64::from(self.ticks.max(1)))
@@ -152,7 +152,12 @@ impl Outcome {
     }
 }
 
-fn scene(body: &Arc<Body>, pair: &Pair, motion: &Motion, burden: Burden) -> (World, FigureKey) {
+fn scene(
+    body: &Arc<Body>,
+    pair: &ControlPair,
+    motion: &ComparedMotion,
+    burden: Burden,
+) -> (World, FigureKey) {
     let state = motion.clip.sample(0.0).state();
     let (mut world, key) = pair.world(body, state, StrengthScale::default());
     if let Some(seat) = &motion.seat {
@@ -160,7 +165,7 @@ fn scene(body: &Arc<Body>, pair: &Pair, motion: &Motion, burden: Burden) -> (Wor
     }
     let figure = world.figure_mut(key).expect("the figure was just added");
     let play = ClipPlayback::new(Arc::clone(&motion.clip), 0.0);
-    figure.set_drive(Drive::Clip(play));
+    figure.set_drive(MotionSource::Clip(play));
     let what = match burden {
         Burden::Load(0.0, _) => Vec::new(),
         Burden::Load(mass, both) => carried(body, mass, both),
@@ -175,13 +180,13 @@ fn scene(body: &Arc<Body>, pair: &Pair, motion: &Motion, burden: Burden) -> (Wor
 /// One run, to its end or a fall. `step` makes a tick, and may time it.
 pub fn compare(
     body: &Arc<Body>,
-    pair: &Pair,
-    motion: &Motion,
+    pair: &ControlPair,
+    motion: &ComparedMotion,
     burden: Burden,
     step: &mut dyn FnMut(&mut World),
-) -> Outcome {
+) -> ComparedOutcome {
     let (mut world, key) = scene(body, pair, motion, burden);
-    let mut out = Outcome::default();
+    let mut out = ComparedOutcome::default();
     let mut before = ([0.0; DOF_COUNT], 0);
     let ticks = (motion.seconds * pair.rate_hz).round() as u64;
     for _ in 0..ticks {

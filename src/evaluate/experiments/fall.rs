@@ -1,6 +1,6 @@
 //! Falls over an edge of the feet, against the physical pendulum.
 
-use super::{Pair, Record, record};
+use super::{ControlPair, ExperimentRecord, record};
 use crate::pose::segment_poses;
 use sinew_physics::body::topology::{DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew_physics::body::{Body, Links, Posture, State};
@@ -173,7 +173,7 @@ pub struct Fall {
     /// Largest joint error before that, degrees.
     pub bent_deg: f64,
     /// The run.
-    pub record: Record,
+    pub record: ExperimentRecord,
 }
 
 /// How long the figure takes as a pendulum about the balls of its feet instead of the edge that it leans over, s: what
@@ -189,14 +189,20 @@ pub fn pendulum_about_the_balls(body: &Body, start: &Leaning) -> f64 {
 }
 
 /// Lets a figure fall with `strength` times its own.
-pub fn fall(body: &Arc<Body>, pair: &Pair, direction: Vec3, strength: f64, panels: usize) -> Fall {
+pub fn fall(
+    body: &Arc<Body>,
+    pair: &ControlPair,
+    direction: Vec3,
+    strength: f64,
+    panels: usize,
+) -> Fall {
     fall_on_toes(body, pair, direction, [strength, 1.0], panels)
 }
 
 /// The same with a further factor on the strength of the toes.
 pub fn fall_on_toes(
     body: &Arc<Body>,
-    pair: &Pair,
+    pair: &ControlPair,
     direction: Vec3,
     [strength, toes]: [f64; 2],
     panels: usize,
@@ -221,7 +227,7 @@ pub fn fall_on_toes(
         energy: [0.0; 2],
         off_course_deg: 0.0,
         bent_deg: 0.0,
-        record: Record::default(),
+        record: ExperimentRecord::default(),
     };
     while out.time_s.is_none() && world.time() < 3.0 {
         let (moved, energy, bent) = tick(&mut world, key, com);

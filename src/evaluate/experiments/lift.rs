@@ -1,16 +1,16 @@
 //! Lifting a load with one arm: the paper's headline experiment.
 
-use super::{Pair, Record, record};
+use super::{ControlPair, ExperimentRecord, record};
 use sinew_physics::body::angles::anatomical_angles;
 use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
 use sinew_physics::body::{Body, Links, State};
 use sinew_physics::dynamics::Terms;
-use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::motion::tasks::grip;
 use sinew_physics::figure::{Perturbation, StrengthScale};
 use sinew_physics::motion::builtin::{LIFT_GRASP, builtin};
 use sinew_physics::motion::{Clip, GRAVITY};
 use sinew_physics::strength::Strength;
-use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World};
+use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World};
 use std::sync::Arc;
 
 /// Share of the static need of 3 kg that the arm has.
@@ -65,7 +65,7 @@ pub struct Lift {
     /// Load, kg.
     pub mass: f64,
     /// The run.
-    pub record: Record,
+    pub record: ExperimentRecord,
     /// How long a joint of the arm was at its limit, s.
     pub arm_saturated_s: f64,
     /// Largest error of hip, knee, ankle or back, degrees, up to a fall.
@@ -78,7 +78,7 @@ pub struct Lift {
 }
 
 /// The scene, before its first tick; `arm` is the factor on the strength of the right arm.
-pub fn scene(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64) -> (World, FigureKey) {
+pub fn scene(body: &Arc<Body>, pair: &ControlPair, mass: f64, arm: f64) -> (World, FigureKey) {
     let clip = Arc::new(builtin(body, "lift").expect("there is a lift"));
     let mut strength = StrengthScale::default();
     for j in (0..DOF_COUNT).filter(|j| is_arm(*j)) {
@@ -90,7 +90,7 @@ pub fn scene(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64) -> (World, Figu
 /// The scene of `clip`, before its first tick.
 pub(super) fn scene_of(
     body: &Arc<Body>,
-    pair: &Pair,
+    pair: &ControlPair,
     mass: f64,
     strength: StrengthScale,
     clip: Arc<Clip>,
@@ -107,12 +107,12 @@ pub(super) fn scene_of(
     };
     world.perturb(key, load).expect("loads are valid");
     let figure = world.figure_mut(key).expect("the figure was just added");
-    figure.set_drive(Drive::Clip(ClipPlayback::new(clip, 0.0)));
+    figure.set_drive(MotionSource::Clip(ClipPlayback::new(clip, 0.0)));
     (world, key)
 }
 
 /// Lifts `mass` kg.
-pub fn lift(body: &Arc<Body>, pair: &Pair, mass: f64, arm: f64, panels: usize) -> Lift {
+pub fn lift(body: &Arc<Body>, pair: &ControlPair, mass: f64, arm: f64, panels: usize) -> Lift {
     let (mut world, key) = scene(body, pair, mass, arm);
     let at = grip(body, R_HAND);
     let record = record(&mut world, key, DURATION, panels, |_, t| {

@@ -13,7 +13,7 @@ pub mod touching;
 pub mod walk;
 
 use super::metrics::Tick;
-use super::strip::{Frame, Thing, evenly_spaced};
+use super::strip::{StripFrame, Thing, evenly_spaced};
 use sinew_physics::body::topology::{CHEST, DOF_COUNT, L_HAND, R_HAND};
 use sinew_physics::body::{Body, SegmentId, State};
 use sinew_physics::figure::{
@@ -25,7 +25,7 @@ use std::sync::Arc;
 
 /// Controller, stepper and choices that an experiment runs with.
 #[derive(Clone, Debug)]
-pub struct Pair {
+pub struct ControlPair {
     /// Name in tables.
     pub name: &'static str,
     /// Who computes accelerations and torques.
@@ -40,7 +40,7 @@ pub struct Pair {
     pub armature: bool,
 }
 
-impl Pair {
+impl ControlPair {
     fn of(name: &'static str, controller: ControllerKind, stepper: StepperKind) -> Self {
         Self {
             name,
@@ -153,7 +153,7 @@ fn push_at_chest(force: Vec3, from: f64, lasts: f64) -> Perturbation {
 
 /// One tick, for plots.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
+pub struct PlottedTick {
     /// End of the tick, s.
     pub time_s: f64,
     /// Centre of mass, m.
@@ -180,11 +180,11 @@ pub struct Sample {
 
 /// A recorded run.
 #[derive(Clone, Debug, Default)]
-pub struct Record {
+pub struct ExperimentRecord {
     /// Every tick.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<PlottedTick>,
     /// Panels of a strip.
-    pub frames: Vec<Frame>,
+    pub frames: Vec<StripFrame>,
     /// First tick with the centre of mass below 45 % of its height when the run began, s.
     pub fell_s: Option<f64>,
     /// When the state ran away and the figure was frozen, s. Samples end there.
@@ -207,10 +207,10 @@ fn record(
     seconds: f64,
     panels: usize,
     mut see: impl FnMut(&World, f64) -> Beside,
-) -> Record {
+) -> ExperimentRecord {
     let ticks = (seconds * world.params().rate_hz).round() as u64;
     let shown = evenly_spaced(ticks, panels);
-    let mut out = Record::default();
+    let mut out = ExperimentRecord::default();
     let mut start = None;
     for n in 0..ticks {
         world.step();
@@ -234,7 +234,7 @@ fn record(
         if r.flags.has(Flags::QUARANTINED) {
             out.frozen_s.get_or_insert(time_s);
         }
-        let sample = Sample {
+        let sample = PlottedTick {
             time_s,
             com: r.balance.com,
             com_desired: r.balance.com_desired,
@@ -264,13 +264,13 @@ fn record(
         if shown.binary_search(&n).is_ok() {
             let tick = Tick::of(figure, gravity);
             out.frames
-                .push(Frame::of(&tick, time_s, loads).among(things));
+                .push(StripFrame::of(&tick, time_s, loads).among(things));
         }
     }
     out
 }
 
-impl Record {
+impl ExperimentRecord {
     /// Mean change of torque per tick as a share of the available range.
     pub fn chatter(&self) -> f64 {
         let mut sum = 0.0;

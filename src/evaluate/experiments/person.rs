@@ -2,12 +2,12 @@
 //! who tracks the light load, whom the middle one makes help with legs and back, and whom the heavy one bends.
 
 use super::lift::{DURATION, arm_use, scene_of};
-use super::{Pair, Record, record};
+use super::{ControlPair, ExperimentRecord, record};
 use sinew_physics::body::angles::anatomical_angles;
 use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
 use sinew_physics::body::{Body, Profile, Sex};
 use sinew_physics::figure::StrengthScale;
-use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::motion::tasks::grip;
 use sinew_physics::motion::Clip;
 use sinew_physics::motion::builtin::{LIFT_GRASP, LiftEnd, lift_to};
 use sinew_physics::strength::Strength;
@@ -54,7 +54,7 @@ pub const FOLDS: f64 = 90.0;
 
 /// Who lifts, and how the lift ends.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
+pub struct Lifter {
     /// Of the tables.
     pub profile: Profile,
     /// Of strength.
@@ -81,14 +81,14 @@ pub struct LoadResult {
     /// When it fell, s.
     pub fell_s: Option<f64>,
     /// The run.
-    pub record: Record,
+    pub record: ExperimentRecord,
 }
 
 /// All loads of one candidate.
 #[derive(Clone, Debug)]
-pub struct Trial {
+pub struct LiftTrial {
     /// Who.
-    pub candidate: Candidate,
+    pub candidate: Lifter,
     /// Share of the arm's strength that holding each of [`LOADS`] takes.
     pub need: [f64; 4],
     /// In the order of [`LOADS`]; of a search only as far as they show what the paper does.
@@ -96,18 +96,18 @@ pub struct Trial {
 }
 
 impl LoadResult {
-    /// True if the motion was followed.
+    /// Whether the motion was followed.
     fn is_tracked(&self) -> bool {
         self.fell_s.is_none() && self.rms < TRACKED
     }
 
-    /// True if it stands, and knees, hips and back have helped.
+    /// Whether it stands, and knees, hips and back have helped.
     fn is_helped(&self) -> bool {
         self.fell_s.is_none() && self.helps.iter().all(|h| *h >= HELPS)
     }
 }
 
-impl Trial {
+impl LiftTrial {
     /// The four things that the paper shows: 1 kg is tracked, 3 kg makes knees, hips and back help, 4 or 5 kg bends the
     /// back before balance is lost, and what falls folds.
     pub fn shows(&self) -> [bool; 4] {
@@ -146,7 +146,7 @@ fn dof(name: &str) -> usize {
 /// One load.
 pub fn attempt(
     body: &Arc<Body>,
-    pair: &Pair,
+    pair: &ControlPair,
     clip: &Arc<Clip>,
     (percentile, mass): (f64, f64),
     panels: usize,
@@ -191,7 +191,7 @@ pub fn attempt(
         folds,
         jerk: jerk / 1e3,
         fell_s: run.fell_s,
-        record: Record::default(),
+        record: ExperimentRecord::default(),
     };
     let (mut squares, mut count) = (0.0, 0.0);
     for s in run.samples.iter().filter(|s| s.time_s < end) {
@@ -218,17 +218,17 @@ pub fn attempt(
 }
 
 /// Runs all loads of a candidate; `None` for one who is not worth a run.
-pub fn trial(candidate: &Candidate, pair: &Pair, panels: usize) -> Option<Trial> {
+pub fn trial(candidate: &Lifter, pair: &ControlPair, panels: usize) -> Option<LiftTrial> {
     run(candidate, pair, panels, |_, _| true)
 }
 
 /// The same as long as `goes_on` says so after a load, by its index.
 fn run(
-    candidate: &Candidate,
-    pair: &Pair,
+    candidate: &Lifter,
+    pair: &ControlPair,
     panels: usize,
     goes_on: impl Fn(usize, &LoadResult) -> bool,
-) -> Option<Trial> {
+) -> Option<LiftTrial> {
     let body = Arc::new(Body::humanoid(candidate.profile).ok()?);
     let clip = Arc::new(lift_to(&body, candidate.end));
     let strength = Strength::at_percentile(&body, candidate.percentile);
@@ -246,7 +246,7 @@ fn run(
             break;
         }
     }
-    Some(Trial {
+    Some(LiftTrial {
         candidate: candidate.clone(),
         need,
         results,
@@ -254,13 +254,13 @@ fn run(
 }
 
 /// Everyone who is searched.
-pub fn candidates() -> impl Iterator<Item = Candidate> {
+pub fn candidates() -> impl Iterator<Item = Lifter> {
     let people = [Sex::Female, Sex::Male].into_iter().flat_map(|sex| {
         AGES.into_iter()
             .flat_map(move |age| PERCENTILES.map(|p| (Profile::ordinary(sex, age), p)))
     });
     people.flat_map(|(profile, percentile)| {
-        ENDS.map(|end| Candidate {
+        ENDS.map(|end| Lifter {
             profile,
             percentile,
             end,
@@ -270,16 +270,16 @@ pub fn candidates() -> impl Iterator<Item = Candidate> {
 
 /// The candidates who are worth a run, the best first. Who does not track the light load, or does not stand and help
 /// with the middle one, is not given the next. On as many threads as there are cores; the result does not depend on it.
-pub fn search(pair: &Pair) -> Vec<Trial> {
-    let all: Vec<Candidate> = candidates().collect();
+pub fn search(pair: &ControlPair) -> Vec<LiftTrial> {
+    let all: Vec<Lifter> = candidates().collect();
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let goes_on = |k: usize, r: &LoadResult| match k {
         0 => r.is_tracked(),
         1 => r.is_helped(),
         _ => true,
     };
-    let one = |c: &Candidate| run(c, pair, 0, goes_on);
-    let mut found: Vec<Trial> = std::thread::scope(|scope| {
+    let one = |c: &Lifter| run(c, pair, 0, goes_on);
+    let mut found: Vec<LiftTrial> = std::thread::scope(|scope| {
         let parts: Vec<_> = (all.chunks(all.len().div_ceil(threads)))
             .map(|part| scope.spawn(move || part.iter().filter_map(one).collect::<Vec<_>>()))
             .collect();

@@ -1,6 +1,6 @@
 //! Pushes of a standing figure, in units of what the linear inverted pendulum can stop.
 
-use super::{Pair, Record, push_at_chest, record};
+use super::{ControlPair, ExperimentRecord, push_at_chest, record};
 use sinew_physics::body::{Body, State};
 use sinew_physics::figure::StrengthScale;
 use sinew_physics::math::Vec3;
@@ -22,11 +22,17 @@ pub struct Push {
     /// What the pendulum can stop, N·s: m ω d with ω² = g/h and d the way of the centre of mass to the edge.
     pub bound: f64,
     /// The run.
-    pub record: Record,
+    pub record: ExperimentRecord,
 }
 
 /// Pushes the chest with `share` of the pendulum's bound. The feet stay where they are: no protective step.
-pub fn push(body: &Arc<Body>, pair: &Pair, direction: Vec3, share: f64, panels: usize) -> Push {
+pub fn push(
+    body: &Arc<Body>,
+    pair: &ControlPair,
+    direction: Vec3,
+    share: f64,
+    panels: usize,
+) -> Push {
     let state = State::at_rest(at_ease(body));
     let mut pair = pair.clone();
     pair.params.protective_steps = false;
@@ -53,7 +59,7 @@ pub fn push(body: &Arc<Body>, pair: &Pair, direction: Vec3, share: f64, panels: 
 }
 
 /// Largest share of the bound that is recovered without a larger one below it that is not, in steps of 5 %, up to 1.5.
-pub fn recovered(body: &Arc<Body>, pair: &Pair, direction: Vec3) -> Push {
+pub fn recovered(body: &Arc<Body>, pair: &ControlPair, direction: Vec3) -> Push {
     let mut best = push(body, pair, direction, 0.0, 0);
     for n in 1..=30 {
         let next = push(body, pair, direction, 0.05 * f64::from(n), 0);

@@ -1,13 +1,13 @@
 //! The second hand: a lift with one hand, of loads that are too heavy for one arm.
 
-use super::{Pair, Record, record};
+use super::{ControlPair, ExperimentRecord, record};
 use sinew_physics::body::topology::{DOF_NAMES, R_HAND};
 use sinew_physics::body::{Body, SegmentId};
 use sinew_physics::dynamics::Kinematics;
 use sinew_physics::figure::{FigureEvent, HeldLoad, Perturbation, SecondHand, StrengthScale};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::builtin::{LIFT_GRASP, builtin};
-use sinew_physics::world::{ClipPlayback, Drive, Figure};
+use sinew_physics::world::{ClipPlayback, Figure, MotionSource};
 use std::sync::Arc;
 
 /// Loads of the ladder, kg.
@@ -21,7 +21,7 @@ const JUDGED: f64 = 1.0;
 #[derive(Clone, Debug, Default)]
 pub struct Rung {
     /// The run.
-    pub record: Record,
+    pub record: ExperimentRecord,
     /// When the other hand took hold, after which it held to the end: time (s), and the share of its strength that the
     /// arm needs alone and with help.
     pub shared: Option<(f64, [f64; 2])>,
@@ -56,7 +56,7 @@ fn height(figure: &Figure, kin: &mut Kinematics, desired: bool, at: (SegmentId, 
 /// Lifts `mass` kg with the right hand; the left one helps as `when` says.
 pub fn rung(
     body: &Arc<Body>,
-    pair: &Pair,
+    pair: &ControlPair,
     mass: f64,
     when: Option<SecondHand>,
     panels: usize,
@@ -80,7 +80,7 @@ pub fn rung(
     };
     world.perturb(key, load).expect("loads are valid");
     let figure = world.figure_mut(key).expect("the figure was just added");
-    figure.set_drive(Drive::Clip(ClipPlayback::new(clip, 0.0)));
+    figure.set_drive(MotionSource::Clip(ClipPlayback::new(clip, 0.0)));
     let mut out = Rung::default();
     let mut kin = Kinematics::default();
     let (mut below, mut count) = (0.0, 0.0);

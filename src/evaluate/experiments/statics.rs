@@ -5,13 +5,13 @@ use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
 use sinew_physics::body::{Body, Links, Posture, State};
 use sinew_physics::dynamics::Terms;
 use sinew_physics::figure::StrengthScale;
-use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::motion::tasks::grip;
 use sinew_physics::motion::GRAVITY;
 use sinew_physics::strength::Strength;
 
 /// A posture that is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Hold {
+pub enum HeldPosture {
     /// Right arm level and straight, forwards; shoulder flexion decides.
     StraightArm,
     /// Right upper arm hanging, forearm level; elbow flexion decides.
@@ -20,10 +20,10 @@ pub enum Hold {
 
 /// Share of strength that the deciding joint needs with the empty hand, and the load in the hand that takes all of it,
 /// kg.
-pub fn hold(body: &Body, what: Hold) -> (f64, f64) {
+pub fn hold(body: &Body, what: HeldPosture) -> (f64, f64) {
     let name = match what {
-        Hold::StraightArm => "r_shoulder_flexion",
-        Hold::Curl => "r_elbow_flexion",
+        HeldPosture::StraightArm => "r_shoulder_flexion",
+        HeldPosture::Curl => "r_elbow_flexion",
     };
     let dof = DOF_NAMES
         .iter()

@@ -1,6 +1,6 @@
 //! Hands on tables and walls (figure 3 of the paper), and two figures that run into each other.
 
-use super::{Pair, Record, push_at_chest, record};
+use super::{ControlPair, ExperimentRecord, push_at_chest, record};
 use crate::pose::segment_poses;
 use crate::strip::Thing;
 use sinew_physics::body::angles::{anatomical_angles, set_anatomical_angles};
@@ -12,7 +12,7 @@ use sinew_physics::math::curve::ramp;
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::Clip;
 use sinew_physics::motion::builtin::at_ease;
-use sinew_physics::world::{ClipPlayback, Drive};
+use sinew_physics::world::{ClipPlayback, MotionSource};
 use std::sync::Arc;
 
 /// What the hand leans on.
@@ -37,7 +37,7 @@ const DURATION: f64 = 4.0;
 
 /// A posture that leans: forward from the ankles and in the hips, rad; right shoulder and elbow flexion, rad.
 #[derive(Clone, Copy, Debug)]
-struct Lean {
+struct LeanPosture {
     ankles: f64,
     hips: f64,
     shoulder: f64,
@@ -45,14 +45,14 @@ struct Lean {
 }
 
 /// Bent over the table, the arm slanting down to it: the centre of mass is in front of the toes.
-const TO_TABLE: Lean = Lean {
+const TO_TABLE: LeanPosture = LeanPosture {
     ankles: 0.14,
     hips: 0.15,
     shoulder: 0.75,
     elbow: 0.05,
 };
 /// Straight towards the wall, the arm stretched to it.
-const TO_WALL: Lean = Lean {
+const TO_WALL: LeanPosture = LeanPosture {
     ankles: 0.16,
     hips: 0.0,
     shoulder: 1.55,
@@ -61,9 +61,9 @@ const TO_WALL: Lean = Lean {
 
 /// A figure that leans on its right hand.
 #[derive(Clone, Debug)]
-pub struct Support {
+pub struct HandSupport {
     /// The run.
-    pub record: Record,
+    pub record: ExperimentRecord,
     /// Mean force of table or wall on the hand over the last second, world axes, N.
     pub force: Vec3,
     /// Mean vertical force of the floor over the last second, N.
@@ -92,7 +92,7 @@ fn dof(name: &str) -> usize {
 }
 
 /// Standing at ease, leaning, the right arm put forward; feet flat where they were.
-fn leaning(body: &Body, lean: Lean) -> Posture {
+fn leaning(body: &Body, lean: LeanPosture) -> Posture {
     let ease = at_ease(body);
     let mut angles = anatomical_angles(&ease);
     for side in ["l", "r"] {
@@ -161,7 +161,13 @@ fn fixed(half: Vec3, position: Vec3, rotation: Quat) -> ObstacleSetup {
 
 /// Leans on a table or a wall with the right hand, with `arm` times the strength in that arm. The feet stay where they
 /// are: no protective step.
-pub fn hand_support(body: &Arc<Body>, pair: &Pair, what: Prop, arm: f64, panels: usize) -> Support {
+pub fn hand_support(
+    body: &Arc<Body>,
+    pair: &ControlPair,
+    what: Prop,
+    arm: f64,
+    panels: usize,
+) -> HandSupport {
     let arms = if what == Prop::Wall {
         TO_WALL
     } else {
@@ -225,7 +231,7 @@ pub fn hand_support(body: &Arc<Body>, pair: &Pair, what: Prop, arm: f64, panels:
         let things = w.obstacles().map(|(_, o)| Thing::obstacle(o.setup()));
         (Vec::new(), things.collect())
     });
-    Support {
+    HandSupport {
         record,
         force: force * (1.0 / ticks),
         floor: floor / ticks,
@@ -253,7 +259,7 @@ fn halves(mut all: Vec<(f64, f64)>) -> [(f64, f64); 2] {
 #[derive(Clone, Debug)]
 pub struct Bump {
     /// The run of the one that is pushed; the other is drawn with it.
-    pub record: Record,
+    pub record: ExperimentRecord,
     /// Largest force between them in a tick, N, and when, s.
     pub most: (f64, f64),
     /// What they gave each other, N·s.
@@ -273,7 +279,7 @@ const APART: f64 = 0.75;
 const PUSH: (f64, f64) = (0.4, 0.2);
 
 /// Face to face; the left one is pushed in the back with `impulse` N·s.
-pub fn bump(body: &Arc<Body>, pair: &Pair, impulse: f64, panels: usize) -> Bump {
+pub fn bump(body: &Arc<Body>, pair: &ControlPair, impulse: f64, panels: usize) -> Bump {
     let at = |x: f64, yaw: f64| {
         let mut posture = at_ease(body);
         let turn = Quat::from_axis_angle(Vec3::Z, yaw);
@@ -336,9 +342,9 @@ pub fn bump(body: &Arc<Body>, pair: &Pair, impulse: f64, panels: usize) -> Bump 
 
 /// An arm that is raised against something.
 #[derive(Clone, Debug)]
-pub struct Reach {
+pub struct ArmReach {
     /// The run of the one who raises the arm.
-    pub record: Record,
+    pub record: ExperimentRecord,
     /// Time of the first touch, s; the share of the time after it in which the arm touches.
     pub met: Option<(f64, f64)>,
     /// Mean force on the arm over the last second, N, and the largest of any tick.
@@ -355,7 +361,7 @@ pub struct Reach {
 
 /// What the arm is raised against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Against {
+pub enum ReachObstacle {
     /// A wall, nearer than the arm is long.
     Wall,
     /// Somebody who stands there.
@@ -369,7 +375,13 @@ const WATCHED: f64 = 4.0;
 const TOO_NEAR: f64 = 0.06;
 
 /// Stands and raises the right arm against something, with `arm` times its strength.
-pub fn reach(body: &Arc<Body>, pair: &Pair, against: Against, arm: f64, panels: usize) -> Reach {
+pub fn reach(
+    body: &Arc<Body>,
+    pair: &ControlPair,
+    against: ReachObstacle,
+    arm: f64,
+    panels: usize,
+) -> ArmReach {
     const RATE: f64 = 60.0;
     let ease = at_ease(body);
     let raised = |share: f64| {
@@ -399,14 +411,14 @@ pub fn reach(body: &Arc<Body>, pair: &Pair, against: Against, arm: f64, panels: 
     pair.params.protective_steps = false;
     let (mut world, key) = pair.world(body, State::at_rest(ease), strength);
     let figure = world.figure_mut(key).expect("it was just added");
-    figure.set_drive(Drive::Clip(ClipPlayback::new(Arc::new(clip), 0.0)));
+    figure.set_drive(MotionSource::Clip(ClipPlayback::new(Arc::new(clip), 0.0)));
     // How far the hand would come.
     let hand = segment_poses(&body.joint_offset, &raised(1.0))[R_HAND.index()];
     let mesh = &body.segment(R_HAND).mesh;
     let tip = (mesh.vertices.iter().map(|p| hand.point(*p).x)).fold(f64::NEG_INFINITY, f64::max);
     let mut other = None;
     match against {
-        Against::Wall => {
+        ReachObstacle::Wall => {
             let half = Vec3 {
                 x: 0.05,
                 y: 0.6,
@@ -420,7 +432,7 @@ pub fn reach(body: &Arc<Body>, pair: &Pair, against: Against, arm: f64, panels: 
             let wall = fixed(half, position, Quat::identity());
             world.add_obstacle(wall).expect("walls are valid");
         }
-        Against::Other => {
+        ReachObstacle::Other => {
             // Face to face, a little to the side, so that the hand meets the middle of the chest.
             let mut posture = ease;
             let turn = Quat::from_axis_angle(Vec3::Z, std::f64::consts::PI);
@@ -478,7 +490,7 @@ pub fn reach(body: &Arc<Body>, pair: &Pair, against: Against, arm: f64, panels: 
         }
         (Vec::new(), things)
     });
-    Reach {
+    ArmReach {
         met: met.map(|t| (t, touching / f64::max(after, 1.0))),
         force: (last / ticks, most),
         overlap,

@@ -8,7 +8,7 @@ use sinew_physics::body::{Body, SegmentId};
 use sinew_physics::figure::{ContactPoint, ControllerKind, Perturbation, StrengthScale};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::Clip;
-use sinew_physics::world::{ClipPlayback, Drive, FigureSetup, World, WorldParams};
+use sinew_physics::world::{ClipPlayback, FigureSetup, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
 /// A push lasts this long, s.
@@ -58,7 +58,7 @@ impl Walker {
 
 /// What is walked.
 #[derive(Clone, Debug)]
-pub struct Walk {
+pub struct WalkTrial {
     /// The motion.
     pub clip: Arc<Clip>,
     /// From its end it goes on at its beginning.
@@ -69,7 +69,7 @@ pub struct Walk {
     pub push: Option<(f64, Vec3)>,
 }
 
-impl Walk {
+impl WalkTrial {
     /// Once, from standing to standing, with a second to stand afterwards.
     pub fn once(clip: &Arc<Clip>) -> Self {
         Self {
@@ -112,7 +112,7 @@ pub struct Walked {
 }
 
 impl Walked {
-    /// True if it did not fall.
+    /// Whether it did not fall.
     pub fn stood(&self) -> bool {
         self.fell_s.is_none()
     }
@@ -120,14 +120,14 @@ impl Walked {
 
 /// Sliding of one foot.
 #[derive(Clone, Debug, Default)]
-pub struct Stance {
+pub struct FootSliding {
     before: Vec<ContactPoint>,
     way: f64,
     /// What the foot carries, N.
     load: f64,
 }
 
-impl Stance {
+impl FootSliding {
     /// What the foot carried in the last tick, N.
     pub fn load(&self) -> f64 {
         self.load
@@ -158,7 +158,7 @@ impl Stance {
 }
 
 /// Walks until the end or a fall.
-pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
+pub fn walk(walker: &Walker, walk: &WalkTrial) -> Walked {
     let clip = &walk.clip;
     let lead = clip.lead_in();
     let start = clip.sample(-lead);
@@ -183,7 +183,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
         })
         .expect("experiments have valid figures");
     let figure = world.figure_mut(key).expect("it was just added");
-    figure.set_drive(Drive::Clip(ClipPlayback {
+    figure.set_drive(MotionSource::Clip(ClipPlayback {
         speed: walker.speed,
         looped: walk.looped,
         ..ClipPlayback::new(Arc::clone(clip), lead / walker.speed)
@@ -196,7 +196,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
     let mut metrics = Metrics::new(walker.rate_hz, &start.posture);
     let (mut square, mut largest, mut peak) = (0.0, 0.0f64, [0.0f64; 2]);
     let (mut slip, mut steps, mut late) = (0.0f64, 0, 0.0f64);
-    let mut stances = [Stance::default(), Stance::default()];
+    let mut stances = [FootSliding::default(), FootSliding::default()];
     let ticks = (walk.seconds * walker.rate_hz).round() as u64;
     let (mut seen, mut fell_s) = (0u32, None);
     for _ in 0..ticks {
@@ -237,7 +237,7 @@ pub fn walk(walker: &Walker, walk: &Walk) -> Walked {
     }
 }
 
-fn perturbations(walker: &Walker, walk: &Walk) -> Vec<Perturbation> {
+fn perturbations(walker: &Walker, walk: &WalkTrial) -> Vec<Perturbation> {
     let mut out = match walker.load {
         None => Vec::new(),
         Some((mass, hands)) => carried(&walker.body, mass, hands == Hands::Both),

@@ -18,7 +18,7 @@ impl Rgba {
 /// Where a text is anchored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
-pub enum Anchor {
+pub enum TextAnchor {
     Start,
     Middle,
 }
@@ -26,7 +26,7 @@ pub enum Anchor {
 /// One shape. Later shapes cover earlier ones, except that solids cover each other by depth.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
-pub enum Item {
+pub enum DrawnItem {
     /// Filled polygon, optionally outlined (colour, width).
     Polygon {
         points: Vec<[f64; 2]>,
@@ -51,7 +51,7 @@ pub enum Item {
     Text {
         at: [f64; 2],
         size: f64,
-        anchor: Anchor,
+        anchor: TextAnchor,
         colour: Rgba,
         text: String,
     },
@@ -76,10 +76,10 @@ pub struct Drawing {
     /// Background.
     pub background: Rgba,
     /// Shapes, back to front.
-    pub items: Vec<Item>,
+    pub items: Vec<DrawnItem>,
 }
 
-impl Item {
+impl DrawnItem {
     /// Lower by `by` pixels.
     fn lower(&mut self, by: f64) {
         match self {

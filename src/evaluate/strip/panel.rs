@@ -1,7 +1,8 @@
 //! Composes a strip: camera, ground tile, shadow, ghost, body and marks of every panel, then the legend.
 
-use super::drawing::{Anchor, Drawing, Item, Rgba};
-use super::{Frame, Kind, StripOptions, Thing, View};
+use super::drawing::{Drawing, DrawnItem, Rgba, TextAnchor};
+use super::frame::{StripFrame, StripOptions, View};
+use super::things::{Thing, ThingKind};
 use crate::pose::{SegmentPose, segment_poses};
 use sinew_physics::body::topology::{DOF_COUNT, DOF_SEGMENT, SEGMENT_NAMES};
 use sinew_physics::body::{Body, Mesh, Posture, SEGMENT_COUNT};
@@ -86,14 +87,14 @@ impl Camera {
 }
 
 /// A panel: camera, its centre on the ground and where that is in the picture.
-struct Place {
+struct PanelPlace {
     camera: Camera,
     centre: Vec3,
     origin: [f64; 2],
     scale: f64,
 }
 
-impl Place {
+impl PanelPlace {
     fn to_screen(&self, p: Vec3) -> [f64; 3] {
         let d = p - self.centre;
         let (x, y, z) = (
@@ -194,7 +195,7 @@ impl Skin {
     }
 }
 
-pub(super) fn draw(body: &Body, frames: &[Frame], options: &StripOptions) -> Drawing {
+pub(super) fn draw(body: &Body, frames: &[StripFrame], options: &StripOptions) -> Drawing {
     let heading = frames.first().map_or(0.0, |f| {
         let forward = f.posture.root_rotation.rotate(Vec3::X);
         forward.y.atan2(forward.x)
@@ -214,7 +215,7 @@ pub(super) fn draw(body: &Body, frames: &[Frame], options: &StripOptions) -> Dra
     let mut items = Vec::new();
     let mut x = 16.0;
     for (frame, [left, right, _]) in frames.iter().zip(&extents) {
-        let place = Place {
+        let place = PanelPlace {
             camera,
             centre: ground_below(frame.posture.root_position),
             origin: [x + left * scale, ground_y],
@@ -237,10 +238,10 @@ pub(super) fn draw(body: &Body, frames: &[Frame], options: &StripOptions) -> Dra
     }
     let legend_y = label_y + 42.0;
     let legend_end = legend(&mut items, [20.0, legend_y]);
-    items.push(Item::Text {
+    items.push(DrawnItem::Text {
         at: [20.0, 30.0],
         size: 20.0,
-        anchor: Anchor::Start,
+        anchor: TextAnchor::Start,
         colour: INK,
         text: options.title.clone(),
     });
@@ -256,12 +257,12 @@ fn ground_below(p: Vec3) -> Vec3 {
     Vec3 { z: 0.0, ..p }
 }
 
-fn shows_ghost(frame: &Frame) -> bool {
+fn shows_ghost(frame: &StripFrame) -> bool {
     (frame.desired.root_position - frame.posture.root_position).norm() < GHOST_RANGE
 }
 
 /// How far a panel reaches to the left, to the right and up of its centre, m.
-fn extent(body: &Body, skins: &[Skin], frame: &Frame, camera: Camera) -> [f64; 3] {
+fn extent(body: &Body, skins: &[Skin], frame: &StripFrame, camera: Camera) -> [f64; 3] {
     let centre = ground_below(frame.posture.root_position);
     let mut out = [0.36, 0.36, 0.0f64];
     let mut reach = |p: Vec3, margin: f64| {
@@ -302,13 +303,13 @@ fn extent(body: &Body, skins: &[Skin], frame: &Frame, camera: Camera) -> [f64; 3
 /// How near a thing must be to be drawn, and how far a panel widens for it, m.
 fn reach_of(thing: &Thing) -> (f64, f64) {
     match thing.kind {
-        Kind::Obstacle => (THING_RANGE, THING_WIDTH),
-        Kind::Other(_) => (OTHER_RANGE, OTHER_WIDTH),
+        ThingKind::Obstacle => (THING_RANGE, THING_WIDTH),
+        ThingKind::Other(_) => (OTHER_RANGE, OTHER_WIDTH),
     }
 }
 
 /// Things near the figure.
-fn near(frame: &Frame) -> impl Iterator<Item = &Thing> {
+fn near(frame: &StripFrame) -> impl Iterator<Item = &Thing> {
     let at = frame.posture.root_position;
     frame.things.iter().filter(move |t| {
         let (range, _) = reach_of(t);
@@ -318,15 +319,15 @@ fn near(frame: &Frame) -> impl Iterator<Item = &Thing> {
 }
 
 /// Those in front of the figure, or those behind it.
-fn things(items: &mut Vec<Item>, frame: &Frame, place: &Place, front: bool) {
+fn things(items: &mut Vec<DrawnItem>, frame: &StripFrame, place: &PanelPlace, front: bool) {
     for t in near(frame) {
         let middle = t.mesh.vertices.iter().fold(Vec3::zero(), |m, v| m + *v)
             * (1.0 / t.mesh.vertices.len().max(1) as f64);
         let d = t.pose.point(middle) - frame.posture.root_position;
         if (d.dot(place.camera.near) > 0.0) == front {
             let colour = match t.kind {
-                Kind::Obstacle => OBSTACLE,
-                Kind::Other(_) => OTHER,
+                ThingKind::Obstacle => OBSTACLE,
+                ThingKind::Other(_) => OTHER,
             };
             let skin = Skin::new(t.mesh.clone());
             items.push(solid(&skin, &t.pose, colour, place));
@@ -335,11 +336,11 @@ fn things(items: &mut Vec<Item>, frame: &Frame, place: &Place, front: bool) {
 }
 
 fn panel(
-    items: &mut Vec<Item>,
+    items: &mut Vec<DrawnItem>,
     body: &Body,
     skins: &[Skin],
-    frame: &Frame,
-    place: &Place,
+    frame: &StripFrame,
+    place: &PanelPlace,
     sides: [f64; 2],
 ) {
     let poses = segment_poses(&body.joint_offset, &frame.posture);
@@ -351,7 +352,7 @@ fn panel(
             .iter()
             .map(|v| place.flat(ground_below(pose.point(*v))))
             .collect();
-        items.push(Item::Polygon {
+        items.push(DrawnItem::Polygon {
             points: hull(&shadow),
             fill: SHADOW,
             stroke: None,
@@ -369,7 +370,7 @@ fn panel(
                 })
             })
             .collect();
-        items.push(Item::Polygon {
+        items.push(DrawnItem::Polygon {
             points,
             fill: FORCE.alpha(46),
             stroke: Some((FORCE.alpha(150), 1.2)),
@@ -392,7 +393,7 @@ fn panel(
 }
 
 /// The ground under one panel with lines every half metre of the world.
-fn tile(items: &mut Vec<Item>, place: &Place, sides: [f64; 2]) {
+fn tile(items: &mut Vec<DrawnItem>, place: &PanelPlace, sides: [f64; 2]) {
     let right = place.camera.right;
     let towards = Vec3 {
         x: right.y,
@@ -401,7 +402,7 @@ fn tile(items: &mut Vec<Item>, place: &Place, sides: [f64; 2]) {
     }; // horizontal, to the viewer
     let at = |x: f64, y: f64| place.flat(place.centre + right * x + towards * y);
     let depth = [-TILE_DEPTH, TILE_DEPTH];
-    items.push(Item::Polygon {
+    items.push(DrawnItem::Polygon {
         points: vec![
             at(sides[0], depth[0]),
             at(sides[1], depth[0]),
@@ -436,7 +437,7 @@ fn tile(items: &mut Vec<Item>, place: &Place, sides: [f64; 2]) {
             }
             if from < to {
                 let p = |u: f64| at(start[0] + u * step[0], start[1] + u * step[1]);
-                items.push(Item::Line {
+                items.push(DrawnItem::Line {
                     from: p(from),
                     to: p(to),
                     width: 1.0,
@@ -448,7 +449,13 @@ fn tile(items: &mut Vec<Item>, place: &Place, sides: [f64; 2]) {
 }
 
 /// The desired posture as one pale silhouette.
-fn ghost(items: &mut Vec<Item>, body: &Body, skins: &[Skin], desired: &Posture, place: &Place) {
+fn ghost(
+    items: &mut Vec<DrawnItem>,
+    body: &Body,
+    skins: &[Skin],
+    desired: &Posture,
+    place: &PanelPlace,
+) {
     let poses = segment_poses(&body.joint_offset, desired);
     for (pose, skin) in poses.iter().zip(skins) {
         let flat: Vec<[f64; 2]> = skin
@@ -457,7 +464,7 @@ fn ghost(items: &mut Vec<Item>, body: &Body, skins: &[Skin], desired: &Posture, 
             .iter()
             .map(|v| place.flat(pose.point(*v)))
             .collect();
-        items.push(Item::Polygon {
+        items.push(DrawnItem::Polygon {
             points: hull(&flat),
             fill: GHOST,
             stroke: Some((GHOST, 2.5)),
@@ -473,7 +480,7 @@ fn segment_colour(s: usize) -> Rgba {
     }
 }
 
-fn solid(skin: &Skin, pose: &SegmentPose, colour: Rgba, place: &Place) -> Item {
+fn solid(skin: &Skin, pose: &SegmentPose, colour: Rgba, place: &PanelPlace) -> DrawnItem {
     let Camera { right, up, near } = place.camera;
     let to_light = (right * -0.45 + up * 0.6 + near * 0.66).normalized_or(Vec3::Z);
     let vertices: Vec<[f64; 3]> = skin
@@ -493,7 +500,7 @@ fn solid(skin: &Skin, pose: &SegmentPose, colour: Rgba, place: &Place) -> Item {
             (0.56 + 0.1 * n.z + 0.5 * n.dot(to_light).max(0.0)) * (0.66 + 0.34 * rim)
         })
         .collect();
-    Item::Solid {
+    DrawnItem::Solid {
         outline: hull(&flat),
         vertices,
         light,
@@ -504,11 +511,11 @@ fn solid(skin: &Skin, pose: &SegmentPose, colour: Rgba, place: &Place) -> Item {
 
 /// Forces, centre of mass, zero-moment point, and joints near the limit of their strength.
 fn marks(
-    items: &mut Vec<Item>,
+    items: &mut Vec<DrawnItem>,
     body: &Body,
-    frame: &Frame,
+    frame: &StripFrame,
     poses: &[SegmentPose; SEGMENT_COUNT],
-    place: &Place,
+    place: &PanelPlace,
 ) {
     let weight = body.profile.mass * GRAVITY;
     for (point, force) in frame.contact {
@@ -520,7 +527,7 @@ fn marks(
         }
     }
     let com = place.flat(frame.com);
-    items.push(Item::Line {
+    items.push(DrawnItem::Line {
         from: com,
         to: place.flat(ground_below(frame.com)),
         width: 1.0,
@@ -545,8 +552,8 @@ fn marks(
     }
 }
 
-fn com_mark(at: [f64; 2]) -> Item {
-    Item::Circle {
+fn com_mark(at: [f64; 2]) -> DrawnItem {
+    DrawnItem::Circle {
         centre: at,
         radius: 4.5,
         fill: Rgba::hex(0xff_ffff),
@@ -554,10 +561,10 @@ fn com_mark(at: [f64; 2]) -> Item {
     }
 }
 
-fn cross(items: &mut Vec<Item>, at: [f64; 2]) {
+fn cross(items: &mut Vec<DrawnItem>, at: [f64; 2]) {
     for (dx, dy) in [(4.0, 4.0), (4.0, -4.0)] {
         let (from, to) = ([at[0] - dx, at[1] - dy], [at[0] + dx, at[1] + dy]);
-        items.push(Item::Line {
+        items.push(DrawnItem::Line {
             from,
             to,
             width: 2.4,
@@ -566,9 +573,9 @@ fn cross(items: &mut Vec<Item>, at: [f64; 2]) {
     }
 }
 
-fn ring(at: [f64; 2], at_limit: bool) -> Item {
+fn ring(at: [f64; 2], at_limit: bool) -> DrawnItem {
     let colour = if at_limit { LIMIT } else { NEAR_LIMIT };
-    Item::Circle {
+    DrawnItem::Circle {
         centre: at,
         radius: 6.5,
         fill: colour.alpha(0),
@@ -576,20 +583,20 @@ fn ring(at: [f64; 2], at_limit: bool) -> Item {
     }
 }
 
-fn arrow(items: &mut Vec<Item>, from: [f64; 2], to: [f64; 2]) {
+fn arrow(items: &mut Vec<DrawnItem>, from: [f64; 2], to: [f64; 2]) {
     let d = [to[0] - from[0], to[1] - from[1]];
     let n = d[0].hypot(d[1]).max(1e-9);
     let u = [d[0] / n, d[1] / n];
     let head = n.min(9.0);
     let base = [to[0] - u[0] * head, to[1] - u[1] * head];
-    items.push(Item::Line {
+    items.push(DrawnItem::Line {
         from,
         to: base,
         width: 2.6,
         colour: FORCE,
     });
     let side = [-u[1] * head * 0.42, u[0] * head * 0.42];
-    items.push(Item::Polygon {
+    items.push(DrawnItem::Polygon {
         points: vec![
             to,
             [base[0] + side[0], base[1] + side[1]],
@@ -600,7 +607,7 @@ fn arrow(items: &mut Vec<Item>, from: [f64; 2], to: [f64; 2]) {
     });
 }
 
-fn label(items: &mut Vec<Item>, frame: &Frame, at: [f64; 2]) {
+fn label(items: &mut Vec<DrawnItem>, frame: &StripFrame, at: [f64; 2]) {
     let (text, colour) = if frame.frozen {
         (format!("{:.2} s, frozen", frame.time_s), LIMIT)
     } else if frame.fallen {
@@ -608,20 +615,20 @@ fn label(items: &mut Vec<Item>, frame: &Frame, at: [f64; 2]) {
     } else {
         (format!("{:.2} s", frame.time_s), INK)
     };
-    items.push(Item::Text {
+    items.push(DrawnItem::Text {
         at,
         size: 16.0,
-        anchor: Anchor::Middle,
+        anchor: TextAnchor::Middle,
         colour,
         text,
     });
 }
 
 /// Explains the marks; returns where it ends.
-fn legend(items: &mut Vec<Item>, at: [f64; 2]) -> f64 {
+fn legend(items: &mut Vec<DrawnItem>, at: [f64; 2]) -> f64 {
     let mut x = at[0];
     let y = at[1] - 4.0;
-    let entries: [(&str, &dyn Fn(&mut Vec<Item>, f64)); 8] = [
+    let entries: [(&str, &dyn Fn(&mut Vec<DrawnItem>, f64)); 8] = [
         ("left", &|i, x| i.push(swatch(x, y, LEFT))),
         ("right", &|i, x| i.push(swatch(x, y, RIGHT))),
         ("desired", &|i, x| i.push(swatch(x, y, GHOST))),
@@ -637,10 +644,10 @@ fn legend(items: &mut Vec<Item>, at: [f64; 2]) -> f64 {
     ];
     for (text, mark) in entries {
         mark(items, x + 7.0);
-        items.push(Item::Text {
+        items.push(DrawnItem::Text {
             at: [x + 20.0, at[1]],
             size: 13.0,
-            anchor: Anchor::Start,
+            anchor: TextAnchor::Start,
             colour: FAINT,
             text: text.to_owned(),
         });
@@ -650,8 +657,8 @@ fn legend(items: &mut Vec<Item>, at: [f64; 2]) -> f64 {
     x
 }
 
-fn swatch(x: f64, y: f64, colour: Rgba) -> Item {
-    Item::Circle {
+fn swatch(x: f64, y: f64, colour: Rgba) -> DrawnItem {
+    DrawnItem::Circle {
         centre: [x, y],
         radius: 6.0,
         fill: colour,

@@ -1,6 +1,6 @@
 //! Paints a drawing into pixels and writes PNG.
 
-use super::drawing::{Anchor, Drawing, Item, Rgba};
+use super::drawing::{Drawing, DrawnItem, Rgba, TextAnchor};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 use tiny_skia::{
     Color, FillRule, FilterQuality, GradientStop, LineCap, LineJoin, LinearGradient, Paint, Path,
@@ -23,10 +23,10 @@ pub fn png(drawing: &Drawing) -> Result<Vec<u8>, png::EncodingError> {
     canvas.fill(color(drawing.background, 1.0));
     for run in drawing
         .items
-        .chunk_by(|a, b| matches!((a, b), (Item::Solid { .. }, Item::Solid { .. })))
+        .chunk_by(|a, b| matches!((a, b), (DrawnItem::Solid { .. }, DrawnItem::Solid { .. })))
     {
         match &run[0] {
-            Item::Solid { .. } => paint_solids(&mut canvas, run),
+            DrawnItem::Solid { .. } => paint_solids(&mut canvas, run),
             item => paint_flat(&mut canvas, item),
         }
     }
@@ -127,20 +127,20 @@ fn stroke(canvas: &mut Pixmap, path: &Path, (colour, width): (Rgba, f64)) {
     canvas.stroke_path(path, &paint, &stroke, Transform::identity(), None);
 }
 
-fn paint_flat(canvas: &mut Pixmap, item: &Item) {
+fn paint_flat(canvas: &mut Pixmap, item: &DrawnItem) {
     let (path, filled, outline) = match item {
-        Item::Polygon {
+        DrawnItem::Polygon {
             points,
             fill,
             stroke,
         } => (path(points.iter().copied(), true), Some(*fill), *stroke),
-        Item::Line {
+        DrawnItem::Line {
             from,
             to,
             width,
             colour,
         } => (path([*from, *to], false), None, Some((*colour, *width))),
-        Item::Circle {
+        DrawnItem::Circle {
             centre,
             radius,
             fill,
@@ -150,14 +150,14 @@ fn paint_flat(canvas: &mut Pixmap, item: &Item) {
             Some(*fill),
             *stroke,
         ),
-        Item::Text {
+        DrawnItem::Text {
             at,
             size,
             anchor,
             colour,
             text,
         } => return write(canvas, text, *at, *size, *anchor, *colour),
-        Item::Solid { .. } => return,
+        DrawnItem::Solid { .. } => return,
     };
     let Some(path) = path else { return };
     if let Some(colour) = filled {
@@ -169,10 +169,10 @@ fn paint_flat(canvas: &mut Pixmap, item: &Item) {
 }
 
 /// Paints solids that cover each other by depth: their triangles that face the viewer, the farthest first.
-fn paint_solids(canvas: &mut Pixmap, solids: &[Item]) {
+fn paint_solids(canvas: &mut Pixmap, solids: &[DrawnItem]) {
     let mut triangles = Vec::new();
     for item in solids {
-        let Item::Solid {
+        let DrawnItem::Solid {
             vertices,
             light,
             triangles: corners,
@@ -227,7 +227,14 @@ fn paint_solids(canvas: &mut Pixmap, solids: &[Item]) {
 }
 
 /// Writes one line of text on the base line `at`, in the glyphs that are nearest to `size`.
-fn write(canvas: &mut Pixmap, text: &str, at: [f64; 2], size: f64, anchor: Anchor, colour: Rgba) {
+fn write(
+    canvas: &mut Pixmap,
+    text: &str,
+    at: [f64; 2],
+    size: f64,
+    anchor: TextAnchor,
+    colour: Rgba,
+) {
     let height = if size < 14.0 {
         RasterHeight::Size16
     } else {
@@ -235,8 +242,8 @@ fn write(canvas: &mut Pixmap, text: &str, at: [f64; 2], size: f64, anchor: Ancho
     };
     let advance = get_raster_width(FontWeight::Regular, height) as f64;
     let left = match anchor {
-        Anchor::Start => at[0],
-        Anchor::Middle => at[0] - 0.5 * advance * text.chars().count() as f64,
+        TextAnchor::Start => at[0],
+        TextAnchor::Middle => at[0] - 0.5 * advance * text.chars().count() as f64,
     };
     let top = at[1] - ASCENT * height.val() as f64;
     for (k, c) in text.chars().enumerate() {

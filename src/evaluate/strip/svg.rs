@@ -1,6 +1,6 @@
 //! Writes a drawing as SVG.
 
-use super::drawing::{Anchor, Drawing, Item, Rgba};
+use super::drawing::{Drawing, DrawnItem, Rgba, TextAnchor};
 use ::svg::node::element::path::Data;
 use ::svg::node::element::{Circle, Path, Rectangle, Text};
 use ::svg::{Document, Node};
@@ -21,9 +21,9 @@ pub fn write(drawing: &Drawing) -> String {
     // Solids follow one another in the list; a flat picture shows the nearer ones last.
     for run in drawing
         .items
-        .chunk_by(|a, b| matches!((a, b), (Item::Solid { .. }, Item::Solid { .. })))
+        .chunk_by(|a, b| matches!((a, b), (DrawnItem::Solid { .. }, DrawnItem::Solid { .. })))
     {
-        let mut run: Vec<&Item> = run.iter().collect();
+        let mut run: Vec<&DrawnItem> = run.iter().collect();
         run.sort_by(|a, b| nearness(a).total_cmp(&nearness(b)));
         run.into_iter().for_each(|item| append(&mut out, item));
     }
@@ -31,23 +31,23 @@ pub fn write(drawing: &Drawing) -> String {
 }
 
 /// Mean nearness of a solid's vertices.
-fn nearness(item: &Item) -> f64 {
+fn nearness(item: &DrawnItem) -> f64 {
     match item {
-        Item::Solid { vertices, .. } if !vertices.is_empty() => {
+        DrawnItem::Solid { vertices, .. } if !vertices.is_empty() => {
             vertices.iter().map(|v| v[2]).sum::<f64>() / vertices.len() as f64
         }
         _ => 0.0,
     }
 }
 
-fn append(out: &mut Document, item: &Item) {
+fn append(out: &mut Document, item: &DrawnItem) {
     match item {
-        Item::Polygon {
+        DrawnItem::Polygon {
             points,
             fill: f,
             stroke: s,
         } => append_polygon(out, points, *f, *s),
-        Item::Line {
+        DrawnItem::Line {
             from,
             to,
             width,
@@ -58,7 +58,7 @@ fn append(out: &mut Document, item: &Item) {
             stroke(&mut line, *colour, *width);
             out.append(line);
         }
-        Item::Circle {
+        DrawnItem::Circle {
             centre,
             radius,
             fill: f,
@@ -75,7 +75,7 @@ fn append(out: &mut Document, item: &Item) {
             }
             out.append(circle);
         }
-        Item::Text {
+        DrawnItem::Text {
             at,
             size,
             anchor,
@@ -90,14 +90,14 @@ fn append(out: &mut Document, item: &Item) {
                 .set(
                     "text-anchor",
                     match anchor {
-                        Anchor::Start => "start",
-                        Anchor::Middle => "middle",
+                        TextAnchor::Start => "start",
+                        TextAnchor::Middle => "middle",
                     },
                 );
             fill(&mut line, *colour);
             out.append(line);
         }
-        Item::Solid {
+        DrawnItem::Solid {
             outline, colour, ..
         } => {
             let [r, g, b, _] = colour.0.map(|c| (f64::from(c) * 0.68) as u8);

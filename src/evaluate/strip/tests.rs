@@ -1,5 +1,7 @@
 use super::*;
 use sinew_physics::body::topology::L_UPPER_ARM;
+use sinew_physics::body::{DOF_COUNT, Posture, SEGMENT_COUNT};
+use sinew_physics::math::Vec3;
 
 #[test]
 fn panels_are_evenly_spaced_and_include_both_ends() {
@@ -9,14 +11,14 @@ fn panels_are_evenly_spaced_and_include_both_ends() {
     assert_eq!(evenly_spaced(0, 8), [0]);
 }
 
-fn frame(body: &Body) -> Frame {
+fn frame(body: &Body) -> StripFrame {
     let mut posture = Posture::default();
     posture.root_position.z = body.standing_root_height();
     let mut contact = [(Vec3::zero(), Vec3::zero()); SEGMENT_COUNT];
     contact[12] = (Vec3::zero(), Vec3::Z * 400.0);
     let mut utilisation = [0.0; DOF_COUNT];
     utilisation[10] = 1.0;
-    Frame {
+    StripFrame {
         time_s: 0.5,
         posture,
         desired: posture,
@@ -38,7 +40,7 @@ fn solids(drawing: &Drawing) -> Vec<&Vec<[f64; 3]>> {
         .items
         .iter()
         .filter_map(|item| match item {
-            Item::Solid { vertices, .. } => Some(vertices),
+            DrawnItem::Solid { vertices, .. } => Some(vertices),
             _ => None,
         })
         .collect()

@@ -15,7 +15,7 @@ const RINGS: u32 = 5;
 
 /// Whose surface it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ThingKind {
     /// Of an obstacle.
     Obstacle,
     /// Of a segment of another figure.
@@ -30,7 +30,7 @@ pub struct Thing {
     /// Its frame in the world.
     pub pose: SegmentPose,
     /// What it belongs to.
-    pub kind: Kind,
+    pub kind: ThingKind,
 }
 
 fn at(x: f64, y: f64, z: f64) -> Vec3 {
@@ -100,7 +100,7 @@ impl Thing {
                 position: o.position,
                 rotation: o.rotation,
             },
-            kind: Kind::Obstacle,
+            kind: ThingKind::Obstacle,
         }
     }
 
@@ -110,7 +110,7 @@ impl Thing {
         (0..SEGMENT_COUNT).map(move |s| Self {
             mesh: body.segments[s].mesh.clone(),
             pose: poses[s],
-            kind: Kind::Other(s),
+            kind: ThingKind::Other(s),
         })
     }
 }

@@ -2,38 +2,38 @@
 //! than noise.
 //!
 //! Without copies runs are deterministic: a verdict that turns is a change, and so is a measure that moves by more
-//! than its stated tolerance ([`Measure::least`], [`Measure::share`]), which covers how builds round. With copies the
-//! share that completes is compared by the 95 % interval of the difference of two shares, and measures by their
-//! medians: they differ if their 95 % intervals (notches) do not overlap and the tolerance is exceeded.
+//! than its stated tolerance ([`SurveyMeasure::least`], [`SurveyMeasure::share`]), which covers how builds round. With
+//! copies the share that completes is compared by the 95 % interval of the difference of two shares, and measures by
+//! their medians: they differ if their 95 % intervals (notches) do not overlap and the tolerance is exceeded.
 
-use super::outcome::{Better, MEASURES, Measure, Outcome};
+use super::outcome::{Better, MEASURES, SurveyMeasure, SurveyOutcome};
 use super::stats::{Quartiles, difference};
-use super::{Measured, Row};
+use super::{MeasuredClip, SurveyRow};
 use std::fmt::Write;
 
 /// Something that changed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Change {
+pub struct SurveyChange {
     /// The clip; empty for the survey as a whole.
     pub clip: String,
     /// What changed, from what to what.
     pub text: String,
-    /// True if it got worse.
+    /// Whether it got worse.
     pub worse: bool,
 }
 
 /// What a comparison found.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Comparison {
+pub struct SurveyComparison {
     /// Changes beyond noise, by clip in the order of the new survey, then of the survey as a whole.
-    pub changes: Vec<Change>,
+    pub changes: Vec<SurveyChange>,
     /// Clips that were not compared, and why.
     pub skipped: Vec<(String, &'static str)>,
     /// Clips that were compared.
     pub compared: usize,
 }
 
-impl Comparison {
+impl SurveyComparison {
     /// How many changes are for the worse.
     pub fn regressions(&self) -> usize {
         self.changes.iter().filter(|c| c.worse).count()
@@ -70,8 +70,8 @@ impl Comparison {
 }
 
 /// Compares two surveys; the caller has checked that their settings agree.
-pub fn compare(old: &[Row], new: &[Row]) -> Comparison {
-    let mut out = Comparison::default();
+pub fn compare(old: &[SurveyRow], new: &[SurveyRow]) -> SurveyComparison {
+    let mut out = SurveyComparison::default();
     let mut totals = [(0, 0); 2];
     for row in new {
         let Some(before) = old.iter().find(|o| o.clip == row.clip) else {
@@ -84,7 +84,7 @@ pub fn compare(old: &[Row], new: &[Row]) -> Comparison {
             continue;
         }
         let mut add = |text: String, worse: bool| {
-            out.changes.push(Change {
+            out.changes.push(SurveyChange {
                 clip: row.clip.clone(),
                 text,
                 worse,
@@ -109,7 +109,7 @@ pub fn compare(old: &[Row], new: &[Row]) -> Comparison {
     }
     for row in old {
         if !new.iter().any(|n| n.clip == row.clip) {
-            out.changes.push(Change {
+            out.changes.push(SurveyChange {
                 clip: row.clip.clone(),
                 text: "is missing in the new survey".to_owned(),
                 worse: true,
@@ -118,7 +118,7 @@ pub fn compare(old: &[Row], new: &[Row]) -> Comparison {
     }
     let [a, b] = totals;
     if let Some(worse) = differs(a, b) {
-        out.changes.push(Change {
+        out.changes.push(SurveyChange {
             clip: String::new(),
             text: format!(
                 "{} of {} completed (PHC), were {} of {}",
@@ -131,7 +131,7 @@ pub fn compare(old: &[Row], new: &[Row]) -> Comparison {
 }
 
 /// Runs that were completed, and runs: of the copies where there are any, else of the clip itself.
-fn completed(m: &Measured) -> (usize, usize) {
+fn completed(m: &MeasuredClip) -> (usize, usize) {
     match &m.copies {
         Some(c) => (c.completed, c.count),
         None => (usize::from(m.outcome.completed), 1),
@@ -148,7 +148,7 @@ fn differs(a: (usize, usize), b: (usize, usize)) -> Option<bool> {
     }
 }
 
-fn clip_changes(a: &Measured, b: &Measured, mut add: impl FnMut(String, bool)) {
+fn clip_changes(a: &MeasuredClip, b: &MeasuredClip, mut add: impl FnMut(String, bool)) {
     match (&a.copies, &b.copies) {
         (Some(x), Some(y)) => {
             let (x_share, y_share) = ((x.completed, x.count), (y.completed, y.count));
@@ -170,7 +170,12 @@ fn clip_changes(a: &Measured, b: &Measured, mut add: impl FnMut(String, bool)) {
     }
 }
 
-fn of_copies(m: &Measure, old: &Quartiles, new: &Quartiles, add: &mut impl FnMut(String, bool)) {
+fn of_copies(
+    m: &SurveyMeasure,
+    old: &Quartiles,
+    new: &Quartiles,
+    add: &mut impl FnMut(String, bool),
+) {
     let apart = (new.median - old.median).abs() > old.notch() + new.notch();
     if let Some(worse) = moved(m, old.median, new.median).filter(|_| apart) {
         let text = format!(
@@ -184,8 +189,8 @@ fn of_copies(m: &Measure, old: &Quartiles, new: &Quartiles, add: &mut impl FnMut
     }
 }
 
-fn of_runs(a: &Outcome, b: &Outcome, add: &mut impl FnMut(String, bool)) {
-    let verdicts: [(&str, fn(&Outcome) -> Option<f64>); 5] = [
+fn of_runs(a: &SurveyOutcome, b: &SurveyOutcome, add: &mut impl FnMut(String, bool)) {
+    let verdicts: [(&str, fn(&SurveyOutcome) -> Option<f64>); 5] = [
         ("lost by PHC's rule", |o| o.lost_at_s),
         ("lost against the prepared motion", |o| o.prepared_lost_at_s),
         ("lost by the rule of height and tilt", |o| {
@@ -212,7 +217,7 @@ fn of_runs(a: &Outcome, b: &Outcome, add: &mut impl FnMut(String, bool)) {
 }
 
 /// Whether a measure moved beyond its tolerance, and then whether for the worse.
-fn moved(m: &Measure, old: f64, new: f64) -> Option<bool> {
+fn moved(m: &SurveyMeasure, old: f64, new: f64) -> Option<bool> {
     let rise = match m.better {
         Better::Less => new - old,
         Better::More => old - new,
@@ -238,12 +243,12 @@ fn number(x: f64) -> String {
 mod tests {
     use super::super::outcome::Copies;
     use super::*;
-    use crate::forecast::Forecast;
-    use crate::survey::{Kind, Lacks};
+    use crate::survey::{Lacks, MotionKind};
+    use sinew_physics::forecast::Forecast;
 
-    fn row(change: impl Fn(&mut Measured)) -> Row {
-        let mut m = Measured {
-            kind: Kind::Walk,
+    fn row(change: impl Fn(&mut MeasuredClip)) -> SurveyRow {
+        let mut m = MeasuredClip {
+            kind: MotionKind::Walk,
             clip_s: 2.0,
             walked: false,
             prepared_off_m: 0.02,
@@ -251,19 +256,19 @@ mod tests {
             recorded_lacks: None,
             prepared_lacks: Lacks::default(),
             forecast: Forecast::default(),
-            outcome: Outcome {
+            outcome: SurveyOutcome {
                 completed: true,
                 followed_s: 2.0,
                 contact_recall: Some(0.95),
                 impulse_balance: Some(0.0),
-                ..Outcome::default()
+                ..SurveyOutcome::default()
             },
             copies: None,
             followed: None,
         };
         m.outcome.recorded.mpjpe_global_mm = 60.0;
         change(&mut m);
-        Row {
+        SurveyRow {
             clip: "a.bvh".into(),
             input: "1".into(),
             error: None,
@@ -271,7 +276,7 @@ mod tests {
         }
     }
 
-    fn of(change: impl Fn(&mut Measured)) -> Comparison {
+    fn of(change: impl Fn(&mut MeasuredClip)) -> SurveyComparison {
         compare(&[row(|_| {})], &[row(change)])
     }
 

@@ -1,8 +1,9 @@
 //! Foot contacts of a figure against those that the recording is labelled with.
 
 use super::outcome::TouchDowns;
-use super::stats::{median, short};
-use sinew_physics::plan::contact_labels::runs;
+use super::stats::median;
+use sinew_physics::math::rounding::short;
+use sinew_physics::math::runs::runs;
 
 /// A touch-down and its counterpart are at most this far apart, s: a third of a walking step.
 pub const MATCH_S: f64 = 0.3;

@@ -1,21 +1,21 @@
 //! How far a figure is from a motion that is fixed in the world, tick by tick.
 
-use super::outcome::Errors;
-use super::stats::short;
+use super::outcome::TrackingErrors;
 use crate::pose::segment_poses;
 use sinew_physics::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT};
 use sinew_physics::math::Vec3;
+use sinew_physics::math::rounding::short;
 
 /// A posture with the places of its segments.
 #[derive(Clone, Debug)]
-pub struct Placed {
+pub struct PlacedPosture {
     /// The posture.
     pub posture: Posture,
     /// World positions of the segment origins, m.
     pub position: [Vec3; SEGMENT_COUNT],
 }
 
-impl Placed {
+impl PlacedPosture {
     /// Of a body in `posture`.
     pub fn new(body: &Body, posture: &Posture) -> Self {
         Self {
@@ -47,15 +47,15 @@ impl Placed {
 
 /// One tick within the clip.
 #[derive(Clone, Debug)]
-pub struct Sample {
+pub struct TrackedTick {
     /// Time on the clip's clock, s.
     pub time: f64,
     /// The figure.
-    pub actual: Placed,
+    pub actual: PlacedPosture,
     /// The recording as fitted to the body.
-    pub recorded: Placed,
+    pub recorded: PlacedPosture,
     /// The motion as prepared.
-    pub prepared: Placed,
+    pub prepared: PlacedPosture,
     /// Left and right foot that the floor pushes.
     pub down: [bool; 2],
     /// Left and right foot that the recording has on the floor.
@@ -63,9 +63,12 @@ pub struct Sample {
 }
 
 /// Mean errors of the samples against the motion that `of` picks; zeros for no samples.
-pub fn errors(samples: &[Sample], of: impl Fn(&Sample) -> &Placed) -> Errors {
+pub fn errors(
+    samples: &[TrackedTick],
+    of: impl Fn(&TrackedTick) -> &PlacedPosture,
+) -> TrackingErrors {
     let n = samples.len().max(1) as f64;
-    let mut out = Errors::default();
+    let mut out = TrackingErrors::default();
     let mut square = 0.0;
     for s in samples {
         let wanted = of(s);
@@ -75,7 +78,7 @@ pub fn errors(samples: &[Sample], of: impl Fn(&Sample) -> &Placed) -> Errors {
         square += off.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64;
     }
     out.joint_rms_deg = (square / n).sqrt().to_degrees();
-    Errors {
+    TrackingErrors {
         mpjpe_root_mm: short(out.mpjpe_root_mm),
         mpjpe_global_mm: short(out.mpjpe_global_mm),
         joint_rms_deg: short(out.joint_rms_deg),
@@ -84,9 +87,9 @@ pub fn errors(samples: &[Sample], of: impl Fn(&Sample) -> &Placed) -> Errors {
 
 /// Root mean square of the third differences of all segment origins, figure over recording; `None` without four ticks
 /// or without any in the recording.
-pub fn jerk_ratio(samples: &[Sample]) -> Option<f64> {
-    let square = |of: &dyn Fn(&Sample) -> &Placed| {
-        let third = |w: &[Sample], s: usize| {
+pub fn jerk_ratio(samples: &[TrackedTick]) -> Option<f64> {
+    let square = |of: &dyn Fn(&TrackedTick) -> &PlacedPosture| {
+        let third = |w: &[TrackedTick], s: usize| {
             let p = |i: usize| of(&w[i]).position[s];
             (p(3) - p(2) * 3.0 + p(1) * 3.0 - p(0)).norm()
         };
@@ -106,17 +109,17 @@ pub(super) mod tests {
     use sinew_physics::motion::builtin::at_ease;
 
     /// A figure that stands `off` from a recording that stands, at 60 ticks a second.
-    pub(in crate::survey) fn apart(off: impl Fn(usize) -> Vec3, n: usize) -> Vec<Sample> {
+    pub(in crate::survey) fn apart(off: impl Fn(usize) -> Vec3, n: usize) -> Vec<TrackedTick> {
         let body = Body::adult_man();
         let posture = at_ease(&body);
-        let there = Placed::new(&body, &posture);
+        let there = PlacedPosture::new(&body, &posture);
         (0..n)
             .map(|i| {
                 let mut moved = posture;
                 moved.root_position += off(i);
-                Sample {
+                TrackedTick {
                     time: i as f64 / 60.0,
-                    actual: Placed::new(&body, &moved),
+                    actual: PlacedPosture::new(&body, &moved),
                     recorded: there.clone(),
                     prepared: there.clone(),
                     down: [true; 2],
@@ -154,7 +157,7 @@ pub(super) mod tests {
         for (i, s) in samples.iter_mut().enumerate() {
             let mut moved = posture;
             moved.root_position += Vec3::X * (1e-4 * (i as f64).powi(3));
-            s.recorded = Placed::new(&body, &moved);
+            s.recorded = PlacedPosture::new(&body, &moved);
         }
         assert!((jerk_ratio(&samples).expect("moves") - 2.0).abs() < 1e-6);
         assert_eq!(

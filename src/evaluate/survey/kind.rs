@@ -3,8 +3,8 @@
 use sinew_physics::body::topology::{L_FOOT, R_FOOT};
 use sinew_physics::body::{Body, Posture};
 use sinew_physics::math::Vec3;
+use sinew_physics::math::runs::runs;
 use sinew_physics::motion::leg_ik::forward;
-use sinew_physics::plan::contact_labels::runs;
 
 /// Upright part of the pelvis's vertical axis below which the body is upside down (107° from upright).
 const INVERTED: f64 = -0.3;
@@ -28,7 +28,7 @@ const TURN: f64 = std::f64::consts::FRAC_PI_2;
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
 )]
 #[serde(rename_all = "snake_case")]
-pub enum Kind {
+pub enum MotionKind {
     /// Both feet stay where they are.
     Stand,
     /// A foot is put somewhere else.
@@ -47,7 +47,7 @@ pub enum Kind {
     Acrobatic,
 }
 
-impl Kind {
+impl MotionKind {
     /// All, from the quietest on.
     pub const ALL: [Self; 8] = [
         Self::Stand,
@@ -75,11 +75,11 @@ impl Kind {
     }
 }
 
-/// The kind of a motion; of several that hold, the last one of [`Kind::ALL`].
+/// The kind of a motion; of several that hold, the last one of [`MotionKind::ALL`].
 ///
 /// * `postures`: the fitted recording, `rate_hz` samples per second, not empty; `label`: feet (left, right) that it
 ///   has on the floor.
-pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64) -> Kind {
+pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64) -> MotionKind {
     let n = postures.len().min(label.len());
     let longest = |on: &dyn Fn(usize) -> bool| {
         let flags: Vec<bool> = (0..n).map(on).collect();
@@ -92,10 +92,10 @@ pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64
         p.root_rotation.rotate(Vec3::Z).z < INVERTED && p.root_position.z > low
     };
     if longest(&inverted) >= 0.5 * LASTS {
-        return Kind::Acrobatic;
+        return MotionKind::Acrobatic;
     }
     if longest(&|i| postures[i].root_position.z < low) >= LASTS {
-        return Kind::Floor;
+        return MotionKind::Floor;
     }
     let air: Vec<bool> = label[..n].iter().map(|l| *l == [false; 2]).collect();
     let flights: Vec<(usize, usize)> = runs(&air)
@@ -117,9 +117,9 @@ pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64
             .sum::<f64>()
             / rate_hz;
         return if flights.len() >= 2 && way / time > RUN_SPEED {
-            Kind::Run
+            MotionKind::Run
         } else {
-            Kind::Jump
+            MotionKind::Jump
         };
     }
     let steps = steps(body, &postures[..n], label);
@@ -128,12 +128,16 @@ pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64
         .sum();
     let speed = way * rate_hz / n.max(1) as f64;
     if steps >= WALK.1 && speed > WALK.0 {
-        return Kind::Walk;
+        return MotionKind::Walk;
     }
     if turned(&postures[..n]) >= TURN {
-        return Kind::Turn;
+        return MotionKind::Turn;
     }
-    if steps > 0 { Kind::Step } else { Kind::Stand }
+    if steps > 0 {
+        MotionKind::Step
+    } else {
+        MotionKind::Stand
+    }
 }
 
 /// How often a foot is put down farther than [`STEP`] from where it stood before.
@@ -179,7 +183,7 @@ mod tests {
 
     const RATE: f64 = 60.0;
 
-    fn of(place: impl Fn(f64, &mut Posture), label: impl Fn(f64) -> [bool; 2]) -> Kind {
+    fn of(place: impl Fn(f64, &mut Posture), label: impl Fn(f64) -> [bool; 2]) -> MotionKind {
         let body = Body::adult_man();
         let times: Vec<f64> = (0..120).map(|i| f64::from(i) / RATE).collect();
         let postures: Vec<Posture> = times
@@ -200,10 +204,10 @@ mod tests {
     fn built_in_motions_are_what_they_are_called() {
         let body = Body::adult_man();
         for (name, want) in [
-            ("idle", Kind::Stand),
-            ("wave", Kind::Stand),
-            ("squat", Kind::Stand),
-            ("walk", Kind::Walk),
+            ("idle", MotionKind::Stand),
+            ("wave", MotionKind::Stand),
+            ("squat", MotionKind::Stand),
+            ("walk", MotionKind::Walk),
         ] {
             let clip = builtin(&body, name).expect("built in");
             let postures: Vec<_> = clip.samples().map(|s| *s.0).collect();
@@ -219,17 +223,17 @@ mod tests {
     #[test]
     fn postures_and_flights_decide() {
         let still = |_: f64, _: &mut Posture| {};
-        assert_eq!(of(still, DOWN), Kind::Stand);
+        assert_eq!(of(still, DOWN), MotionKind::Stand);
         let lies = |_: f64, p: &mut Posture| p.root_position.z = 0.2;
-        assert_eq!(of(lies, DOWN), Kind::Floor);
+        assert_eq!(of(lies, DOWN), MotionKind::Floor);
         let flips = |t: f64, p: &mut Posture| p.root_rotation = Quat::exp(Vec3::Y * (3.1 * t));
-        assert_eq!(of(flips, DOWN), Kind::Acrobatic);
+        assert_eq!(of(flips, DOWN), MotionKind::Acrobatic);
         let turns = |t: f64, p: &mut Posture| p.root_rotation = Quat::exp(Vec3::Z * t);
-        assert_eq!(of(turns, DOWN), Kind::Turn);
+        assert_eq!(of(turns, DOWN), MotionKind::Turn);
         let hop = |t: f64| [!(0.8..1.1).contains(&t); 2];
-        assert_eq!(of(still, hop), Kind::Jump);
+        assert_eq!(of(still, hop), MotionKind::Jump);
         let hops = |t: f64| [((t * 4.0) as usize).is_multiple_of(2), false];
         let fast = |t: f64, p: &mut Posture| p.root_position.x = 2.5 * t;
-        assert_eq!(of(fast, hops), Kind::Run);
+        assert_eq!(of(fast, hops), MotionKind::Run);
     }
 }

@@ -1,10 +1,11 @@
 //! What came of one run, and of its noisy copies.
 
-use super::stats::{Quartiles, short, wilson};
+use super::stats::{Quartiles, wilson};
+use sinew_physics::math::rounding::short;
 
 /// Mean errors against one motion that is fixed in the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Errors {
+pub struct TrackingErrors {
     /// Mean distance of the segment origins with both pelvis origins in one place, mm.
     pub mpjpe_root_mm: f64,
     /// Mean distance of the segment origins in the world, mm.
@@ -30,7 +31,7 @@ pub struct TouchDowns {
 
 /// What came of one run. Times are on the clip's clock (negative in the way into the clip).
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Outcome {
+pub struct SurveyOutcome {
     /// The mean distance from the recording never exceeded 0.5 m (PHC's rule) to the clip's end.
     pub completed: bool,
     /// When it exceeded that, s.
@@ -47,9 +48,9 @@ pub struct Outcome {
     /// Time of the clip that errors and contacts are measured over: until it is lost or fell, s.
     pub followed_s: f64,
     /// Errors against the recording as fitted to the body.
-    pub recorded: Errors,
+    pub recorded: TrackingErrors,
     /// Errors against the motion as prepared.
-    pub prepared: Errors,
+    pub prepared: TrackingErrors,
     /// Touch-downs.
     pub touch_downs: TouchDowns,
     /// Share of the figure's foot contacts that the recording has too.
@@ -86,18 +87,18 @@ pub struct Outcome {
 /// Errors over less time than this are none, s.
 const LEAST_S: f64 = 0.1;
 
-impl Outcome {
+impl SurveyOutcome {
     /// Errors against the recording, if it was followed for 0.1 s or more.
-    pub fn to_recorded(&self) -> Option<&Errors> {
+    pub fn to_recorded(&self) -> Option<&TrackingErrors> {
         (self.followed_s >= LEAST_S).then_some(&self.recorded)
     }
 
     /// Errors against the motion as prepared, likewise.
-    pub fn to_prepared(&self) -> Option<&Errors> {
+    pub fn to_prepared(&self) -> Option<&TrackingErrors> {
         (self.followed_s >= LEAST_S).then_some(&self.prepared)
     }
 
-    /// True if the motion as prepared was followed to its end, within 0.5 m and without a frozen state.
+    /// Whether the motion as prepared was followed to its end, within 0.5 m and without a frozen state.
     pub fn followed_as_prepared(&self) -> bool {
         self.prepared_lost_at_s.is_none() && self.frozen_at_s.is_none()
     }
@@ -120,7 +121,7 @@ pub struct Copies {
 
 impl Copies {
     /// Of these outcomes.
-    pub fn of(outcomes: &[Outcome]) -> Self {
+    pub fn of(outcomes: &[SurveyOutcome]) -> Self {
         let completed = outcomes.iter().filter(|o| o.completed).count();
         Self {
             count: outcomes.len(),
@@ -151,11 +152,11 @@ pub enum Better {
 
 /// A number of an outcome that surveys are compared by.
 #[derive(Clone, Copy, Debug)]
-pub struct Measure {
+pub struct SurveyMeasure {
     /// Name with unit, for people.
     pub name: &'static str,
     /// The number, if the outcome has it.
-    pub of: fn(&Outcome) -> Option<f64>,
+    pub of: fn(&SurveyOutcome) -> Option<f64>,
     /// Which way is better.
     pub better: Better,
     /// A change of a single run below this, or below `share` of the old value, is no change: builds round differently.
@@ -166,11 +167,11 @@ pub struct Measure {
 
 const fn measure(
     name: &'static str,
-    of: fn(&Outcome) -> Option<f64>,
+    of: fn(&SurveyOutcome) -> Option<f64>,
     better: Better,
     (least, share): (f64, f64),
-) -> Measure {
-    Measure {
+) -> SurveyMeasure {
+    SurveyMeasure {
         name,
         of,
         better,
@@ -180,7 +181,7 @@ const fn measure(
 }
 
 /// What surveys are compared by.
-pub const MEASURES: [Measure; 17] = [
+pub const MEASURES: [SurveyMeasure; 17] = [
     measure(
         "followed, s",
         |o| Some(o.followed_s),

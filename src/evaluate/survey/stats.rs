@@ -1,19 +1,9 @@
-//! Medians, quartiles, intervals of shares, and numbers short enough to survive a file.
+//! Medians, quartiles and intervals of shares.
+
+use sinew_physics::math::rounding::short;
 
 /// Standard deviations to either side of a 95 % interval.
 const Z: f64 = 1.959964;
-
-/// Smaller numbers are rounding.
-const NOTHING: f64 = 1e-12;
-
-/// `x` to seven significant digits, so that writing it as text and reading it again gives the same bits; 0 if it is
-/// not finite or below 1e-12.
-pub fn short(x: f64) -> f64 {
-    if !x.is_finite() || x.abs() < NOTHING {
-        return 0.0;
-    }
-    format!("{x:.6e}").parse().unwrap_or(0.0)
-}
 
 /// Value at `share` (0…1) of the sorted values, between neighbours linearly; `None` for none.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
@@ -116,16 +106,5 @@ mod tests {
             "{w:?}"
         );
         assert_eq!(wilson(0, 0), [0.0, 1.0]);
-    }
-
-    #[test]
-    fn short_numbers_are_read_as_they_were_written() {
-        for x in [1.0 / 3.0, 1e-9 / 7.0, 123_456.789_012, -0.1, 0.0] {
-            let s = short(x);
-            assert!((s - x).abs() <= 1e-6 * x.abs());
-            assert_eq!(short(s), s);
-            assert_eq!(format!("{s}").parse::<f64>().expect("a number"), s);
-        }
-        assert_eq!(short(f64::NAN), 0.0);
     }
 }

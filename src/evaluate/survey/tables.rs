@@ -1,19 +1,19 @@
 //! A survey as tables: by clip, by kind of motion, and how its forecasts compare with what came of them.
 
 use super::stats::median;
-use super::{Errors, Kind, Measured, Row};
-use crate::forecast::Verdict;
+use super::{MeasuredClip, MotionKind, SurveyRow, TrackingErrors};
+use sinew_physics::forecast::ForecastVerdict;
 
 /// Heads and rows.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Table {
+pub struct SurveyTable {
     /// Heads of the columns.
     pub head: Vec<&'static str>,
     /// Cells, row by row.
     pub rows: Vec<Vec<String>>,
 }
 
-impl Table {
+impl SurveyTable {
     /// In the form of Markdown.
     pub fn markdown(&self) -> String {
         let cell = |c: &str| c.replace('|', "\\|").replace('\n', " ");
@@ -94,7 +94,7 @@ fn pair(a: Option<f64>, b: Option<f64>, decimals: usize) -> String {
 }
 
 /// One row per clip: verdicts, errors, contacts.
-pub fn by_clip(rows: &[Row]) -> Table {
+pub fn by_clip(rows: &[SurveyRow]) -> SurveyTable {
     let copies = rows
         .iter()
         .any(|r| r.result.as_ref().is_some_and(|m| m.copies.is_some()));
@@ -126,7 +126,7 @@ pub fn by_clip(rows: &[Row]) -> Table {
     if followed {
         head.insert(3, "way");
     }
-    let mut out = Table {
+    let mut out = SurveyTable {
         head,
         rows: Vec::new(),
     };
@@ -151,7 +151,7 @@ pub fn by_clip(rows: &[Row]) -> Table {
         let walked = if m.walked { ", walked" } else { "" };
         let e = [o.to_recorded(), o.to_prepared()];
         let mm = |k: usize| {
-            let of = |f: fn(&Errors) -> f64| e[k].map(f);
+            let of = |f: fn(&TrackingErrors) -> f64| e[k].map(f);
             pair(of(|e| e.mpjpe_root_mm), of(|e| e.mpjpe_global_mm), 0)
         };
         let joints = |k: usize| digits(e[k].map(|e| e.joint_rms_deg), 1);
@@ -200,8 +200,8 @@ pub fn by_clip(rows: &[Row]) -> Table {
 }
 
 /// One row per clip that was asked to be followed in whatever way keeps it: the way, what it took, and why.
-pub fn ways(rows: &[Row]) -> Table {
-    let mut out = Table {
+pub fn ways(rows: &[SurveyRow]) -> SurveyTable {
+    let mut out = SurveyTable {
         head: vec![
             "clip",
             "way",
@@ -244,8 +244,8 @@ pub fn ways(rows: &[Row]) -> Table {
 }
 
 /// One row per clip: what was known before it was run.
-pub fn difficulties(rows: &[Row]) -> Table {
-    let mut out = Table {
+pub fn difficulties(rows: &[SurveyRow]) -> SurveyTable {
+    let mut out = SurveyTable {
         head: vec![
             "clip",
             "forecast",
@@ -285,7 +285,7 @@ pub fn difficulties(rows: &[Row]) -> Table {
     out
 }
 
-fn outcome_word(m: &Measured) -> String {
+fn outcome_word(m: &MeasuredClip) -> String {
     let o = &m.outcome;
     match o.prepared_lost_at_s.or(o.frozen_at_s) {
         None => "followed".to_owned(),
@@ -294,8 +294,8 @@ fn outcome_word(m: &Measured) -> String {
 }
 
 /// One row per kind of motion, and one for all.
-pub fn by_kind(rows: &[Row]) -> Table {
-    let mut out = Table {
+pub fn by_kind(rows: &[SurveyRow]) -> SurveyTable {
+    let mut out = SurveyTable {
         head: vec![
             "kind",
             "clips",
@@ -313,18 +313,18 @@ pub fn by_kind(rows: &[Row]) -> Table {
         ],
         rows: Vec::new(),
     };
-    let measured: Vec<&Measured> = rows.iter().filter_map(|r| r.result.as_ref()).collect();
+    let measured: Vec<&MeasuredClip> = rows.iter().filter_map(|r| r.result.as_ref()).collect();
     let copied = measured.iter().any(|m| m.copies.is_some());
     if copied {
         out.head.insert(3, "copies completed");
     }
-    let mut add = |name: &str, of: &[&Measured]| {
-        let count = |yes: &dyn Fn(&Measured) -> bool| {
+    let mut add = |name: &str, of: &[&MeasuredClip]| {
+        let count = |yes: &dyn Fn(&MeasuredClip) -> bool| {
             let k = of.iter().filter(|m| yes(m)).count();
             format!("{k} of {}", of.len())
         };
         // Medians of what was followed; errors of a lost clip are those until it was lost.
-        let middle = |value: &dyn Fn(&Measured) -> Option<f64>, decimals: usize| {
+        let middle = |value: &dyn Fn(&MeasuredClip) -> Option<f64>, decimals: usize| {
             let values: Vec<f64> = of.iter().filter_map(|m| value(m)).collect();
             digits(median(&values), decimals)
         };
@@ -350,8 +350,8 @@ pub fn by_kind(rows: &[Row]) -> Table {
         }
         out.rows.push(row);
     };
-    for kind in Kind::ALL {
-        let of: Vec<&Measured> = measured
+    for kind in MotionKind::ALL {
+        let of: Vec<&MeasuredClip> = measured
             .iter()
             .copied()
             .filter(|m| m.kind == kind)
@@ -365,13 +365,13 @@ pub fn by_kind(rows: &[Row]) -> Table {
 }
 
 /// How many clips of each forecast were followed as prepared, and how many were lost.
-pub fn confusion(rows: &[Row]) -> Table {
-    let mut out = Table {
+pub fn confusion(rows: &[SurveyRow]) -> SurveyTable {
+    let mut out = SurveyTable {
         head: vec!["forecast", "followed as prepared", "lost", "followed, %"],
         rows: Vec::new(),
     };
-    for verdict in Verdict::ALL {
-        let of: Vec<&Measured> = (rows.iter().filter_map(|r| r.result.as_ref()))
+    for verdict in ForecastVerdict::ALL {
+        let of: Vec<&MeasuredClip> = (rows.iter().filter_map(|r| r.result.as_ref()))
             .filter(|m| m.forecast.verdict == verdict)
             .collect();
         let k = of
@@ -389,23 +389,13 @@ pub fn confusion(rows: &[Row]) -> Table {
     out
 }
 
-/// All tables one after the other, in the form of Markdown, each under its sentence.
-pub fn markdown(rows: &[Row]) -> String {
-    let all = in_markdown(titled(rows));
-    let ways = ways(rows);
-    if ways.rows.is_empty() {
-        return all;
-    }
-    format!("{all}\n{WAYS}\n\n{}", ways.markdown())
-}
-
 /// The tables that fit a page for readers, in Markdown: by kind of motion, and what came of the forecasts.
-pub fn summary(rows: &[Row]) -> String {
+pub fn summary(rows: &[SurveyRow]) -> String {
     let [kinds, _, _, forecasts] = titled(rows);
     in_markdown([kinds, forecasts])
 }
 
-fn in_markdown<const N: usize>(tables: [(&'static str, Table); N]) -> String {
+fn in_markdown<const N: usize>(tables: [(&'static str, SurveyTable); N]) -> String {
     let mut out = String::new();
     for (title, table) in tables {
         out += &format!("{title}\n\n{}\n", table.markdown());
@@ -414,7 +404,7 @@ fn in_markdown<const N: usize>(tables: [(&'static str, Table); N]) -> String {
 }
 
 /// All tables one after the other, for a terminal: those by clip with fewer columns than the Markdown has.
-pub fn text(rows: &[Row]) -> String {
+pub fn text(rows: &[SurveyRow]) -> String {
     let mut out = String::new();
     for (title, table) in titled(rows) {
         out += &format!("{title}\n\n{}\n", table.without(&WIDE).text());
@@ -443,7 +433,7 @@ const WIDE: [&str; 10] = [
     "inverted, s",
 ];
 
-fn titled(rows: &[Row]) -> [(&'static str, Table); 4] {
+fn titled(rows: &[SurveyRow]) -> [(&'static str, SurveyTable); 4] {
     [
         ("By kind of motion (medians):", by_kind(rows)),
         (
@@ -467,7 +457,7 @@ mod tests {
 
     #[test]
     fn columns_line_up_and_markdown_escapes_bars() {
-        let t = Table {
+        let t = SurveyTable {
             head: vec!["a", "long head"],
             rows: vec![
                 vec!["x|y".into(), "1.5".into()],
@@ -485,7 +475,7 @@ mod tests {
 
     #[test]
     fn a_clip_that_cannot_be_read_is_a_row() {
-        let row = Row {
+        let row = SurveyRow {
             clip: "bad.bvh".into(),
             input: "0".into(),
             error: Some("line 3: no number".into()),

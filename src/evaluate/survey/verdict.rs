@@ -1,25 +1,26 @@
 //! When a motion counts as lost, by published rules.
 
-use super::errors::{Placed, Sample};
+use super::errors::{PlacedPosture, TrackedTick};
+use sinew_physics::rehearsal::result::LOST;
 
-/// Mean distance of the segments from the recording beyond which a clip is lost, m (Luo et al. 2023, *Perpetual
-/// Humanoid Control*).
-pub const PHC_M: f64 = 0.5;
 /// Error of the pelvis height beyond which a clip is lost, m (Liao et al. 2025, *BeyondMimic*, and the trackers that
 /// took its rule over).
 pub const ANCHOR_HEIGHT_M: f64 = 0.25;
 /// Difference of the vertical parts of the pelvis's upward axes beyond which a clip is lost (same rule): 0.8 of 2.
 pub const ANCHOR_TILT: f64 = 0.8;
 
-/// First time at which the mean distance from the motion that `of` picks exceeds [`PHC_M`], s.
-pub fn phc_lost(samples: &[Sample], of: impl Fn(&Sample) -> &Placed) -> Option<f64> {
-    let lost = |s: &&Sample| s.actual.distance(of(s)) > PHC_M;
+/// First time at which the mean distance from the motion that `of` picks exceeds [`LOST`], s.
+pub fn phc_lost(
+    samples: &[TrackedTick],
+    of: impl Fn(&TrackedTick) -> &PlacedPosture,
+) -> Option<f64> {
+    let lost = |s: &&TrackedTick| s.actual.distance(of(s)) > LOST;
     samples.iter().find(lost).map(|s| s.time)
 }
 
 /// First time at which the pelvis is too high or too low, or tilted too far, s.
-pub fn anchor_lost(samples: &[Sample]) -> Option<f64> {
-    let lost = |s: &&Sample| {
+pub fn anchor_lost(samples: &[TrackedTick]) -> Option<f64> {
+    let lost = |s: &&TrackedTick| {
         let height = s.actual.position[0].z - s.recorded.position[0].z;
         let tilt = s.actual.upright() - s.recorded.upright();
         height.abs() > ANCHOR_HEIGHT_M || tilt.abs() > ANCHOR_TILT
@@ -36,7 +37,7 @@ mod tests {
     #[test]
     fn one_tick_beyond_half_a_metre_is_lost() {
         let far = |at: f64| move |i: usize| Vec3::X * if i == 30 { at } else { 0.1 };
-        let of = |s: &[Sample]| phc_lost(s, |s| &s.recorded);
+        let of = |s: &[TrackedTick]| phc_lost(s, |s| &s.recorded);
         assert_eq!(of(&apart(far(0.6), 60)), Some(0.5));
         assert_eq!(of(&apart(far(0.49), 60)), None);
     }

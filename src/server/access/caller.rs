@@ -1,7 +1,7 @@
 //! The caller and its permissions.
 
 use super::roles::{Role, Roles, Rule};
-use crate::shares::Client;
+use crate::shares::ClientKey;
 use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
@@ -78,7 +78,7 @@ pub struct Caller {
     /// Its identity.
     pub identity: Identity,
     /// The client whose share of common resources this uses: the principal, or for anonymous callers the address.
-    pub client: Client,
+    pub client: ClientKey,
     /// The key that orders its commands among those of others: the principal, or for anonymous callers the connection.
     pub order: Arc<str>,
     /// The rule of the call.

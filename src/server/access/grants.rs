@@ -3,7 +3,7 @@
 use super::caller::{Caller, EVERYONE, Identity};
 use super::limits::Bucket;
 use super::roles::{Role, Roles};
-use crate::tick::shard::bounds::Bound;
+use crate::tick::hosted_world::bounds::Bound;
 use sinew_physics::motion::GRAVITY;
 use sinew_wire::status::Fault;
 use sinew_wire::types::{Disturbance, FigureDisturbance};
@@ -24,7 +24,7 @@ const CATCH_TIME: f64 = 0.1;
 
 /// Limits of a perturber.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub struct PerturbationBounds {
     /// Largest force, N.
     pub force: f64,
     /// Largest mass of a load, kg.
@@ -33,7 +33,7 @@ pub struct Bounds {
     pub rate: f64,
 }
 
-impl Bounds {
+impl PerturbationBounds {
     /// No limits except those of the calls.
     pub const NONE: Self = Self {
         force: f64::INFINITY,
@@ -151,7 +151,7 @@ pub struct Rights {
     /// Figures that it may drive; `None`: all.
     pub figures: Option<Vec<String>>,
     /// Bounds of its perturbations.
-    pub bounds: Bounds,
+    pub bounds: PerturbationBounds,
     /// Highest priority of its leases.
     pub max_priority: i32,
 }
@@ -238,9 +238,9 @@ impl Grants {
             roles: claimed,
             figures: (!claimed.contain(Role::Driver)).then(Vec::new),
             bounds: if claimed.contain(Role::Perturber) {
-                Bounds::NONE
+                PerturbationBounds::NONE
             } else {
-                Bounds::new(Some(0.0), None, Some(0.0))
+                PerturbationBounds::new(Some(0.0), None, Some(0.0))
             },
             max_priority: 0,
         };
@@ -257,15 +257,15 @@ impl Grants {
                 }
             }
             if roles.contain(Role::Perturber) {
-                let given = grant
-                    .bounds
-                    .map_or(Bounds::NONE, |[f, m, r]| Bounds::new(f, m, r));
+                let given = grant.bounds.map_or(PerturbationBounds::NONE, |[f, m, r]| {
+                    PerturbationBounds::new(f, m, r)
+                });
                 rights.bounds = rights.bounds.or(given);
             }
         }
         if rights.roles.contain(Role::Director) {
             rights.figures = None;
-            rights.bounds = Bounds::NONE;
+            rights.bounds = PerturbationBounds::NONE;
             rights.max_priority = TOP_PRIORITY;
         }
         rights
@@ -288,7 +288,7 @@ impl Grants {
             facts: vec![("field", field)],
         };
         rights.bounds.check(batch).map_err(denied)?;
-        let Bounds { force, mass, rate } = rights.bounds;
+        let PerturbationBounds { force, mass, rate } = rights.bounds;
         let bound = Bound {
             principal: caller.principal().clone(),
             force,

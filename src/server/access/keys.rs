@@ -31,7 +31,7 @@ const LEAST_INTERVAL: Duration = Duration::from_secs(10);
 
 /// A key for checking signatures.
 #[derive(Clone)]
-pub(super) struct Key {
+pub(super) struct VerificationKey {
     id: Option<String>,
     algorithms: Vec<Algorithm>,
     pub(super) key: DecodingKey,
@@ -49,7 +49,7 @@ enum From {
 pub(crate) struct KeySource {
     from: From,
     interval: Duration,
-    keys: RwLock<Vec<Key>>,
+    keys: RwLock<Vec<VerificationKey>>,
     version: AtomicU64,
     /// Time of the last attempt to fetch them, successful or not. Locked during an attempt.
     fetched: tokio::sync::Mutex<Option<Instant>>,
@@ -95,7 +95,7 @@ impl KeySource {
         self.version.load(Ordering::Acquire)
     }
 
-    fn known(&self, id: Option<&str>, algorithm: Algorithm) -> Option<Key> {
+    fn known(&self, id: Option<&str>, algorithm: Algorithm) -> Option<VerificationKey> {
         let keys = self.keys.read().unwrap_or_else(PoisonError::into_inner);
         let mut fitting = keys.iter().filter(|k| {
             k.algorithms.contains(&algorithm) && (id.is_none() || k.id.as_deref() == id)
@@ -109,7 +109,11 @@ impl KeySource {
     ///
     /// # Errors
     /// There is none.
-    pub(super) async fn find(&self, id: Option<&str>, algorithm: Algorithm) -> Result<Key, Fault> {
+    pub(super) async fn find(
+        &self,
+        id: Option<&str>,
+        algorithm: Algorithm,
+    ) -> Result<VerificationKey, Fault> {
         if let Some(key) = self.known(id, algorithm) {
             return Ok(key);
         }
@@ -123,7 +127,7 @@ impl KeySource {
             })
     }
 
-    async fn read(&self) -> Result<Vec<Key>, String> {
+    async fn read(&self) -> Result<Vec<VerificationKey>, String> {
         let text = match &self.from {
             From::File(path) => read(path),
             From::Url(url, client) => {
@@ -254,19 +258,19 @@ fn reasons(error: &dyn std::error::Error) -> String {
 }
 
 /// The keys of a set. Those for other uses are left out.
-fn parse(text: &[u8]) -> Result<Vec<Key>, String> {
+fn parse(text: &[u8]) -> Result<Vec<VerificationKey>, String> {
     if text.len() > MOST_BYTES {
         return Err(format!("a set of keys may have {MOST_BYTES} bytes"));
     }
     let set: JwkSet = serde_json::from_slice(text).map_err(|e| format!("is no JWKS: {e}"))?;
-    let keys: Vec<Key> = set.keys.iter().take(MOST_KEYS).filter_map(key).collect();
+    let keys: Vec<VerificationKey> = set.keys.iter().take(MOST_KEYS).filter_map(key).collect();
     if keys.is_empty() {
         return Err("has no public key for signatures".into());
     }
     Ok(keys)
 }
 
-fn key(jwk: &Jwk) -> Option<Key> {
+fn key(jwk: &Jwk) -> Option<VerificationKey> {
     use Algorithm::{ES256, ES384, EdDSA, PS256, PS384, PS512, RS256, RS384, RS512};
     let common = &jwk.common;
     if common
@@ -294,7 +298,7 @@ fn key(jwk: &Jwk) -> Option<Key> {
     if algorithms.is_empty() || common.key_id.as_ref().is_some_and(|id| id.len() > MOST_ID) {
         return None;
     }
-    Some(Key {
+    Some(VerificationKey {
         id: common.key_id.clone(),
         algorithms,
         key: DecodingKey::from_jwk(jwk).ok()?,

@@ -1,6 +1,6 @@
 //! Limits on the calls of one client per second.
 
-use crate::shares::Client;
+use crate::shares::ClientKey;
 use sinew_wire::status::Fault;
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -52,7 +52,7 @@ impl Bucket {
 pub struct CallRates {
     /// Calls per second, and at once; 0: any.
     rate: f64,
-    buckets: Mutex<HashMap<Client, Bucket>>,
+    buckets: Mutex<HashMap<ClientKey, Bucket>>,
 }
 
 impl CallRates {
@@ -68,7 +68,7 @@ impl CallRates {
     ///
     /// # Errors
     /// The client makes too many.
-    pub fn admit(&self, client: &Client, now: Instant) -> Result<(), Fault> {
+    pub fn admit(&self, client: &ClientKey, now: Instant) -> Result<(), Fault> {
         if self.rate == 0.0 {
             return Ok(());
         }
@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn a_client_that_calls_too_often_waits_and_others_do_not() {
         let rates = CallRates::new(10.0);
-        let (a, b): (Client, Client) = ("a".into(), "b".into());
+        let (a, b): (ClientKey, ClientKey) = ("a".into(), "b".into());
         let start = Instant::now();
         assert!((0..10).all(|_| rates.admit(&a, start).is_ok()));
         let Err(Fault::Exhausted {

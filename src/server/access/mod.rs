@@ -15,7 +15,7 @@ pub mod tokens;
 
 use super::config::Config;
 use super::edge::connections::Peer;
-use super::http::unknown_method;
+use super::edge::unknown_method;
 use super::shares::client_at;
 use super::telemetry::{calls, count_refusal};
 use axum::body::Body;

@@ -4,7 +4,7 @@
 //! of keys only for the keys of a JWKS, so a public key is never mistaken for a secret.
 
 use super::caller::{Caller, Claims, Identity};
-use super::keys::{Key, KeySource};
+use super::keys::{KeySource, VerificationKey};
 use super::roles::{Role, Roles};
 use crate::config::Config;
 use jsonwebtoken::errors::ErrorKind;
@@ -152,7 +152,7 @@ impl Tokens {
         let claims = match (header.alg, &self.secret, &self.keys) {
             (SHARED, Some(secret), _) => self.check(token, secret, SHARED)?,
             (alg, _, Some(keys)) if ASYMMETRIC.contains(&alg) => {
-                let key: Key = keys.find(header.kid.as_deref(), alg).await?;
+                let key: VerificationKey = keys.find(header.kid.as_deref(), alg).await?;
                 self.check(token, &key.key, alg)?
             }
             _ => {

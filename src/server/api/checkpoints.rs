@@ -3,12 +3,12 @@
 use super::{Api, answer, caller, client, first_grants, origin};
 use crate::access::caller::Caller;
 use crate::access::roles::Role;
-use crate::checkpoints::{self, Kept};
-use crate::shares::Client;
-use crate::tick::command::Origin;
+use crate::checkpoints::{self, KeptCheckpoint};
+use crate::shares::ClientKey;
+use crate::tick::command::CommandOrigin;
+use crate::tick::hosted_world::StateOrigin as Past;
 use crate::tick::journal;
 use crate::tick::scene::Scene;
-use crate::tick::shard::Origin as Past;
 use crate::worlds::WorldHandle;
 use sinew_physics::world::checkpoint::Capture;
 use sinew_wire::convert::checkpoint::{CheckpointInfo, checkpoint_name, checkpoint_out};
@@ -22,14 +22,14 @@ use std::time::SystemTime;
 use tonic::{Request, Response, Status};
 
 /// A state that was asked for.
-enum Source {
-    Kept(Arc<Kept>),
+enum StateSource {
+    Kept(Arc<KeptCheckpoint>),
     Data(&'static str, bytes::Bytes),
     Now(Box<Capture>),
     Past(Box<Scene>),
 }
 
-fn out(kept: &Kept) -> pb::Checkpoint {
+fn out(kept: &KeptCheckpoint) -> pb::Checkpoint {
     checkpoint_out(&CheckpointInfo {
         name: (&kept.world, &kept.id),
         tick: kept.tick,
@@ -56,7 +56,7 @@ impl Api {
     }
 
     /// The bytes for a response, if they are wanted.
-    fn data(&self, kept: &Kept, wanted: bool) -> Result<Vec<u8>, Fault> {
+    fn data(&self, kept: &KeptCheckpoint, wanted: bool) -> Result<Vec<u8>, Fault> {
         if !wanted {
             return Ok(Vec::new());
         }
@@ -66,7 +66,7 @@ impl Api {
 
     async fn captured(
         &self,
-        (caller, origin): (&Caller, Origin),
+        (caller, origin): (&Caller, CommandOrigin),
         (field, name): (&str, &str),
     ) -> Result<(Arc<WorldHandle>, Capture), Fault> {
         let handle = self.enter_as(caller, Role::Director, world_name(field, name)?)?;
@@ -75,25 +75,25 @@ impl Api {
     }
 
     /// The world of a source, made where there is time for it.
-    async fn restored(&self, client: &Client, source: Source) -> Result<Scene, Fault> {
+    async fn restored(&self, client: &ClientKey, source: StateSource) -> Result<Scene, Fault> {
         let most = self.config.max_clip_bytes;
         let work = move || match source {
-            Source::Kept(kept) => checkpoints::decode("checkpoint", &kept.bytes),
-            Source::Data(field, data) if data.len() as u64 > most => Err(Fault::Exhausted {
+            StateSource::Kept(kept) => checkpoints::decode("checkpoint", &kept.bytes),
+            StateSource::Data(field, data) if data.len() as u64 > most => Err(Fault::Exhausted {
                 limit: "max_clip_bytes",
                 value: most,
                 message: format!("{field}: {} bytes", data.len()),
                 retry: None,
             }),
-            Source::Data(field, data) => checkpoints::decode(field, &data),
-            Source::Now(capture) => journal::scene_of(&capture),
-            Source::Past(scene) => Ok(*scene),
+            StateSource::Data(field, data) => checkpoints::decode(field, &data),
+            StateSource::Now(capture) => journal::scene_of(&capture),
+            StateSource::Past(scene) => Ok(*scene),
         };
         self.conversions.run(client, move |_| work()).await
     }
 
     /// A checkpoint, for directors of its world: it holds all that there is of the world.
-    fn kept(&self, caller: &Caller, field: &str, name: &str) -> Result<Arc<Kept>, Fault> {
+    fn kept(&self, caller: &Caller, field: &str, name: &str) -> Result<Arc<KeptCheckpoint>, Fault> {
         let (world, id) = checkpoint_name(field, name)?;
         self.enter_as(caller, Role::Director, world)?;
         self.checkpoints.get(world, id)
@@ -121,7 +121,7 @@ impl CheckpointService for Api {
                 if r.return_data {
                     keeper.check_data(&bytes)?; // what is refused is not kept
                 }
-                let new = Kept {
+                let new = KeptCheckpoint {
                     world: handle.id.to_string(),
                     id,
                     tick: capture.tick(),
@@ -200,9 +200,9 @@ impl CheckpointService for Api {
             let r = request.into_inner();
             let source = match r.source {
                 Some(restore_world_request::Source::Checkpoint(name)) => {
-                    Source::Kept(api.kept(&caller, "checkpoint", &name)?)
+                    StateSource::Kept(api.kept(&caller, "checkpoint", &name)?)
                 }
-                Some(restore_world_request::Source::Data(data)) => Source::Data("data", data),
+                Some(restore_world_request::Source::Data(data)) => StateSource::Data("data", data),
                 None => return Err(Fault::invalid("source", "must be given")),
             };
             let _in_use = handle.usage.begin();
@@ -235,14 +235,14 @@ impl CheckpointService for Api {
             caller.check_new_name("world_id", id.as_deref())?;
             let source = match r.source {
                 Some(fork_world_request::Source::Checkpoint(name)) => {
-                    Source::Kept(api.kept(&caller, "checkpoint", &name)?)
+                    StateSource::Kept(api.kept(&caller, "checkpoint", &name)?)
                 }
-                Some(fork_world_request::Source::Data(data)) => Source::Data("data", data),
+                Some(fork_world_request::Source::Data(data)) => StateSource::Data("data", data),
                 Some(fork_world_request::Source::World(name)) if r.tick.is_some() => {
                     let tick = not_negative("tick", r.tick.unwrap_or_default())?;
                     let of = world_name("world", &name)?;
                     let handle = api.enter_as(&caller, Role::Director, of)?;
-                    Source::Past(Box::new(api.at_tick(&owner, &handle, tick).await?))
+                    StateSource::Past(Box::new(api.at_tick(&owner, &handle, tick).await?))
                 }
                 Some(_) if r.tick.is_some() => {
                     return Err(Fault::invalid("tick", "needs world"));
@@ -250,7 +250,7 @@ impl CheckpointService for Api {
                 Some(fork_world_request::Source::World(name)) => {
                     let from = (&caller, origin);
                     let (_, capture) = api.captured(from, ("world", &name)).await?;
-                    Source::Now(Box::new(capture))
+                    StateSource::Now(Box::new(capture))
                 }
                 None => return Err(Fault::invalid("source", "must be given")),
             };

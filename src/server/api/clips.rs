@@ -6,20 +6,21 @@ use crate::access::roles::{Role, Roles};
 use crate::edge::Upload;
 use crate::library::NewClip;
 use crate::persistence::Writing;
-use crate::progress::Progress;
+use crate::progress::WorkProgress;
 use crate::rehearsals::{self, Rehearsed};
 use crate::repeats::to_the_end;
-use crate::shares::Client;
-use crate::tick::command::Origin;
+use crate::shares::ClientKey;
+use crate::tick::command::CommandOrigin;
 use crate::workers::Turn;
-use sinew_physics::retarget::SAMPLE_BYTES;
+use sinew_physics::reference::SAMPLE_BYTES;
+use sinew_physics::rehearsal::follow::Follow;
 use sinew_wire::convert::{
     body, clip_name, control, display_name, figure_name, motion, new_id, page,
 };
 use sinew_wire::pb::create_clip_request::Source;
 use sinew_wire::pb::{self, motion_service_server::MotionService};
 use sinew_wire::status::Fault;
-use sinew_wire::types::{ClipInfo, Follow, FollowSettings};
+use sinew_wire::types::{ClipInfo, FollowSettings};
 use std::cell::Cell;
 use std::sync::Arc;
 use std::time::Instant;
@@ -54,9 +55,9 @@ const STAGES: f64 = 9.0;
 /// Stores a clip, or says what would be stored.
 pub(super) async fn create(
     api: &Api,
-    (caller, client): (&Caller, Client),
+    (caller, client): (&Caller, ClientKey),
     (r, upload): (pb::CreateClipRequest, Upload),
-    progress: Progress,
+    progress: WorkProgress,
 ) -> Result<pb::CreateClipResponse, Fault> {
     let id = new_id("clip_id", &r.clip_id)?;
     caller.check_new_name("clip_id", id.as_deref())?;
@@ -128,9 +129,9 @@ pub(super) async fn create(
 /// Rehearses a clip for a figure, and keeps what was found.
 pub(super) async fn rehearse(
     api: &Api,
-    (caller, client): (&Caller, Client),
+    (caller, client): (&Caller, ClientKey),
     r: pb::RehearseClipRequest,
-    progress: Progress,
+    progress: WorkProgress,
 ) -> Result<pb::RehearseClipResponse, Fault> {
     let id = clip_name("clip", &r.clip)?.to_owned();
     let info = seen(api, caller, &id)?;
@@ -143,7 +144,7 @@ pub(super) async fn rehearse(
     let (world, figure) = figure_name("figure", &r.figure)?;
     let handle = api.enter_as(caller, Role::Viewer, world)?;
     let figure = figure.to_owned();
-    let who = Origin {
+    let who = CommandOrigin {
         client: caller.order.clone(),
         sequence: 0,
     };
@@ -210,7 +211,7 @@ impl MotionService for Api {
         self.once_if_awaited(request, |api, request| async move {
             let (client, caller) = (client(&request), caller(&request)?.clone());
             let r = request.into_inner();
-            rehearse(&api, (&caller, client), r, Progress::default()).await
+            rehearse(&api, (&caller, client), r, WorkProgress::default()).await
         })
         .await
     }
@@ -223,7 +224,7 @@ impl MotionService for Api {
             let (client, caller) = (client(&request), caller(&request)?.clone());
             let upload = upload(&request);
             let r = (request.into_inner(), upload);
-            create(&api, (&caller, client), r, Progress::default()).await
+            create(&api, (&caller, client), r, WorkProgress::default()).await
         })
         .await
     }
@@ -240,7 +241,7 @@ impl MotionService for Api {
             let upload = upload(&request);
             let r = request.into_inner().create_clip;
             let r = r.ok_or_else(|| Fault::invalid("create_clip", "must be given"))?;
-            let (api, progress) = (self.clone(), Progress::default());
+            let (api, progress) = (self.clone(), WorkProgress::default());
             let told = progress.watch();
             let who = caller.clone();
             let work = async move {
@@ -250,7 +251,7 @@ impl MotionService for Api {
             let message = |message| pb::StreamCreateClipResponse {
                 message: Some(message),
             };
-            Ok(long::Stream {
+            Ok(long::LongStream {
                 caller,
                 permit: None,
                 told,

@@ -1,10 +1,10 @@
 //! Live desired motion: the stream and its unary twin take the same way into the world.
 
 use super::permit::{Ending, Permit};
-use super::{Api, Place, refusal};
+use super::{Api, HeldPlace, refusal};
 use crate::access::caller::Caller;
 use crate::ingest::mailbox::{DriverId, Mailbox};
-use crate::tick::command::Origin;
+use crate::tick::command::CommandOrigin;
 use crate::worlds::WorldHandle;
 use sinew_wire::convert::motion;
 use sinew_wire::pb::{self, drive_figures_request::Message};
@@ -35,8 +35,8 @@ const PUSHER: &str = "push";
 const FEEDBACK_QUEUE: usize = 16;
 
 /// Commands of a driver come before those that end its drive.
-fn origin(driver: &DriverId) -> Origin {
-    Origin {
+fn origin(driver: &DriverId) -> CommandOrigin {
+    CommandOrigin {
         client: driver.to_string().into(),
         sequence: 0,
     }
@@ -141,7 +141,7 @@ struct Session {
     connection: u64,
     out: mpsc::Sender<Result<pb::DriveFiguresResponse, Status>>,
     ended: bool,
-    _place: Place,
+    _place: HeldPlace,
 }
 
 impl Session {
@@ -240,7 +240,7 @@ impl Session {
         }
         let (driver, connection) = (self.mailbox.driver().clone(), self.connection);
         // After everything that this driver has queued.
-        let last = Origin {
+        let last = CommandOrigin {
             client: driver.to_string().into(),
             sequence: i64::MAX,
         };

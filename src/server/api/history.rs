@@ -1,14 +1,14 @@
 //! `HistoryService`.
 
-use super::past_frames::{self, Part};
+use super::past_frames::{self, PastPart};
 use super::permit::Permit;
 use super::{Api, answer, caller, client, long, origin, refusal};
-use crate::progress::Progress;
-use crate::shares::Client;
-use crate::tick::journal::{Journal, Segment};
+use crate::progress::WorkProgress;
+use crate::shares::ClientKey;
+use crate::tick::hosted_world::StateOrigin as Past;
+use crate::tick::journal::{Journal, JournalSegment};
 use crate::tick::replay::{Replay, ReplayError};
 use crate::tick::scene::Scene;
-use crate::tick::shard::Origin as Past;
 use crate::workers::Turn;
 use crate::worlds::WorldHandle;
 use sinew_wire::convert::{not_negative, state, world};
@@ -47,7 +47,7 @@ fn span(journal: &Journal, first: Option<i64>, last: Option<i64>) -> Result<(u64
 }
 
 /// The scene at the end of this part of the past, or after tick `until` of it.
-fn reached(past: &[Arc<Segment>], until: u64, turn: &Turn) -> Result<Scene, Fault> {
+fn reached(past: &[Arc<JournalSegment>], until: u64, turn: &Turn) -> Result<Scene, Fault> {
     let mut replay = Replay::of(past)?;
     let done = replay.through_past(past, until, &mut |_| !turn.stop());
     match done {
@@ -64,7 +64,7 @@ impl Api {
     /// The state of a world after a tick of its past.
     pub(super) async fn at_tick(
         &self,
-        client: &Client,
+        client: &ClientKey,
         handle: &WorldHandle,
         tick: u64,
     ) -> Result<Scene, Fault> {
@@ -114,13 +114,13 @@ impl HistoryService for Api {
             let view = state::view(r.view.as_ref())?;
             let journal = journal(&handle)?;
             let ticks = span(&journal, r.first_tick, r.last_tick)?;
-            let part = Part {
+            let part = PastPart {
                 world: handle.id.clone(),
                 past: journal.past(ticks.0, ticks.1)?,
                 ticks,
                 view,
             };
-            let progress = Progress::default();
+            let progress = WorkProgress::default();
             let told = progress.watch();
             let permit = Permit::new(self, &handle, &caller, &[]);
             let pool = self.simulations.clone();
@@ -128,7 +128,7 @@ impl HistoryService for Api {
                 let read = move |turn: &Turn| past_frames::read(&part, out, &progress, turn);
                 pool.run(&client, read).await
             };
-            Ok(long::Stream {
+            Ok(long::LongStream {
                 caller,
                 permit: Some(permit),
                 told,
@@ -210,7 +210,7 @@ impl HistoryService for Api {
 }
 
 fn replayed(
-    past: &[Arc<Segment>],
+    past: &[Arc<JournalSegment>],
     last: u64,
     threads: usize,
     turn: &Turn,

@@ -3,7 +3,7 @@
 use super::{Api, answer, caller};
 use crate::access::roles::Role;
 use crate::engine::{BUILTIN_NAMES, CAPABILITIES};
-use crate::tick::scheduler::Priority;
+use crate::tick::scheduler::WorkerPriority;
 use sinew_physics::figure::Flags;
 use sinew_wire::convert::{server, timestamp};
 use sinew_wire::frame::FIELD_NAMES;
@@ -27,9 +27,9 @@ impl ServerService for Api {
             limits: server::limits(&self.config.limits()),
             tick_worker_count: self.worlds.workers().0 as i32,
             tick_priority: match self.worlds.workers().1 {
-                Priority::Fifo => pb::TickPriority::Fifo,
-                Priority::Nice => pb::TickPriority::Nice,
-                Priority::Plain => pb::TickPriority::Plain,
+                WorkerPriority::Fifo => pb::TickPriority::Fifo,
+                WorkerPriority::Nice => pb::TickPriority::Nice,
+                WorkerPriority::Plain => pb::TickPriority::Plain,
             }
             .into(),
         }))

@@ -36,7 +36,7 @@ pub(super) fn memory(frame: &pb::WorldFrame) -> usize {
 }
 
 /// Where messages of work go.
-pub(super) type Out<M> = mpsc::Sender<Result<M, Status>>;
+pub(super) type MessageSender<M> = mpsc::Sender<Result<M, Status>>;
 
 /// Sends a message of work that has a turn, when the client has room for it.
 ///
@@ -46,7 +46,7 @@ pub(super) type Out<M> = mpsc::Sender<Result<M, Status>>;
     clippy::disallowed_methods,
     reason = "a worker waits, which makes room for others meanwhile"
 )]
-pub(super) fn hand_over<M>(out: &Out<M>, message: M, turn: &Turn) -> Result<(), Fault> {
+pub(super) fn hand_over<M>(out: &MessageSender<M>, message: M, turn: &Turn) -> Result<(), Fault> {
     let mut message = Ok(message);
     let begun = Instant::now();
     loop {
@@ -72,7 +72,7 @@ pub(super) fn hand_over<M>(out: &Out<M>, message: M, turn: &Turn) -> Result<(), 
 }
 
 /// A stream of long work.
-pub(super) struct Stream<P, L> {
+pub(super) struct LongStream<P, L> {
     /// Whose it is.
     pub caller: Caller,
     /// Ends it with the caller's role in a world.
@@ -85,7 +85,7 @@ pub(super) struct Stream<P, L> {
     pub last: L,
 }
 
-impl<P, L> Stream<P, L> {
+impl<P, L> LongStream<P, L> {
     /// Does the work.
     pub(super) fn run<M, T>(
         self,
@@ -104,7 +104,7 @@ impl<P, L> Stream<P, L> {
     /// Does work that sends messages of its own.
     pub(super) fn run_with<M, T, W>(
         mut self,
-        work: impl FnOnce(Out<M>) -> W,
+        work: impl FnOnce(MessageSender<M>) -> W,
         mut stopping: watch::Receiver<bool>,
     ) -> Messages<M>
     where

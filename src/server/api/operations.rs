@@ -2,7 +2,7 @@
 
 use super::{Api, answer, caller, client, clips, encoded, refusal, simulation, stopped, upload};
 use crate::encoded::Encoded;
-use crate::operations::{Operation, State};
+use crate::operations::{Operation, OperationState};
 use sinew_wire::convert::names::OPERATION;
 use sinew_wire::convert::{duration, operation_name, page, timestamp};
 use sinew_wire::pb::operation::Result as Done;
@@ -46,9 +46,9 @@ impl Api {
         };
         let mut found = Encoded::default();
         let state = match o.state() {
-            State::Going if told.is_none() => S::Queued,
-            State::Going => S::Running,
-            State::Ended { at, outcome, .. } => {
+            OperationState::Going if told.is_none() => S::Queued,
+            OperationState::Going => S::Running,
+            OperationState::Ended { at, outcome, .. } => {
                 out.end_time = Some(timestamp(at));
                 let ttl = Duration::from_secs_f64(self.config.operation_ttl_s);
                 out.expire_time = Some(timestamp(at + ttl));

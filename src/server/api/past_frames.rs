@@ -1,8 +1,8 @@
 //! Frames of the past of a world: it is simulated again, and shown as it goes.
 
 use super::long;
-use crate::progress::Progress;
-use crate::tick::journal::Segment;
+use crate::progress::WorkProgress;
+use crate::tick::journal::JournalSegment;
 use crate::tick::replay::{Replay, ReplayError};
 use crate::tick::scene::Scene;
 use crate::workers::Turn;
@@ -14,11 +14,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// A part of the past that is to be shown.
-pub(super) struct Part {
+pub(super) struct PastPart {
     /// Last part of the name of the world.
     pub world: Arc<str>,
     /// What leads to it.
-    pub past: Vec<Arc<Segment>>,
+    pub past: Vec<Arc<JournalSegment>>,
     /// First tick and last.
     pub ticks: (u64, u64),
     /// What is shown.
@@ -30,15 +30,15 @@ pub(super) struct Part {
 /// # Errors
 /// A state is not the one that was recorded; nobody takes the frames any more.
 pub(super) fn read(
-    part: &Part,
-    out: long::Out<pb::ReadHistoryResponse>,
-    progress: &Progress,
+    part: &PastPart,
+    out: long::MessageSender<pb::ReadHistoryResponse>,
+    progress: &WorkProgress,
     turn: &Turn,
 ) -> Result<pb::ReadHistoryResponse, Fault> {
     let (first, last) = part.ticks;
     let mut replay = Replay::of(&part.past)?;
     let begun = replay.scene.world().tick();
-    let mut frames = Frames {
+    let mut frames = PastFrameStream {
         part,
         out,
         turn,
@@ -78,9 +78,9 @@ pub(super) fn read(
 }
 
 /// Frames on their way to a client, a few at a time.
-struct Frames<'a> {
-    part: &'a Part,
-    out: long::Out<pb::ReadHistoryResponse>,
+struct PastFrameStream<'a> {
+    part: &'a PastPart,
+    out: long::MessageSender<pb::ReadHistoryResponse>,
     turn: &'a Turn,
     roster: Arc<[RosterEntry]>,
     /// Of the roster; 0: none yet.
@@ -90,7 +90,7 @@ struct Frames<'a> {
     since: Instant,
 }
 
-impl Frames<'_> {
+impl PastFrameStream<'_> {
     fn take(&mut self, scene: &Scene) -> Result<(), Fault> {
         let now = scene.roster();
         let anew = self.version == 0 || now != self.roster;

@@ -1,7 +1,7 @@
 //! How long a stream may go on: as long as its caller has the role that it was opened with, and its proof of identity.
 
-use super::{App, stopped};
 use crate::access::caller::Caller;
+use crate::app::{App, stopped};
 use crate::worlds::WorldHandle;
 use crate::worlds::usage::InUse;
 use sinew_wire::status::Fault;

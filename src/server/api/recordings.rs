@@ -4,7 +4,7 @@ use super::history::journal;
 use super::permit::Permit;
 use super::{Api, answer, caller, client, long, refusal};
 use crate::export::{Format, export};
-use crate::recordings::{NewRecording, Recording, end_name};
+use crate::recordings::{KeptRecording, NewRecording, end_name};
 use sinew_wire::convert::names::RECORDING;
 use sinew_wire::convert::{new_id, not_negative, page, timestamp};
 use sinew_wire::pb;
@@ -20,7 +20,7 @@ const PIECE: usize = 1 << 20;
 /// Pieces that wait for a client who does not read.
 const PIECES: usize = 2;
 
-fn out(recording: &Recording) -> pb::Recording {
+fn out(recording: &KeptRecording) -> pb::Recording {
     let now = recording.now();
     let end = match now.end {
         None => "",
@@ -43,7 +43,7 @@ fn out(recording: &Recording) -> pb::Recording {
 
 impl Api {
     /// A recording, for those who may make this call in its world.
-    fn recording<T>(&self, request: &Request<T>, name: &str) -> Result<Arc<Recording>, Fault> {
+    fn recording<T>(&self, request: &Request<T>, name: &str) -> Result<Arc<KeptRecording>, Fault> {
         let [world, id] = RECORDING.ids("name", name)?;
         let handle = self.world(request, "name", &format!("worlds/{world}"))?;
         self.recordings.get(&handle.id, id)

@@ -6,31 +6,32 @@ use crate::edge::Upload;
 use crate::encoded::Encoded;
 use crate::engine::{self, Clip};
 use crate::library::Manner;
-use crate::progress::Progress;
-use crate::shares::Client;
-use crate::simulate::{self, Limits, Sink};
+use crate::progress::WorkProgress;
+use crate::shares::ClientKey;
+use crate::simulate::{self, SimulationLimits, Sink};
 use crate::workers::Turn;
 use sinew_physics::body::Body;
+use sinew_physics::plan::ReadingReport;
 use sinew_physics::plan::cycle;
-use sinew_wire::convert::simulation::{self, Source};
+use sinew_wire::convert::simulation::{self, SimulationSource};
 use sinew_wire::pb::{self, simulation_service_server::SimulationService};
 use sinew_wire::status::Fault;
-use sinew_wire::types::{MotionSource, ReadingReport, SimulationSettings};
+use sinew_wire::types::{MotionSource, SimulationSettings};
 use std::sync::Arc;
 use std::time::Instant;
 use tonic::{Request, Response, Status};
 
-type Out = long::Out<pb::StreamSimulateClipResponse>;
+type SimulationSender = long::MessageSender<pb::StreamSimulateClipResponse>;
 
 /// What came of a simulation.
-pub(super) struct Done {
+pub(super) struct SimulationResult {
     /// Without frames.
     answer: pb::SimulateClipResponse,
     /// The field of the answer that holds them.
     frames: Encoded,
 }
 
-impl Done {
+impl SimulationResult {
     /// The whole answer.
     pub(super) fn whole(self) -> Encoded {
         Encoded::of(&self.answer).then(self.frames)
@@ -40,15 +41,15 @@ impl Done {
 /// The motion of a simulation, prepared where files become clips.
 async fn motion(
     api: &Api,
-    client: &Client,
-    (source, upload): (Source, Upload),
+    client: &ClientKey,
+    (source, upload): (SimulationSource, Upload),
     settings: &SimulationSettings,
     body: &Arc<Body>,
-    progress: Progress,
+    progress: WorkProgress,
 ) -> Result<(Arc<Clip>, Option<ReadingReport>), Fault> {
     let (app, body, looped) = (api.0.clone(), body.clone(), settings.looped);
     match source {
-        Source::Clip(id) => {
+        SimulationSource::Clip(id) => {
             let (body_id, manner) = (settings.figure.body.id.clone(), Manner::recorded(looped));
             if let Some(clip) = api.clips.ready(&id, &body_id, manner) {
                 return Ok((clip, None));
@@ -61,7 +62,7 @@ async fn motion(
             let clip = api.conversions.run_large(client, bytes, work).await?;
             Ok((clip, None))
         }
-        Source::File(file) => {
+        SimulationSource::File(file) => {
             let bytes = match &file {
                 MotionSource::Bvh(data, how) => memory(data.clone(), how.rate_hz).await,
                 MotionSource::Postures { .. } => 0, // none is uploaded to be simulated
@@ -83,18 +84,18 @@ async fn motion(
 /// Simulates a clip. Frames go into the response, or to `out`.
 pub(super) async fn simulate(
     api: &Api,
-    (caller, client): (&Caller, Client),
+    (caller, client): (&Caller, ClientKey),
     (r, upload): (pb::SimulateClipRequest, Upload),
-    progress: Progress,
-    out: Option<Out>,
-) -> Result<Done, Fault> {
-    let limits = Limits {
+    progress: WorkProgress,
+    out: Option<SimulationSender>,
+) -> Result<SimulationResult, Fault> {
+    let limits = SimulationLimits {
         seconds: api.config.max_simulation_s,
         bytes: api.config.max_response_bytes,
     };
     let max_bytes = api.config.max_clip_bytes;
     let (source, settings) = simulation::settings(r, max_bytes, limits.seconds)?;
-    if let Source::Clip(id) = &source {
+    if let SimulationSource::Clip(id) = &source {
         super::clips::seen(api, caller, id)?; // an unknown name does not wait for its turn
     }
     let body = api.body("figure.profile", &settings.figure.body).await?;
@@ -102,13 +103,13 @@ pub(super) async fn simulate(
     let (clip, report) = motion(api, &client, source, &settings, &body, told).await?;
     let work = move |turn: &Turn| {
         progress.tell(0.0, 1.0);
-        let mut parts = out.map(|out| Parts::new(out, turn));
+        let mut parts = out.map(|out| FramePartStream::new(out, turn));
         let sink = Sink {
             progress: &progress,
-            parts: parts.as_mut().map(|p| p as &mut dyn simulate::Parts),
+            parts: parts.as_mut().map(|p| p as &mut dyn simulate::FrameSink),
         };
         let outcome = simulate::run(&settings, &body, clip, limits, (turn, sink))?;
-        Ok(Done {
+        Ok(SimulationResult {
             answer: simulation::response(&outcome.summary, &outcome.events, report.as_ref()),
             frames: outcome.frames,
         })
@@ -117,16 +118,16 @@ pub(super) async fn simulate(
 }
 
 /// Frames on their way to a client, a few at a time.
-struct Parts<'a> {
-    out: Out,
+struct FramePartStream<'a> {
+    out: SimulationSender,
     turn: &'a Turn,
     frames: Vec<pb::WorldFrame>,
     bytes: usize,
     since: Instant,
 }
 
-impl<'a> Parts<'a> {
-    fn new(out: Out, turn: &'a Turn) -> Self {
+impl<'a> FramePartStream<'a> {
+    fn new(out: SimulationSender, turn: &'a Turn) -> Self {
         Self {
             out,
             turn,
@@ -152,7 +153,7 @@ impl<'a> Parts<'a> {
     }
 }
 
-impl simulate::Parts for Parts<'_> {
+impl simulate::FrameSink for FramePartStream<'_> {
     fn take(&mut self, frame: Option<pb::WorldFrame>, share: f64) -> Result<(), Fault> {
         if let Some(frame) = frame {
             self.bytes += long::memory(&frame);
@@ -177,7 +178,7 @@ impl SimulationService for Api {
     ) -> Result<Response<pb::SimulateClipResponse>, Status> {
         let result = async {
             let (client, caller) = (client(&request), caller(&request)?.clone());
-            let (upload, progress) = (upload(&request), Progress::default());
+            let (upload, progress) = (upload(&request), WorkProgress::default());
             let r = (request.into_inner(), upload);
             simulate(self, (&caller, client), r, progress, None).await
         };
@@ -197,7 +198,7 @@ impl SimulationService for Api {
             let upload = upload(&request);
             let r = request.into_inner().simulate_clip;
             let r = r.ok_or_else(|| Fault::invalid("simulate_clip", "must be given"))?;
-            let (api, progress) = (self.clone(), Progress::default());
+            let (api, progress) = (self.clone(), WorkProgress::default());
             let (told, who) = (progress.watch(), caller.clone());
             let work = |out| async move {
                 let r = (r, upload);
@@ -208,7 +209,7 @@ impl SimulationService for Api {
             let last = |done| pb::StreamSimulateClipResponse {
                 message: Some(Message::SimulateClip(done)),
             };
-            Ok(long::Stream {
+            Ok(long::LongStream {
                 caller,
                 permit: None,
                 told,

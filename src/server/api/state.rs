@@ -1,8 +1,8 @@
 //! `StateService`.
 
-use super::late::Late;
+use super::late::LateFrames;
 use super::permit::Permit;
-use super::watching::Before;
+use super::watching::PastStart;
 use super::{Api, answer, caller, client, refusal, watching};
 use sinew_wire::convert::state;
 use sinew_wire::frame::{roster, world_frame};
@@ -51,7 +51,7 @@ impl StateService for Api {
         answer(result())
     }
 
-    type WatchWorldStream = watching::Frames;
+    type WatchWorldStream = watching::FrameStream;
 
     async fn watch_world(
         &self,
@@ -73,7 +73,7 @@ impl StateService for Api {
                     if *tick < -1 || handle.journal.is_none() {
                         return Err(expired.clone());
                     }
-                    Some(Late::after(self, client(&request), &handle, *tick)?)
+                    Some(LateFrames::after(self, client(&request), &handle, *tick)?)
                 }
                 _ => None,
             };
@@ -81,7 +81,7 @@ impl StateService for Api {
                 .hub
                 .channel(&view, &handle.outlet.latest, client(&request))?;
             let past = match (late, resumed) {
-                (Some(late), _) => Before::Late(Box::new(late)),
+                (Some(late), _) => PastStart::Late(Box::new(late)),
                 (None, Some((_, Ok(held)))) => watching::held(&handle, &view, held),
                 (None, _) => watching::held(&handle, &view, Vec::new()),
             };

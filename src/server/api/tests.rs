@@ -4,14 +4,17 @@
 
 use super::*;
 use crate::access::caller::Identity;
-use crate::checkpoints::Kept;
+use crate::access::roles::Rule;
+use crate::checkpoints::KeptCheckpoint;
 use crate::durable::local::LocalStore;
 use crate::durable::store::CheckpointStore;
-use crate::progress::Progress;
+use crate::progress::WorkProgress;
 use crate::testing::{Temporary, close};
+use crate::worlds::WorldHandle;
 use futures_util::FutureExt;
 use sinew_wire::convert::world::settings;
 use sinew_wire::types::WorldSettings;
+use std::time::SystemTime;
 
 fn titled(title: &str) -> WorldSettings {
     let world = pb::World {
@@ -44,8 +47,8 @@ fn names(app: &App) -> Vec<String> {
     worlds.iter().map(name).collect()
 }
 
-fn kept(owner: &str) -> Kept {
-    Kept {
+fn kept(owner: &str) -> KeptCheckpoint {
+    KeptCheckpoint {
         world: "w".to_owned(),
         id: "c".to_owned(),
         tick: 0,
@@ -202,7 +205,7 @@ async fn a_clip_that_is_deleted_as_soon_as_it_is_seen_does_not_come_back() {
     let create = tokio::spawn(async move {
         let who = (&caller, "c".into());
         let request = (request, Upload::default());
-        clips::create(&api, who, request, Progress::default()).await
+        clips::create(&api, who, request, WorkProgress::default()).await
     });
     let persistence = app.persistence.clone().unwrap();
     let mut writing = None;

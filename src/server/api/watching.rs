@@ -1,10 +1,10 @@
 //! Streams of frames and events. A stream is asked for its next message when the connection has room, so a slow viewer
 //! skips frames instead of collecting them.
 
-use super::late::Late;
+use super::late::LateFrames;
 use super::permit::Ending;
-use super::{Place, refusal};
-use crate::fanout::hub::{Channel, Encoded, Resuming};
+use super::{HeldPlace, refusal};
+use crate::fanout::hub::{Channel, EncodedFrame, Resuming};
 use crate::telemetry::metrics::frames_sent;
 use crate::worlds::WorldHandle;
 use prost::bytes::Bytes;
@@ -22,14 +22,14 @@ use tokio_stream::Stream;
 use tonic::Status;
 
 /// Frames as they come.
-pub type Frames = Pin<Box<dyn Stream<Item = Result<WatchWorldResponse, Status>> + Send>>;
+pub type FrameStream = Pin<Box<dyn Stream<Item = Result<WatchWorldResponse, Status>> + Send>>;
 /// Events as they come.
 pub type Events = Pin<Box<dyn Stream<Item = Result<pb::WatchEventsResponse, Status>> + Send>>;
 
 /// Ticks before the latest.
-pub(super) enum Before {
+pub(super) enum PastStart {
     /// Frames that are not held any more.
-    Late(Box<Late>),
+    Late(Box<LateFrames>),
     /// Frames that are held.
     Held(Resuming),
 }
@@ -38,21 +38,21 @@ struct Viewer {
     handle: Arc<WorldHandle>,
     channel: Arc<Channel>, // keeps its encoder running
     view: ViewSpec,
-    frames: watch::Receiver<Option<Encoded>>,
+    frames: watch::Receiver<Option<EncodedFrame>>,
     /// Ticks before the latest that are to be sent first.
-    past: Option<Before>,
+    past: Option<PastStart>,
     /// At most a roster and a frame.
     ready: VecDeque<Bytes>,
     roster: Option<i32>,
     last: Option<u64>,
     ending: Ending,
     over: bool,
-    _place: Place,
+    _place: HeldPlace,
 }
 
 impl Drop for Viewer {
     fn drop(&mut self) {
-        if let Some(Before::Held(_)) = self.past {
+        if let Some(PastStart::Held(_)) = self.past {
             self.handle.hub.resumed();
         }
         self.handle.viewers.fetch_sub(1, Ordering::Relaxed);
@@ -63,10 +63,10 @@ impl Drop for Viewer {
 pub(super) fn frames(
     handle: Arc<WorldHandle>,
     (view, channel): (&ViewSpec, Arc<Channel>),
-    past: Before,
+    past: PastStart,
     ending: Ending,
-    place: Place,
-) -> Frames {
+    place: HeldPlace,
+) -> FrameStream {
     let mut frames = channel.subscribe();
     frames.mark_changed(); // what is there already is the first to send
     handle.viewers.fetch_add(1, Ordering::Relaxed);
@@ -90,10 +90,10 @@ pub(super) fn frames(
 }
 
 /// Frames of a view that are held.
-pub(super) fn held(handle: &WorldHandle, view: &ViewSpec, held: Vec<Arc<Snapshot>>) -> Before {
+pub(super) fn held(handle: &WorldHandle, view: &ViewSpec, held: Vec<Arc<Snapshot>>) -> PastStart {
     let divisor = u64::from(view.divisor);
     let held = held.into_iter().filter(|s| s.tick % divisor == 0);
-    Before::Held(handle.hub.resume(held))
+    PastStart::Held(handle.hub.resume(held))
 }
 
 impl Viewer {
@@ -109,7 +109,7 @@ impl Viewer {
     }
 
     /// The frames that are held behind the last one that was done again.
-    fn held_on(&self) -> Before {
+    fn held_on(&self) -> PastStart {
         let last = self.last.map_or(-1, |l| l as i64);
         // What has gone meanwhile is missed, as by any viewer that is too slow.
         let after = self.handle.history().after(last).unwrap_or_default();
@@ -126,7 +126,7 @@ impl Viewer {
                 return None;
             }
             match &mut self.past {
-                Some(Before::Held(past)) => {
+                Some(PastStart::Held(past)) => {
                     match past.take_next() {
                         Some(snapshot) => self.catch_up(&snapshot),
                         None => {
@@ -136,7 +136,7 @@ impl Viewer {
                     }
                     continue;
                 }
-                Some(Before::Late(late)) => {
+                Some(PastStart::Late(late)) => {
                     let next = tokio::select! {
                         next = late.take_next() => next,
                         fault = &mut self.ending => Err(fault),
@@ -199,7 +199,7 @@ struct Listener {
     begun: bool,
     ending: Ending,
     over: bool,
-    _place: Place,
+    _place: HeldPlace,
 }
 
 impl Drop for Listener {
@@ -213,7 +213,7 @@ pub(super) fn events(
     handle: Arc<WorldHandle>,
     filter: EventFilter,
     ending: Ending,
-    place: Place,
+    place: HeldPlace,
 ) -> Events {
     handle.viewers.fetch_add(1, Ordering::Relaxed);
     let listener = Listener {

@@ -3,7 +3,7 @@
 use super::{Api, answer, caller, client, first_grants, origin};
 use crate::access::roles::Role;
 use crate::repeats::to_the_end;
-use crate::tick::shard::{Shard, StepRequest};
+use crate::tick::hosted_world::{HostedWorld, StepRequest};
 use sinew_wire::convert::{count, new_id, page, world, world_name};
 use sinew_wire::pb::{self, world_service_server::WorldService};
 use sinew_wire::status::Fault;
@@ -20,7 +20,7 @@ impl Api {
         &self,
         request: &Request<T>,
         name: &str,
-        f: impl FnOnce(&mut Shard) -> Result<WorldInfo, Fault> + Send + 'static,
+        f: impl FnOnce(&mut HostedWorld) -> Result<WorldInfo, Fault> + Send + 'static,
     ) -> Result<pb::World, Fault> {
         let handle = self.world(request, "name", name)?;
         let (api, origin) = (self.clone(), origin(request));
@@ -114,7 +114,7 @@ impl WorldService for Api {
             let handle = self.world(&request, "world.name", &w.name)?;
             let update = world::update(w, r.update_mask.as_ref())?;
             let (etag, only) = (w.etag.clone(), r.validate_only);
-            let change = move |s: &mut Shard| {
+            let change = move |s: &mut HostedWorld| {
                 world::check_etag(&s.info(), &etag)?;
                 if only {
                     s.would_update(update)
@@ -167,7 +167,7 @@ impl WorldService for Api {
     ) -> Result<Response<pb::PauseWorldResponse>, Status> {
         let name = request.get_ref().name.clone();
         answer(
-            self.on_world(&request, &name, Shard::pause)
+            self.on_world(&request, &name, HostedWorld::pause)
                 .await
                 .map(|w| pb::PauseWorldResponse { world: Some(w) }),
         )
@@ -179,7 +179,7 @@ impl WorldService for Api {
     ) -> Result<Response<pb::ResumeWorldResponse>, Status> {
         let name = request.get_ref().name.clone();
         answer(
-            self.on_world(&request, &name, Shard::resume)
+            self.on_world(&request, &name, HostedWorld::resume)
                 .await
                 .map(|w| pb::ResumeWorldResponse { world: Some(w) }),
         )

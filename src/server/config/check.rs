@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// A problem with a setting.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
+pub struct SettingProblem {
     /// Name of the setting.
     pub setting: &'static str,
     /// The problem.
@@ -19,14 +19,14 @@ pub struct Problem {
 }
 
 /// All problems. Keys are fetched from their address; no other request leaves this machine.
-pub async fn problems(config: &Config) -> Vec<Problem> {
+pub async fn problems(config: &Config) -> Vec<SettingProblem> {
     let mut all = Vec::new();
     let mut check = |setting: &'static str, result: Result<(), String>| {
         if let Err(what) = result {
             // Drop the setting's name if the message already begins with it.
             let what = what.strip_prefix(&format!("{setting}: ")).unwrap_or(&what);
             let what = super::without_secrets(what);
-            all.push(Problem { setting, what });
+            all.push(SettingProblem { setting, what });
         }
     };
     let tls = Tls::new(config).map(|_| ());

@@ -4,7 +4,7 @@
 pub mod check;
 
 use super::durable::store::Durability;
-use super::tick::scheduler::Priority;
+use super::tick::scheduler::WorkerPriority;
 use std::collections::BTreeMap;
 use std::net::SocketAddr;
 use std::path::Path;
@@ -245,7 +245,7 @@ settings! {
     durability: text = "group", (), ();
     /// Worlds that are let out of quarantine at this start; separated by commas.
     release_worlds: text = "", (), ();
-    /// Past of worlds that is kept in memory, s: as far back they can be put, forked and replayed; 0: none.
+    /// Seconds of each world's history kept in memory for rewinding, forking and replay. 0 disables it.
     memory_s: float = 60.0, 0.0, 86_400.0;
     /// Bytes of the past of one world in memory; 0: none.
     max_world_memory_bytes: int = 33_554_432, 0, 1_099_511_627_776;
@@ -405,7 +405,7 @@ impl Config {
     /// Settings from all sources. `flags` are pairs of name and value, as `--set` gives them.
     ///
     /// # Errors
-    /// What is wrong and where it was given.
+    /// The problem, and where the value was given.
     pub fn load(
         file: Option<&Path>,
         environment: impl Iterator<Item = (String, String)>,
@@ -417,7 +417,7 @@ impl Config {
     /// As [`Config::load`], with where each setting comes from.
     ///
     /// # Errors
-    /// What is wrong and where it was given.
+    /// The problem, and where the value was given.
     pub fn load_with_sources(
         file: Option<&Path>,
         environment: impl Iterator<Item = (String, String)>,
@@ -460,7 +460,7 @@ impl Config {
                 value: config.durability,
             });
         }
-        if Priority::by_name(&config.tick_priority).is_none() {
+        if WorkerPriority::by_name(&config.tick_priority).is_none() {
             return Err(ConfigError::Value {
                 source_name: "settings".to_owned(),
                 name: "tick_priority",

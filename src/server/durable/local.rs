@@ -9,8 +9,8 @@ use super::log::{Log, set_aside};
 use super::marks::Marks;
 use super::records::{self, ClipFile};
 use super::store::{
-    CheckpointStore, ClipRecord, Entry, Found, History, Loss, RehearsalRecord, Remedy, Retention,
-    StoreError, Usage, WorldKey, WorldRecord,
+    CheckpointStore, ClipRecord, Loss, RehearsalRecord, Remedy, Retention, StoreContents,
+    StoreEntry, StoreError, StoreUsage, StoredHistory, WorldKey, WorldRecord,
 };
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
@@ -257,8 +257,8 @@ fn file_name(name: &str) -> String {
 fn found<T>(
     paths: Vec<PathBuf>,
     read: impl Fn(&Path) -> Result<T, StoreError>,
-) -> Result<Found<T>, StoreError> {
-    let mut out = Found {
+) -> Result<StoreContents<T>, StoreError> {
+    let mut out = StoreContents {
         whole: Vec::new(),
         damaged: Vec::new(),
     };
@@ -368,7 +368,7 @@ fn open_log(dir: &Path, last_end: &mut LastEnd) -> Result<Log, StoreError> {
 }
 
 impl CheckpointStore for LocalStore {
-    fn worlds(&mut self) -> Result<Found<WorldRecord>, StoreError> {
+    fn worlds(&mut self) -> Result<StoreContents<WorldRecord>, StoreError> {
         let paths = files::list(&self.dir.join("worlds"), "world")?;
         let mut out = found(paths.clone(), |path| self.read_world(path))?;
         out.whole.iter().for_each(|w| self.know(w.key));
@@ -409,11 +409,11 @@ impl CheckpointStore for LocalStore {
         self.finish_deletion(key)
     }
 
-    fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {
+    fn commit(&mut self, entries: &[StoreEntry]) -> Result<(), StoreError> {
         self.log.commit(entries)
     }
 
-    fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<History>, StoreError> {
+    fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<StoredHistory>, StoreError> {
         let mut out = self.log.read(worlds, None)?;
         for (history, world) in out.iter_mut().zip(worlds) {
             if history.checkpoint.is_some() {
@@ -441,7 +441,7 @@ impl CheckpointStore for LocalStore {
         Ok(out)
     }
 
-    fn history_at(&mut self, world: WorldKey, tick: u64) -> Result<History, StoreError> {
+    fn history_at(&mut self, world: WorldKey, tick: u64) -> Result<StoredHistory, StoreError> {
         let mut histories = self.log.read(&[world], Some(tick))?;
         Ok(histories.pop().unwrap_or_default())
     }
@@ -450,7 +450,7 @@ impl CheckpointStore for LocalStore {
         self.log.oldest(world)
     }
 
-    fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError> {
+    fn cut(&mut self, limits: &Retention) -> Result<StoreUsage, StoreError> {
         let usage = self.log.cut(limits)?;
         self.write_states(self.states_due());
         Ok(usage)
@@ -473,7 +473,7 @@ impl CheckpointStore for LocalStore {
         }
     }
 
-    fn clips(&mut self) -> Result<Found<ClipRecord>, StoreError> {
+    fn clips(&mut self) -> Result<StoreContents<ClipRecord>, StoreError> {
         let paths = files::list(&self.dir.join("clips"), "clip")?;
         found(paths, |path| self.read_clip(path))
     }
@@ -499,7 +499,7 @@ impl CheckpointStore for LocalStore {
         records::write_clip(&self.clip_path(&clip.name), &file)
     }
 
-    fn rehearsals(&mut self) -> Result<Found<RehearsalRecord>, StoreError> {
+    fn rehearsals(&mut self) -> Result<StoreContents<RehearsalRecord>, StoreError> {
         let paths = files::list(&self.dir.join("rehearsals"), "rehearsal")?;
         found(paths, |path| {
             records::read_rehearsal(path).map_err(|e| match e {

@@ -92,11 +92,11 @@ impl Marks {
     }
 
     /// A place for the notes of one world; `None` when all are taken.
-    pub fn place(self: &std::sync::Arc<Self>, world: WorldKey) -> Option<Mark> {
+    pub fn place(self: &std::sync::Arc<Self>, world: WorldKey) -> Option<WorldMark> {
         let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
         let at = taken.iter().position(|t| !t)?;
         taken[at] = true;
-        Some(Mark {
+        Some(WorldMark {
             marks: self.clone(),
             world,
             at,
@@ -118,13 +118,13 @@ impl Marks {
 
 /// The place for the notes of one world.
 #[derive(Debug)]
-pub struct Mark {
+pub struct WorldMark {
     marks: std::sync::Arc<Marks>,
     world: WorldKey,
     at: usize,
 }
 
-impl Mark {
+impl WorldMark {
     /// Notes that a tick is being computed.
     pub fn begin(&self, tick: u64) {
         self.marks.write(self.at, &slot(self.world, tick));
@@ -136,7 +136,7 @@ impl Mark {
     }
 }
 
-impl Drop for Mark {
+impl Drop for WorldMark {
     fn drop(&mut self) {
         self.end();
         let taken = self.marks.taken.lock();

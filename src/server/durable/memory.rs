@@ -1,8 +1,9 @@
 //! A store in memory, for tests. Its content lives as long as its [`Disk`], and the disk can be made to fail.
 
 use super::store::{
-    CheckpointStore, ClipRecord, Entry, Found, History, Item, Logged, Loss, RehearsalRecord,
-    Remedy, Retention, StoreError, Usage, WorldKey, WorldRecord,
+    CheckpointStore, ClipRecord, LoggedTick, Loss, RehearsalRecord, Remedy, Retention,
+    StoreContents, StoreEntry, StoreError, StoreItem, StoreUsage, StoredHistory, WorldKey,
+    WorldRecord,
 };
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,14 +11,14 @@ use std::time::{Duration, Instant};
 
 /// The disk of a [`MemoryStore`].
 #[derive(Clone, Debug, Default)]
-pub struct Disk(Arc<Mutex<Content>>);
+pub struct MemoryDisk(Arc<Mutex<DiskContent>>);
 
 #[derive(Debug, Default)]
-struct Content {
+struct DiskContent {
     worlds: BTreeMap<WorldKey, WorldRecord>,
     clips: BTreeMap<String, ClipRecord>,
     rehearsals: BTreeMap<(String, String), RehearsalRecord>,
-    log: Vec<Entry>,
+    log: Vec<StoreEntry>,
     fault: Option<StoreError>,
     /// Errors of the next commits, in order.
     next_faults: VecDeque<StoreError>,
@@ -29,8 +30,8 @@ struct Content {
     closed: bool,
 }
 
-impl Disk {
-    fn content(&self) -> MutexGuard<'_, Content> {
+impl MemoryDisk {
+    fn content(&self) -> MutexGuard<'_, DiskContent> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -60,7 +61,7 @@ impl Disk {
     }
 
     /// Everything that was written, in order.
-    pub fn log(&self) -> Vec<Entry> {
+    pub fn log(&self) -> Vec<StoreEntry> {
         self.content().log.clone()
     }
 
@@ -72,10 +73,10 @@ impl Disk {
 
 /// A store in memory.
 #[derive(Clone, Debug, Default)]
-pub struct MemoryStore(pub Disk);
+pub struct MemoryStore(pub MemoryDisk);
 
 impl MemoryStore {
-    fn writable(&self) -> Result<MutexGuard<'_, Content>, StoreError> {
+    fn writable(&self) -> Result<MutexGuard<'_, DiskContent>, StoreError> {
         let content = self.0.content();
         match &content.fault {
             Some(fault) => Err(fault.clone()),
@@ -83,11 +84,11 @@ impl MemoryStore {
         }
     }
 
-    fn history(content: &Content, world: WorldKey, at: Option<u64>) -> History {
-        let mut history = History::default();
+    fn history(content: &DiskContent, world: WorldKey, at: Option<u64>) -> StoredHistory {
+        let mut history = StoredHistory::default();
         for entry in content.log.iter().filter(|e| e.world == world) {
             match &entry.item {
-                Item::Checkpoint { bytes, after_gap } => {
+                StoreItem::Checkpoint { bytes, after_gap } => {
                     if at.is_none_or(|at| entry.tick <= at) {
                         history.checkpoint = Some((entry.tick, bytes.clone()));
                         history.entries.clear();
@@ -99,7 +100,7 @@ impl MemoryStore {
                         break;
                     }
                 }
-                item => history.entries.push(Logged {
+                item => history.entries.push(LoggedTick {
                     tick: entry.tick,
                     item: item.clone(),
                 }),
@@ -110,8 +111,8 @@ impl MemoryStore {
 }
 
 impl CheckpointStore for MemoryStore {
-    fn worlds(&mut self) -> Result<Found<WorldRecord>, StoreError> {
-        Ok(Found {
+    fn worlds(&mut self) -> Result<StoreContents<WorldRecord>, StoreError> {
+        Ok(StoreContents {
             whole: self.0.content().worlds.values().cloned().collect(),
             damaged: Vec::new(),
         })
@@ -135,7 +136,7 @@ impl CheckpointStore for MemoryStore {
         Ok(())
     }
 
-    fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {
+    fn commit(&mut self, entries: &[StoreEntry]) -> Result<(), StoreError> {
         let until = Instant::now() + self.0.content().commit_time;
         while let Some(left) = until
             .checked_duration_since(Instant::now())
@@ -152,27 +153,28 @@ impl CheckpointStore for MemoryStore {
         Ok(())
     }
 
-    fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<History>, StoreError> {
+    fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<StoredHistory>, StoreError> {
         let content = self.0.content();
         let history = |w: &WorldKey| Self::history(&content, *w, None);
         Ok(worlds.iter().map(history).collect())
     }
 
-    fn history_at(&mut self, world: WorldKey, tick: u64) -> Result<History, StoreError> {
+    fn history_at(&mut self, world: WorldKey, tick: u64) -> Result<StoredHistory, StoreError> {
         Ok(Self::history(&self.0.content(), world, Some(tick)))
     }
 
     fn oldest(&mut self, world: WorldKey) -> Option<u64> {
         let content = self.0.content();
-        let checkpoint = |e: &&Entry| e.world == world && matches!(e.item, Item::Checkpoint { .. });
+        let checkpoint =
+            |e: &&StoreEntry| e.world == world && matches!(e.item, StoreItem::Checkpoint { .. });
         content.log.iter().find(checkpoint).map(|e| e.tick)
     }
 
     /// Holds everything: tests are short.
-    fn cut(&mut self, _limits: &Retention) -> Result<Usage, StoreError> {
+    fn cut(&mut self, _limits: &Retention) -> Result<StoreUsage, StoreError> {
         let content = self.0.content();
-        let checkpoint = |e: &&Entry| matches!(e.item, Item::Checkpoint { .. });
-        Ok(Usage {
+        let checkpoint = |e: &&StoreEntry| matches!(e.item, StoreItem::Checkpoint { .. });
+        Ok(StoreUsage {
             history_bytes: content.log.iter().map(|e| e.size() as u64).sum(),
             checkpoints: content.log.iter().filter(checkpoint).count(),
             unswept: false,
@@ -184,8 +186,8 @@ impl CheckpointStore for MemoryStore {
         Ok(None)
     }
 
-    fn clips(&mut self) -> Result<Found<ClipRecord>, StoreError> {
-        Ok(Found {
+    fn clips(&mut self) -> Result<StoreContents<ClipRecord>, StoreError> {
+        Ok(StoreContents {
             whole: self.0.content().clips.values().cloned().collect(),
             damaged: Vec::new(),
         })
@@ -205,8 +207,8 @@ impl CheckpointStore for MemoryStore {
         Ok(())
     }
 
-    fn rehearsals(&mut self) -> Result<Found<RehearsalRecord>, StoreError> {
-        Ok(Found {
+    fn rehearsals(&mut self) -> Result<StoreContents<RehearsalRecord>, StoreError> {
+        Ok(StoreContents {
             whole: self.0.content().rehearsals.values().cloned().collect(),
             damaged: Vec::new(),
         })

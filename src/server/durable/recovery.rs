@@ -3,14 +3,14 @@
 
 use super::local::LocalStore;
 use super::store::{
-    CheckpointStore, ClipRecord, History, RehearsalRecord, StoreError, WorldRecord,
+    CheckpointStore, ClipRecord, RehearsalRecord, StoreError, StoredHistory, WorldRecord,
 };
 
 /// The data found at a start.
 #[derive(Debug, Default)]
 pub struct Recovered {
     /// Worlds to bring back, with everything known about them.
-    pub worlds: Vec<(WorldRecord, History)>,
+    pub worlds: Vec<(WorldRecord, StoredHistory)>,
     /// Worlds that stay out; each record has the reason.
     pub quarantined: Vec<WorldRecord>,
     /// Clips.

@@ -94,7 +94,7 @@ pub struct RehearsalRecord {
 
 /// Data written for a world.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Item {
+pub enum StoreItem {
     /// The whole state after a tick.
     Checkpoint {
         /// The state.
@@ -110,32 +110,32 @@ pub enum Item {
 
 /// One entry of one world. The order of entries is the order of events.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Entry {
+pub struct StoreEntry {
     /// World.
     pub world: WorldKey,
     /// Tick to which it belongs.
     pub tick: u64,
     /// Its content.
-    pub item: Item,
+    pub item: StoreItem,
 }
 
-impl Entry {
+impl StoreEntry {
     /// Approximate size in bytes.
     pub fn size(&self) -> usize {
         32 + match &self.item {
-            Item::Checkpoint { bytes, .. } | Item::Input(bytes) => bytes.len(),
-            Item::Hash(_) => 8,
+            StoreItem::Checkpoint { bytes, .. } | StoreItem::Input(bytes) => bytes.len(),
+            StoreItem::Hash(_) => 8,
         }
     }
 }
 
 /// Input or hash of a tick, as it is read back.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Logged {
+pub struct LoggedTick {
     /// Tick to which it belongs.
     pub tick: u64,
     /// Its content; never a checkpoint.
-    pub item: Item,
+    pub item: StoreItem,
 }
 
 /// A loss in the history of a world.
@@ -159,16 +159,16 @@ impl fmt::Display for Loss {
 /// A world as it can be brought back: a checkpoint and everything written after it. It contains only data as they were
 /// written; at a damaged place it ends and reports the loss.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct History {
+pub struct StoredHistory {
     /// Tick and bytes.
     pub checkpoint: Option<(u64, Bytes)>,
     /// Inputs and hashes after it, in order.
-    pub entries: Vec<Logged>,
+    pub entries: Vec<LoggedTick>,
     /// Known losses.
     pub losses: Vec<Loss>,
 }
 
-impl History {
+impl StoredHistory {
     /// The last known tick.
     pub fn last_tick(&self) -> Option<u64> {
         let checkpoint = self.checkpoint.as_ref().map(|c| c.0);
@@ -189,7 +189,7 @@ pub struct Retention {
 
 /// Amount of history that is held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Usage {
+pub struct StoreUsage {
     /// Bytes of history.
     pub history_bytes: u64,
     /// Checkpoints.
@@ -200,7 +200,7 @@ pub struct Usage {
 
 /// Data that the store found in its own directory.
 #[derive(Clone, Debug, Default)]
-pub struct Found<T> {
+pub struct StoreContents<T> {
     /// Intact records.
     pub whole: Vec<T>,
     /// Damaged files: place and fault of each.
@@ -296,7 +296,7 @@ pub trait CheckpointStore: Send {
     ///
     /// # Errors
     /// The directory cannot be read.
-    fn worlds(&mut self) -> Result<Found<WorldRecord>, StoreError>;
+    fn worlds(&mut self) -> Result<StoreContents<WorldRecord>, StoreError>;
 
     /// A number for a new world.
     fn new_key(&mut self) -> WorldKey;
@@ -318,19 +318,19 @@ pub trait CheckpointStore: Send {
     ///
     /// # Errors
     /// They could not be written.
-    fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError>;
+    fn commit(&mut self, entries: &[StoreEntry]) -> Result<(), StoreError>;
 
     /// For each world, the latest intact state and everything written after it.
     ///
     /// # Errors
     /// Nothing can be read. Damage to single worlds is reported in their histories.
-    fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<History>, StoreError>;
+    fn latest(&mut self, worlds: &[WorldKey]) -> Result<Vec<StoredHistory>, StoreError>;
 
     /// As [`latest`](Self::latest) for one world, from its last checkpoint at or before a tick.
     ///
     /// # Errors
     /// Nothing can be read.
-    fn history_at(&mut self, world: WorldKey, tick: u64) -> Result<History, StoreError>;
+    fn history_at(&mut self, world: WorldKey, tick: u64) -> Result<StoredHistory, StoreError>;
 
     /// The tick of the oldest checkpoint of a world that is held.
     fn oldest(&mut self, world: WorldKey) -> Option<u64>;
@@ -353,7 +353,7 @@ pub trait CheckpointStore: Send {
                 break;
             };
             for entry in &history.entries {
-                if let Item::Hash(hash) = entry.item
+                if let StoreItem::Hash(hash) = entry.item
                     && ticks.contains(&entry.tick)
                 {
                     out.insert(entry.tick, hash);
@@ -368,7 +368,7 @@ pub trait CheckpointStore: Send {
     ///
     /// # Errors
     /// It could not be done.
-    fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError>;
+    fn cut(&mut self, limits: &Retention) -> Result<StoreUsage, StoreError>;
 
     /// Applies a [`remedy`](StoreError::remedy), if it concerns the store. Returns a description of the action.
     ///
@@ -380,7 +380,7 @@ pub trait CheckpointStore: Send {
     ///
     /// # Errors
     /// The directory cannot be read.
-    fn clips(&mut self) -> Result<Found<ClipRecord>, StoreError>;
+    fn clips(&mut self) -> Result<StoreContents<ClipRecord>, StoreError>;
 
     /// Writes a clip; it has no rehearsals afterwards.
     ///
@@ -398,7 +398,7 @@ pub trait CheckpointStore: Send {
     ///
     /// # Errors
     /// The directory cannot be read.
-    fn rehearsals(&mut self) -> Result<Found<RehearsalRecord>, StoreError>;
+    fn rehearsals(&mut self) -> Result<StoreContents<RehearsalRecord>, StoreError>;
 
     /// Writes a rehearsal, replacing that of the same clip for the same figure.
     ///

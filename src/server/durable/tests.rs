@@ -10,9 +10,9 @@ mod disk;
 mod faults;
 mod writing;
 
-use super::keeper::{Keeper, Recorder, Sizes};
+use super::keeper::{Keeper, KeeperSizes, Recorder};
 use super::local::LocalStore;
-use super::memory::{Disk, MemoryStore};
+use super::memory::{MemoryDisk, MemoryStore};
 use super::recovery::recover;
 use super::store::*;
 use crate::testing::Temporary;
@@ -27,7 +27,7 @@ const RETENTION: Retention = Retention {
     world_bytes: 1 << 30,
     total_bytes: 1 << 30,
 };
-const SIZES: Sizes = Sizes {
+const SIZES: KeeperSizes = KeeperSizes {
     queue_bytes: 1 << 20,
     retention: RETENTION,
 };
@@ -50,16 +50,19 @@ fn state(n: u64, tick: u64) -> Bytes {
     bytes_of(n, tick, 1, 20_000)
 }
 
-fn tick_entries(world: &WorldRecord, n: u64, tick: u64) -> Vec<Entry> {
-    let entry = |item| Entry {
+fn tick_entries(world: &WorldRecord, n: u64, tick: u64) -> Vec<StoreEntry> {
+    let entry = |item| StoreEntry {
         world: world.key,
         tick,
         item,
     };
     let input = bytes_of(n, tick, 2, 300);
-    let mut out = vec![entry(Item::Input(input)), entry(Item::Hash(n << 32 | tick))];
+    let mut out = vec![
+        entry(StoreItem::Input(input)),
+        entry(StoreItem::Hash(n << 32 | tick)),
+    ];
     if tick.is_multiple_of(EVERY) {
-        out.push(entry(Item::Checkpoint {
+        out.push(entry(StoreItem::Checkpoint {
             bytes: state(n, tick),
             after_gap: false,
         }));
@@ -90,13 +93,13 @@ fn clip(n: u64) -> ClipRecord {
 /// Writes all worlds from tick 0, all of them in each commit.
 fn fill(store: &mut dyn CheckpointStore, ticks: u64) -> Vec<WorldRecord> {
     let worlds: Vec<WorldRecord> = (0..WORLDS as u64).map(|n| world(store, n)).collect();
-    let first: Vec<Entry> = worlds
+    let first: Vec<StoreEntry> = worlds
         .iter()
         .zip(0..)
-        .map(|(w, n)| Entry {
+        .map(|(w, n)| StoreEntry {
             world: w.key,
             tick: 0,
-            item: Item::Checkpoint {
+            item: StoreItem::Checkpoint {
                 bytes: state(n, 0),
                 after_gap: false,
             },
@@ -104,7 +107,7 @@ fn fill(store: &mut dyn CheckpointStore, ticks: u64) -> Vec<WorldRecord> {
         .collect();
     store.commit(&first).unwrap();
     for tick in 1..=ticks {
-        let entries: Vec<Entry> = worlds
+        let entries: Vec<StoreEntry> = worlds
             .iter()
             .zip(0..)
             .flat_map(|(w, n)| tick_entries(w, n, tick))
@@ -115,7 +118,7 @@ fn fill(store: &mut dyn CheckpointStore, ticks: u64) -> Vec<WorldRecord> {
 }
 
 /// Checks that it contains only written data, in order and without a hole. Returns the last tick.
-fn check(n: u64, history: &History) -> Result<Option<u64>, TestCaseError> {
+fn check(n: u64, history: &StoredHistory) -> Result<Option<u64>, TestCaseError> {
     let Some((from, bytes)) = &history.checkpoint else {
         prop_assert!(history.entries.is_empty());
         return Ok(None);
@@ -126,8 +129,8 @@ fn check(n: u64, history: &History) -> Result<Option<u64>, TestCaseError> {
     for (i, [input, hash]) in pairs.iter().enumerate() {
         let tick = from + 1 + i as u64;
         prop_assert_eq!((input.tick, hash.tick), (tick, tick));
-        prop_assert_eq!(&input.item, &Item::Input(bytes_of(n, tick, 2, 300)));
-        prop_assert_eq!(&hash.item, &Item::Hash(n << 32 | tick));
+        prop_assert_eq!(&input.item, &StoreItem::Input(bytes_of(n, tick, 2, 300)));
+        prop_assert_eq!(&hash.item, &StoreItem::Hash(n << 32 | tick));
     }
     Ok(history.last_tick())
 }
@@ -189,7 +192,7 @@ fn with_one_at_rest() -> (Temporary, Vec<WorldRecord>) {
     let worlds = fill(&mut store, 40);
     for tick in 41..=TICKS {
         let entries = worlds.iter().zip(0..).skip(1);
-        let entries: Vec<Entry> = entries
+        let entries: Vec<StoreEntry> = entries
             .flat_map(|(w, n)| tick_entries(w, n, tick))
             .collect();
         store.commit(&entries).unwrap();
@@ -243,7 +246,7 @@ fn judged(dir: &Path) -> Result<bool, TestCaseError> {
     Ok(reported)
 }
 
-fn recorded(disk: &Disk, sizes: Sizes, durability: Durability) -> (Keeper, Recorder) {
+fn recorded(disk: &MemoryDisk, sizes: KeeperSizes, durability: Durability) -> (Keeper, Recorder) {
     let mut store = MemoryStore(disk.clone());
     let mut world = world(&mut store, 0);
     world.durability = durability;

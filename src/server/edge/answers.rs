@@ -1,9 +1,10 @@
 //! Answers of calls that have one message: complete before the first byte is sent, so that the bytes waiting for a slow
 //! reader are known and bounded. Answers that come encoded are sent from bytes that all their readers share.
 
-use super::Edge;
 use super::connections::Open;
-use super::replies::Whole;
+use super::replies::WholeAnswer;
+use super::state::Edge;
+use crate::calls::answers_one_message;
 use crate::encoded::Encoded;
 use crate::telemetry::count_refusal;
 use axum::body::{Body, Bytes};
@@ -12,12 +13,10 @@ use axum::http::{HeaderMap, HeaderValue};
 use axum::middleware::Next;
 use axum::response::Response;
 use http_body::{Body as HttpBody, Frame};
-use prost::Message as _;
-use sinew_wire::DESCRIPTOR_SET;
-use std::collections::{HashSet, VecDeque};
+use std::collections::VecDeque;
 use std::future::poll_fn;
 use std::pin::Pin;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 use std::task::{Context, Poll};
 use tonic::Status;
 
@@ -25,21 +24,6 @@ use tonic::Status;
 const UNCOUNTED: usize = 32 * 1024;
 /// Bytes that are sent at a time.
 const PIECE: usize = 64 * 1024;
-
-/// Paths of the calls that are answered with one message.
-static UNARY: LazyLock<HashSet<String>> = LazyLock::new(|| {
-    let set = prost_types::FileDescriptorSet::decode(DESCRIPTOR_SET);
-    let set = set.expect("the embedded descriptor set is one");
-    let mut paths = HashSet::new();
-    for file in &set.file {
-        for service in &file.service {
-            let unary = service.method.iter().filter(|m| !m.server_streaming());
-            let path = |m: &str| format!("/{}.{}/{m}", file.package(), service.name());
-            paths.extend(unary.map(|m| path(m.name())));
-        }
-    }
-    paths
-});
 
 /// Marks a response whose bytes are counted already.
 #[derive(Clone, Copy)]
@@ -51,7 +35,7 @@ pub(crate) async fn answers(
     request: Request,
     next: Next,
 ) -> Response {
-    let unary = UNARY.contains(request.uri().path());
+    let unary = answers_one_message(request.uri().path());
     let open = request.extensions().get::<Arc<Open>>().cloned();
     let response = next.run(request).await;
     match open {
@@ -63,7 +47,7 @@ pub(crate) async fn answers(
 async fn whole(mut response: Response, edge: &Edge, open: &Arc<Open>) -> Response {
     let encoded = response.extensions_mut().remove::<Encoded>();
     let (mut parts, mut body) = response.into_parts();
-    let mut answer = Answer::default();
+    let mut answer = AnswerBody::default();
     match encoded {
         Some(encoded) => {
             let mut prefix = vec![0]; // not compressed
@@ -119,16 +103,16 @@ enum Last {
 
 /// An answer on its way.
 #[derive(Default)]
-struct Answer {
+struct AnswerBody {
     first: Option<Frame<Bytes>>,
     pieces: VecDeque<Bytes>,
     last: Last,
-    counted: Option<Whole>,
+    counted: Option<WholeAnswer>,
     /// Bytes of the piece that was sent last: it is on its way once the next one is asked for.
     sending: usize,
 }
 
-impl HttpBody for Answer {
+impl HttpBody for AnswerBody {
     type Data = Bytes;
     type Error = axum::Error;
 
@@ -248,9 +232,15 @@ mod tests {
 
     #[test]
     fn calls_that_answer_with_a_stream_are_left_alone() {
-        assert!(UNARY.contains("/sinew.v1.OperationService/GetOperation"));
-        assert!(UNARY.contains("/sinew.v1.CheckpointService/GetCheckpoint"));
-        assert!(!UNARY.contains("/sinew.v1.StateService/WatchWorld"));
-        assert!(!UNARY.contains("/sinew.v1.SimulationService/StreamSimulateClip"));
+        assert!(answers_one_message(
+            "/sinew.v1.OperationService/GetOperation"
+        ));
+        assert!(answers_one_message(
+            "/sinew.v1.CheckpointService/GetCheckpoint"
+        ));
+        assert!(!answers_one_message("/sinew.v1.StateService/WatchWorld"));
+        assert!(!answers_one_message(
+            "/sinew.v1.SimulationService/StreamSimulateClip"
+        ));
     }
 }

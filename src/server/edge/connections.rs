@@ -204,12 +204,12 @@ pub(crate) struct Doors {
     /// When a connection is closed in any case.
     oldest: Option<Duration>,
     uses: Arc<AtomicU64>,
-    open: Mutex<Table>,
-    log: Mutex<Log>,
+    open: Mutex<ConnectionTable>,
+    log: Mutex<ClosedLog>,
 }
 
 #[derive(Debug, Default)]
-struct Table {
+struct ConnectionTable {
     next: u64,
     peers: BTreeMap<u64, Arc<Peer>>,
     /// Connections of each address, without those beyond the limits.
@@ -219,12 +219,12 @@ struct Table {
 
 /// Closed connections that have not been logged yet.
 #[derive(Debug, Default)]
-struct Log {
+struct ClosedLog {
     told: Option<Instant>,
     untold: BTreeMap<&'static str, u64>,
 }
 
-impl Table {
+impl ConnectionTable {
     /// The least recently used one of `those`; connections without any request come first.
     fn last(&self, those: impl Fn(&Peer) -> bool) -> Option<u64> {
         let those = self.peers.iter().filter(|(_, p)| those(p));
@@ -291,7 +291,7 @@ impl Doors {
         self.most as u64
     }
 
-    fn table(&self) -> std::sync::MutexGuard<'_, Table> {
+    fn table(&self) -> std::sync::MutexGuard<'_, ConnectionTable> {
         self.open.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -7,30 +7,30 @@ mod answers;
 pub(super) mod connections;
 mod errors;
 pub(super) mod hosts;
+mod refusal;
 mod replies;
 mod requests;
+mod state;
+mod uploads;
 
 pub(super) use answers::answers;
 pub(super) use errors::reasons;
-pub(super) use requests::{Upload, sizes};
+pub(super) use refusal::unknown_method;
+pub(super) use requests::sizes;
+pub(super) use state::Edge;
+pub(super) use uploads::Upload;
 
-use super::config::Config;
-use super::telemetry::count_refusal;
 use axum::body::Body;
 use axum::extract::{Request, State};
-use axum::http::header;
 use axum::middleware::Next;
-use axum::response::{IntoResponse as _, Response};
-use connections::{Doors, Peer};
-use hosts::Hosts;
-use replies::{Reply, Unread};
-use requests::Uploads;
+use axum::response::Response;
+use connections::Peer;
+use refusal::refused;
+use replies::Reply;
 use sinew_wire::status::Fault;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
-use tokio::sync::Semaphore;
-use tonic::Status;
 use tonic::transport::server::TcpConnectInfo;
 
 /// Answers that are given even when all places are taken, and while the server ends.
@@ -41,50 +41,6 @@ const VITAL: [&str; 5] = [
     "/metrics",
     "/readyz",
 ];
-
-/// The state of the edge.
-pub(super) struct Edge {
-    /// Connections.
-    pub doors: Arc<Doors>,
-    /// Known names.
-    pub hosts: Hosts,
-    uploads: Uploads,
-    unread: Arc<Unread>,
-    requests: Arc<Semaphore>,
-    max_requests: u64,
-    /// Whether the server is ending, so that new requests are refused.
-    ending: AtomicBool,
-    max_requests_of_one: u64,
-    /// Longest time of a request before its response begins.
-    timeout: Duration,
-}
-
-impl Edge {
-    /// An edge with the limits of the settings.
-    pub(super) fn new(config: &Config) -> Arc<Self> {
-        Arc::new(Self {
-            doors: Doors::new(config),
-            hosts: Hosts::new(config),
-            uploads: Uploads::new(config),
-            unread: Unread::new(config.max_unread_bytes),
-            requests: Arc::new(Semaphore::new(config.max_requests as usize)),
-            max_requests: config.max_requests,
-            ending: AtomicBool::new(false),
-            max_requests_of_one: config.max_requests_per_connection,
-            timeout: Duration::from_secs_f64(config.request_timeout_s),
-        })
-    }
-
-    /// Refuses requests from now on, and waits for the end of those in progress. Returns false if some are left after
-    /// `patience`.
-    pub(super) async fn finish(&self, patience: Duration) -> bool {
-        self.ending.store(true, Ordering::SeqCst);
-        // Each request has one of these places.
-        let all = u32::try_from(self.max_requests).unwrap_or(u32::MAX);
-        let done = tokio::time::timeout(patience, self.requests.acquire_many(all)).await;
-        done.is_ok()
-    }
-}
 
 /// Lets a request pass: for this server, over a connection that may make it, and while there is a place for it.
 pub(super) async fn admit(
@@ -153,22 +109,4 @@ pub(super) async fn admit(
     let whole = response.extensions().get::<answers::Counted>().is_some();
     let unread = unread.filter(|_| !whole);
     response.map(|body| Body::new(Reply::new(body, unread, open, place)))
-}
-
-/// A refusal in the sender's protocol: a gRPC status, or a page with a sentence.
-fn refused(fault: Fault, request: &Request) -> Response {
-    count_refusal(&fault);
-    let kind = request.headers().get(header::CONTENT_TYPE);
-    if let Some(kind) = kind.filter(|k| k.as_bytes().starts_with(b"application/grpc")) {
-        let mut response: Response = Status::from(fault).into_http::<Body>();
-        response
-            .headers_mut()
-            .insert(header::CONTENT_TYPE, kind.clone());
-        return response;
-    }
-    let code = match fault {
-        Fault::Refused { .. } => axum::http::StatusCode::FORBIDDEN,
-        _ => axum::http::StatusCode::SERVICE_UNAVAILABLE,
-    };
-    (code, format!("{fault}\n")).into_response()
 }

@@ -51,13 +51,13 @@ struct Response {
 const NOTHING: u64 = u64::MAX;
 
 /// A response that is known as long as this lives.
-struct Entry {
+struct ResponseEntry {
     unread: Arc<Unread>,
     number: u64,
     response: Arc<Response>,
 }
 
-impl Entry {
+impl ResponseEntry {
     /// Restarts the time of its waiting part.
     fn touch(&self) {
         let since = self.unread.start.elapsed().as_nanos() as u64;
@@ -65,19 +65,19 @@ impl Entry {
     }
 }
 
-impl Drop for Entry {
+impl Drop for ResponseEntry {
     fn drop(&mut self) {
         self.unread.lock().remove(&self.number);
     }
 }
 
 /// The part of a response that waits, if one does. It is counted.
-struct Part {
-    entry: Entry,
+struct WaitingPart {
+    entry: ResponseEntry,
     bytes: u64,
 }
 
-impl Part {
+impl WaitingPart {
     /// One waits.
     fn waits(&mut self, bytes: u64) {
         self.taken();
@@ -94,19 +94,19 @@ impl Part {
     }
 }
 
-impl Drop for Part {
+impl Drop for WaitingPart {
     fn drop(&mut self) {
         self.taken();
     }
 }
 
 /// An answer that is counted as a whole as long as this lives.
-pub(super) struct Whole {
-    entry: Entry,
+pub(super) struct WholeAnswer {
+    entry: ResponseEntry,
     bytes: u64,
 }
 
-impl Whole {
+impl WholeAnswer {
     /// Notes that `bytes` of it were sent.
     pub(super) fn sent(&mut self, bytes: u64) {
         let bytes = bytes.min(self.bytes);
@@ -116,7 +116,7 @@ impl Whole {
     }
 }
 
-impl Drop for Whole {
+impl Drop for WholeAnswer {
     fn drop(&mut self) {
         let unread = &self.entry.unread;
         unread.whole.fetch_sub(self.bytes, Ordering::Relaxed);
@@ -141,14 +141,14 @@ impl Unread {
         responses.unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn enter(self: &Arc<Self>, open: &Arc<Open>) -> Entry {
+    fn enter(self: &Arc<Self>, open: &Arc<Open>) -> ResponseEntry {
         let number = self.next.fetch_add(1, Ordering::Relaxed);
         let response = Arc::new(Response {
             since: AtomicU64::new(NOTHING),
             open: open.clone(),
         });
         self.lock().insert(number, response.clone());
-        Entry {
+        ResponseEntry {
             unread: self.clone(),
             number,
             response,
@@ -156,8 +156,8 @@ impl Unread {
     }
 
     /// A response of which nothing waits yet.
-    fn part(self: &Arc<Self>, open: &Arc<Open>) -> Part {
-        Part {
+    fn part(self: &Arc<Self>, open: &Arc<Open>) -> WaitingPart {
+        WaitingPart {
             entry: self.enter(open),
             bytes: 0,
         }
@@ -171,7 +171,7 @@ impl Unread {
         self: &Arc<Self>,
         bytes: u64,
         open: &Arc<Open>,
-    ) -> Result<Whole, Fault> {
+    ) -> Result<WholeAnswer, Fault> {
         let fits = |waiting: u64| {
             let all = waiting.saturating_add(bytes);
             (waiting == 0 || all <= self.most).then_some(all)
@@ -188,7 +188,7 @@ impl Unread {
         }
         let entry = self.enter(open);
         entry.touch();
-        Ok(Whole { entry, bytes })
+        Ok(WholeAnswer { entry, bytes })
     }
 
     /// Whether there is room for one more part; closes connections to make some. Whole answers leave half of it.
@@ -220,7 +220,7 @@ pub(super) struct Reply {
     /// `None` for answers that never wait.
     unread: Option<Arc<Unread>>,
     open: Arc<Open>,
-    part: Option<Part>,
+    part: Option<WaitingPart>,
     wait: Option<Pin<Box<Sleep>>>,
     _place: Option<OwnedSemaphorePermit>,
 }

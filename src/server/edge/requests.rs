@@ -1,9 +1,9 @@
 //! Sizes of requests, checked by the five bytes before each message, before memory is reserved for it.
 
-use super::Edge;
-use crate::api;
-use crate::config::Config;
-use crate::http::unknown_method;
+use super::refusal::unknown_method;
+use super::state::Edge;
+use super::uploads::{Limit, Upload};
+use crate::calls;
 use crate::telemetry::count_refusal;
 use axum::body::{Body, Bytes};
 use axum::extract::{Request, State};
@@ -12,10 +12,10 @@ use axum::response::Response;
 use http_body::{Body as HttpBody, Frame, SizeHint};
 use sinew_wire::status::Fault;
 use std::pin::Pin;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
-use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio::sync::Semaphore;
 use tokio::time::Sleep;
 use tonic::Status;
 
@@ -32,66 +32,18 @@ const MESSAGE_TIME: Duration = Duration::from_secs(5);
 /// Least rate at which a larger message must arrive, bytes per second.
 const SLOWEST: f64 = 262_144.0;
 
-/// Bytes of requests that are read or worked on.
-#[derive(Debug)]
-pub(super) struct Uploads {
-    free: Arc<Semaphore>,
-    most: u64,
-    small: Limit,
-    large: Limit,
-}
-
-/// The part of `max_pending_bytes` that a request takes. Work that holds the request holds this, too: besides the call
-/// itself, it may wait for its turn in an operation, or continue when its client is gone.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Upload(Arc<Mutex<Option<OwnedSemaphorePermit>>>);
-
-impl Upload {
-    fn set(&self, permit: Option<OwnedSemaphorePermit>) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = permit;
-    }
-}
-
-/// Largest message of a call, and the setting that defines it.
-#[derive(Clone, Copy, Debug)]
-struct Limit {
-    name: &'static str,
-    bytes: usize,
-}
-
-impl Uploads {
-    pub(super) fn new(config: &Config) -> Self {
-        // The largest request fits in any case.
-        let most = config
-            .max_pending_bytes
-            .max(api::largest_request(config) as u64);
-        Self {
-            free: Arc::new(Semaphore::new(most as usize)),
-            most,
-            small: Limit {
-                name: "max_request_bytes",
-                bytes: config.max_request_bytes as usize,
-            },
-            large: Limit {
-                name: "max_clip_bytes",
-                bytes: api::largest_request(config),
-            },
-        }
-    }
-}
-
-/// Bounds the memory of the messages of a call.
+/// Bounds the sizes of a call's messages.
 pub(crate) async fn sizes(State(edge): State<Arc<Edge>>, request: Request, next: Next) -> Response {
     let path = request.uri().path();
     let uploads = &edge.uploads;
-    let limit = if api::UPLOADS.contains(&path) {
+    let limit = if calls::is_upload(path) {
         uploads.large
     } else {
         uploads.small
     };
     let called = path.to_owned();
     let held = Upload::default();
-    let streams = !api::is_unary(path);
+    let streams = !calls::takes_one_message(path);
     let mut request = request.map(|body| {
         Body::new(Sized {
             body,

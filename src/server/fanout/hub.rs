@@ -1,7 +1,7 @@
 //! Views of one world: each watched view has a task that encodes the latest frame and hands the bytes to all its
 //! viewers.
 
-use crate::shares::{Client, check_part};
+use crate::shares::{ClientKey, check_part};
 use prost::bytes::Bytes;
 use sinew_wire::frame::{shared_frame, shared_roster};
 use sinew_wire::status::Fault;
@@ -16,7 +16,7 @@ const PAST_BYTES: usize = 4 * 1024 * 1024;
 
 /// A frame of a view, encoded.
 #[derive(Clone, Debug)]
-pub struct Encoded {
+pub struct EncodedFrame {
     /// Its tick.
     pub tick: u64,
     /// Version of the roster it refers to.
@@ -31,14 +31,14 @@ pub struct Encoded {
 #[derive(Debug)]
 pub struct Channel {
     /// The client that first requested it.
-    owner: Client,
+    owner: ClientKey,
     number: u64,
-    latest: watch::Sender<Option<Encoded>>,
+    latest: watch::Sender<Option<EncodedFrame>>,
 }
 
 impl Channel {
     /// The latest frame, now and whenever it changes.
-    pub fn subscribe(&self) -> watch::Receiver<Option<Encoded>> {
+    pub fn subscribe(&self) -> watch::Receiver<Option<EncodedFrame>> {
         self.latest.subscribe()
     }
 }
@@ -50,14 +50,14 @@ pub struct Hub {
     most: u64,
     share: f64,
     next: AtomicU64,
-    past: Mutex<Past>,
+    past: Mutex<ResumePast>,
     most_past: usize,
 }
 
 /// The data that resuming viewers still need. Viewers do not hold them themselves, because a viewer that never reads
 /// must cost nothing.
 #[derive(Debug, Default)]
-struct Past {
+struct ResumePast {
     /// Viewers that have not caught up yet.
     viewers: usize,
     /// Ticks that they may ask for, at most as many as the world's history.
@@ -95,7 +95,7 @@ impl Hub {
         }
     }
 
-    fn past(&self) -> MutexGuard<'_, Past> {
+    fn past(&self) -> MutexGuard<'_, ResumePast> {
         // A poisoned value is still usable: at worst some bytes are counted twice until the last viewer has caught up.
         self.past.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -122,7 +122,7 @@ impl Hub {
         let mut past = self.past();
         past.viewers -= 1;
         if past.viewers == 0 {
-            *past = Past::default();
+            *past = ResumePast::default();
         }
     }
 
@@ -155,7 +155,7 @@ impl Hub {
         &self,
         view: &ViewSpec,
         latest: &watch::Sender<Arc<Snapshot>>,
-        client: Client,
+        client: ClientKey,
     ) -> Result<Arc<Channel>, Fault> {
         // A poisoned map is still usable, because its entries are consistent.
         let mut channels = self.channels.lock().unwrap_or_else(PoisonError::into_inner);
@@ -214,7 +214,7 @@ async fn encode(
                     bytes
                 }
             };
-            channel.latest.send_replace(Some(Encoded {
+            channel.latest.send_replace(Some(EncodedFrame {
                 tick: snapshot.tick,
                 roster_version: version,
                 frame: shared_frame(&snapshot, &view),

@@ -1,7 +1,7 @@
 //! How much one driver may send.
 //!
-//! What a batch costs grows with the desired postures in it, so the allowance counts those and not batches. It is asked
-//! before a batch is converted.
+//! The cost of a batch grows with the desired postures in it, so the allowance counts those and not batches. It is
+//! asked before a batch is converted.
 
 use std::time::{Duration, Instant};
 

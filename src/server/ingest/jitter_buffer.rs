@@ -6,16 +6,16 @@
 //! each case is counted.
 //!
 //! Which source time is due is a matter of [`Playout`]. A stream whose clock starts again, or that is too far behind,
-//! begins anew.
+//! restarts.
 
 pub use super::playout::Now;
-use super::playout::{Due as Pace, Playout, is_time};
-use crate::engine;
-pub use seam::Seam;
+use super::playout::{Playout, PlayoutDue as Pace, is_time};
+pub use seam::StreamSeam;
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{Body, NV, Posture};
 use sinew_physics::math::Quat;
 use sinew_physics::motion::{Target, TargetPair};
+use sinew_physics::plan::contact_labels::planted_between;
 use sinew_physics::plan::stream::is_same;
 use sinew_wire::types::{Delay, DriveSettings, Supply};
 use std::cell::Cell;
@@ -44,7 +44,7 @@ const JUMP: f64 = 0.02;
 
 /// A frame as it is held.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Frame {
+pub struct BufferedFrame {
     /// Sequence.
     pub sequence: i64,
     /// Source time, ns.
@@ -64,7 +64,7 @@ pub struct Frame {
     pub arrival: Instant,
 }
 
-/// What acts now.
+/// The motion that acts now.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Applied {
     sequence: i64,
@@ -76,7 +76,7 @@ struct Applied {
 }
 
 impl Applied {
-    fn new(frame: &Frame) -> Self {
+    fn new(frame: &BufferedFrame) -> Self {
         Self {
             sequence: frame.sequence,
             source_ns: frame.source_ns,
@@ -97,11 +97,11 @@ pub struct Counts {
     pub stale: u64,
     /// Frames dropped for want of room.
     pub overflow: u64,
-    /// Times that the stream began anew.
+    /// Times that the stream restarted.
     pub resyncs: u64,
 }
 
-/// Why a stream began anew.
+/// Why a stream restarted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Resync {
     /// Sequence or source time started again.
@@ -131,7 +131,7 @@ struct Anew {
     notice: Option<Resync>,
 }
 
-/// What a window was handed.
+/// The samples that a window was given.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Grid {
     /// Newest time, playout s.
@@ -158,13 +158,13 @@ struct Restart {
 pub struct JitterBuffer {
     settings: DriveSettings,
     tick: f64,
-    frames: VecDeque<Frame>,
+    frames: VecDeque<BufferedFrame>,
     pace: Playout,
     anew: Anew,
     supply: Supply,
     counts: Counts,
     applied: Option<Applied>,
-    /// What was asked for at the end of the last tick.
+    /// The target at the end of the last tick.
     last: Target,
     /// Difference to a jump of the desired motion, and when it began to fade (world s).
     #[serde(with = "crate::ingest::saved::timed_array")]
@@ -178,9 +178,9 @@ pub struct JitterBuffer {
     grid: Grid,
 }
 
-/// What a window is given for one sample of its grid.
+/// The sample that a window is given for one point of its grid.
 #[derive(Clone, Copy, Debug)]
-pub enum Due<'a> {
+pub enum DueSample<'a> {
     /// Posture, and planted feet if the driver named them.
     Sample(&'a Posture, Option<[bool; 2]>),
     /// Nothing has come for too long to guess.
@@ -202,7 +202,7 @@ enum Order {
 
 /// Where an instant lies among the frames.
 #[derive(Clone, Copy)]
-struct Found {
+struct FrameSpan {
     supply: Supply,
     /// Frame at or before it.
     frame: usize,
@@ -225,7 +225,7 @@ impl Velocities {
 }
 
 /// The desired motion at one instant.
-struct Answer {
+struct MotionAnswer {
     /// Everything but the planted feet.
     target: Target,
     supply: Supply,
@@ -283,7 +283,9 @@ impl JitterBuffer {
             let square = |q: &Quat| q.to_xyzw().iter().map(|c| c * c).sum::<f64>();
             p.is_finite() && turns.map(square).all(|n| (0.998..1.002).contains(&n))
         };
-        let grows = |a: &Frame, b: &Frame| a.sequence < b.sequence && a.source_ns < b.source_ns;
+        let grows = |a: &BufferedFrame, b: &BufferedFrame| {
+            a.sequence < b.sequence && a.source_ns < b.source_ns
+        };
         let frames = &self.frames;
         let mut pairs = frames.iter().zip(frames.iter().skip(1));
         let postures = frames.iter().map(|f| &f.posture);
@@ -384,12 +386,12 @@ impl JitterBuffer {
         self.pace.behind()
     }
 
-    /// Why the stream began anew since the last call, if it did.
+    /// Why the stream restarted since the last call, if it did.
     pub fn take_notice(&mut self) -> Option<Resync> {
         self.anew.notice.take()
     }
 
-    /// True if the stream began anew since the last call: a window holds what came before.
+    /// Whether the stream restarted since the last call: a window holds earlier samples.
     pub fn take_break(&mut self) -> bool {
         std::mem::take(&mut self.anew.broken)
     }
@@ -405,14 +407,14 @@ impl JitterBuffer {
         }
     }
 
-    fn seconds(&self, f: &Frame) -> f64 {
+    fn seconds(&self, f: &BufferedFrame) -> f64 {
         self.pace.seconds(f.source_ns)
     }
 
     /// Takes a frame that arrived at scheduled time `now`. Frames whose sequence or source time does not grow are
     /// dropped and counted, until it is clear that the driver's clock has started again. True if this frame is the
     /// first of a new beginning.
-    pub fn push(&mut self, frame: Frame, now: f64) -> bool {
+    pub fn push(&mut self, frame: BufferedFrame, now: f64) -> bool {
         let order = self.order(&frame, now);
         match order {
             Order::Next => {}
@@ -436,7 +438,7 @@ impl JitterBuffer {
         order == Order::Anew
     }
 
-    fn order(&mut self, frame: &Frame, now: f64) -> Order {
+    fn order(&mut self, frame: &BufferedFrame, now: f64) -> Order {
         let Some(last) = self.frames.back() else {
             return Order::Next;
         };
@@ -452,8 +454,8 @@ impl JitterBuffer {
         }
     }
 
-    /// True if a frame that is older than what was there shows that the driver's clock has started again.
-    fn restarts(&mut self, frame: &Frame, now: f64) -> bool {
+    /// Whether a frame that is older than what was there shows that the driver's clock has started again.
+    fn restarts(&mut self, frame: &BufferedFrame, now: f64) -> bool {
         let (sequence, source_ns) = (frame.sequence, frame.source_ns);
         let (since, frames) = match self.anew.restart {
             Some(r) if sequence > r.sequence && source_ns > r.source_ns => (r.since, r.frames + 1),
@@ -468,7 +470,7 @@ impl JitterBuffer {
         frames >= RESTART_FRAMES && now - since >= RESTART_TIME
     }
 
-    /// Begins anew: what comes next is the first frame again, and the figure waits for it in the posture it has.
+    /// Restarts: the next frame is the first one again, and the figure waits for it in the posture it has.
     fn resync(&mut self, why: Resync) {
         self.frames.clear();
         self.pace = Playout::default();
@@ -494,7 +496,7 @@ impl JitterBuffer {
             ),
             None => (&frame.posture, 1.0),
         };
-        let guess = engine::planted_between(&self.body, before, &frame.posture, dt);
+        let guess = planted_between(&self.body, before, &frame.posture, dt);
         frame.guess.set(Some(guess));
         guess
     }
@@ -548,11 +550,11 @@ impl JitterBuffer {
         v
     }
 
-    /// What playout time `p` is answered by.
-    fn find(&self, p: f64) -> Found {
+    /// The answer for playout time `p`.
+    fn find(&self, p: f64) -> FrameSpan {
         let after = self.frames.partition_point(|f| self.seconds(f) <= p + SAME);
         let Some(i) = after.checked_sub(1) else {
-            return Found {
+            return FrameSpan {
                 supply: Supply::Waiting,
                 frame: 0,
                 since: 0.0,
@@ -571,7 +573,7 @@ impl JitterBuffer {
         } else {
             Supply::Relaxed
         };
-        Found {
+        FrameSpan {
             supply,
             frame: i,
             since,
@@ -579,18 +581,18 @@ impl JitterBuffer {
     }
 
     /// The desired motion at playout time `p`.
-    fn at(&self, p: f64) -> Answer {
+    fn at(&self, p: f64) -> MotionAnswer {
         self.at_with(p, &mut Velocities::default())
     }
 
     /// The same, with the velocities that are known already.
-    fn at_with(&self, p: f64, velocities: &mut Velocities) -> Answer {
-        let Found {
+    fn at_with(&self, p: f64, velocities: &mut Velocities) -> MotionAnswer {
+        let FrameSpan {
             supply,
             frame: i,
             since,
         } = self.find(p);
-        let answer = |target, feet| Answer {
+        let answer = |target, feet| MotionAnswer {
             target,
             supply,
             frame: i,
@@ -670,7 +672,7 @@ impl JitterBuffer {
     }
 
     /// As [`JitterBuffer::at_with`], with planted feet.
-    fn target(&self, p: f64, velocities: &mut Velocities) -> Answer {
+    fn target(&self, p: f64, velocities: &mut Velocities) -> MotionAnswer {
         let mut answer = self.at_with(p, velocities);
         answer.target.planted = answer.feet.map_or([true; 2], |i| self.planted(i));
         answer
@@ -750,7 +752,7 @@ impl JitterBuffer {
         Some(pair)
     }
 
-    /// What is asked of the figure before the first frame: nothing, or of a stream that begins anew the last posture.
+    /// The target before the first frame: none, or the last posture of a stream that restarts.
     fn wait(&mut self) -> Option<Box<TargetPair>> {
         self.applied?;
         self.supply = Supply::Held;
@@ -763,7 +765,7 @@ impl JitterBuffer {
         }))
     }
 
-    /// True if there is motion that was not handed to a window yet: a driver that repeats what it sent before does not
+    /// Whether there is motion that was not handed to a window yet: a driver that repeats what it sent before does not
     /// move.
     pub fn has_news(&self) -> bool {
         let (Some(newest), Some(head)) = (self.frames.back(), self.grid.head) else {
@@ -779,7 +781,7 @@ impl JitterBuffer {
         &mut self,
         now: Now,
         (rate, window): (f64, f64),
-        mut give: impl FnMut(Due<'_>),
+        mut give: impl FnMut(DueSample<'_>),
     ) -> Option<(f64, i64)> {
         let p = self.playout(now)?;
         let p = match self.grid.head {
@@ -818,7 +820,7 @@ impl JitterBuffer {
                     let frame = &self.frames[answer.frame];
                     // A window finds out for itself what the driver does not say.
                     let planted = frame.planted.and(answer.feet).map(|i| self.planted(i));
-                    give(Due::Sample(&answer.target.posture, planted));
+                    give(DueSample::Sample(&answer.target.posture, planted));
                     let known =
                         (self.grid.held.back()).is_none_or(|h| h.1.sequence < frame.sequence);
                     if known {
@@ -830,14 +832,14 @@ impl JitterBuffer {
                     }
                 }
                 _ => {
-                    give(Due::Silence);
+                    give(DueSample::Silence);
                     break;
                 }
             }
         }
         self.grid.next = last + 1;
         self.pace.played = p;
-        // What acts now has come a window ago.
+        // The motion that acts now arrived a window ago.
         while let Some(&(at, entry)) = self.grid.held.front()
             && at <= p - window + SAME
         {

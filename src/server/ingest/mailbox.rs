@@ -1,6 +1,6 @@
 //! Where the desired motion of one drive waits for the next tick.
 //!
-//! What comes from the network is checked, converted and left here at once; nobody waits for the world. The world's
+//! Motion from the network is checked, converted and left here at once, without waiting for the world. The world's
 //! thread takes all of it at the start of a tick. The allowance of the driver bounds what can wait, and drives share no
 //! queue, so a driver who floods his mailbox harms no one else.
 
@@ -20,13 +20,13 @@ const ATTEMPTS: usize = 100;
 pub struct Delivery {
     /// When it came.
     pub arrival: Instant,
-    /// What it holds.
+    /// Its content.
     pub samples: Vec<MotionSample>,
 }
 
-/// What a world's thread finds in a mailbox.
+/// The content of a mailbox, for the world's thread.
 #[derive(Debug, Default)]
-pub struct Taken {
+pub struct MailboxContent {
     /// Batches in the order in which they came.
     pub deliveries: Vec<Delivery>,
     /// The driver pushed since the last time.
@@ -36,7 +36,7 @@ pub struct Taken {
 /// Which drive: nobody else can have one of the same name.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct DriverId {
-    /// Whose it is.
+    /// Its owner.
     pub principal: Arc<str>,
     /// As the driver calls itself.
     pub name: Arc<str>,
@@ -49,13 +49,13 @@ impl std::fmt::Display for DriverId {
 }
 
 #[derive(Debug)]
-struct Inside {
+struct MailboxInner {
     /// The stream that may send; `None` for pushes.
     stream: Option<u64>,
     /// Why nothing is taken any more.
     closed: Option<Fault>,
     allowance: Admission,
-    waiting: Taken,
+    waiting: MailboxContent,
     /// Desired postures that wait.
     postures: usize,
     received: i64,
@@ -64,7 +64,7 @@ struct Inside {
     tokens: Vec<String>,
     /// Figures that were taken from the driver, by their place in its header.
     taken_away: Vec<bool>,
-    /// What the driver can be told without asking the world.
+    /// The feedback to the driver that needs no question to the world.
     feedback: Arc<Feedback>,
 }
 
@@ -73,7 +73,7 @@ struct Inside {
 pub struct Mailbox {
     id: DriverId,
     figures: Vec<String>,
-    inside: Mutex<Inside>,
+    inside: Mutex<MailboxInner>,
 }
 
 impl Mailbox {
@@ -84,11 +84,11 @@ impl Mailbox {
             received_sequence: -1,
             ..Feedback::default()
         };
-        let inside = Inside {
+        let inside = MailboxInner {
             stream,
             closed: None,
             allowance: Admission::new(figures.len(), now),
-            waiting: Taken::default(),
+            waiting: MailboxContent::default(),
             postures: 0,
             received: -1,
             refused: 0,
@@ -113,13 +113,13 @@ impl Mailbox {
         &self.figures
     }
 
-    fn inside(&self) -> MutexGuard<'_, Inside> {
+    fn inside(&self) -> MutexGuard<'_, MailboxInner> {
         // Nothing is left half done by a panic.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// As [`Mailbox::inside`], without waiting for who is in it.
-    fn glance(&self) -> Option<MutexGuard<'_, Inside>> {
+    fn glance(&self) -> Option<MutexGuard<'_, MailboxInner>> {
         for _ in 0..ATTEMPTS {
             match self.inside.try_lock() {
                 Ok(inside) => return Some(inside),
@@ -169,7 +169,7 @@ impl Mailbox {
         if stream.is_some() && stream != inside.stream {
             return Err(self.fenced());
         }
-        // What is sent for a figure that was taken away is fenced frame by frame.
+        // Frames for a figure that was taken away are fenced one by one.
         let mut asked = samples.iter().flat_map(|s| &s.figures);
         if let Some(f) = asked.find(|f| inside.taken_away[f.slot]) {
             return Err(Fault::Aborted {
@@ -192,7 +192,7 @@ impl Mailbox {
         Ok(())
     }
 
-    /// What a stream learns that no longer drives.
+    /// The answer to a stream that no longer drives.
     pub fn fenced(&self) -> Fault {
         fenced(&self.id.name)
     }
@@ -218,8 +218,9 @@ impl Mailbox {
     }
 
     /// Takes what waits, without waiting for a sender. For the world's thread.
-    pub fn take(&self) -> Taken {
-        self.glance().map_or_else(Taken::default, |mut i| i.empty())
+    pub fn take(&self) -> MailboxContent {
+        self.glance()
+            .map_or_else(MailboxContent::default, |mut i| i.empty())
     }
 
     /// Lets another stream send from now on; `None`: none.
@@ -266,8 +267,8 @@ impl Mailbox {
     }
 }
 
-impl Inside {
-    fn empty(&mut self) -> Taken {
+impl MailboxInner {
+    fn empty(&mut self) -> MailboxContent {
         self.postures = 0;
         std::mem::take(&mut self.waiting)
     }

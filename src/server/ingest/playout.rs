@@ -31,9 +31,9 @@ pub struct Now {
     pub lost: f64,
 }
 
-/// What is played in a tick.
+/// The motion that is played in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Due {
+pub(super) enum PlayoutDue {
     /// Nothing: no frame has come.
     Nothing,
     /// Nothing any more: the stream is too far behind.
@@ -84,7 +84,7 @@ pub(super) fn is_time(seconds: f64) -> bool {
 }
 
 impl Playout {
-    /// True if it can have come about.
+    /// Whether it can have come about.
     pub(super) fn is_valid(&self) -> bool {
         let known = [self.arrived, self.behind];
         let optional = [self.origin.map(|o| o.1), self.jitter, self.delay, self.lost];
@@ -186,16 +186,16 @@ impl Playout {
         }
     }
 
-    /// What is played in the tick of `tick` seconds that begins `now`; moves the adaptive delay on.
-    pub(super) fn advance(&mut self, now: Now, tick: f64, settings: &DriveSettings) -> Due {
+    /// The motion in the tick of `tick` seconds that begins `now`; moves the adaptive delay on.
+    pub(super) fn advance(&mut self, now: Now, tick: f64, settings: &DriveSettings) -> PlayoutDue {
         let Some((_, first)) = self.origin else {
-            return Due::Nothing;
+            return PlayoutDue::Nothing;
         };
         let left_out = self.lost.replace(now.lost).map_or(0.0, |l| now.lost - l);
         let made_up = self.behind.clamp(-CATCH_UP * tick, CATCH_UP * tick);
         self.behind += left_out - made_up;
         if self.behind > MOST_BEHIND {
-            return Due::TooFarBehind;
+            return PlayoutDue::TooFarBehind;
         }
         let jitter = self.jitter();
         self.jitter = Some(jitter);
@@ -216,7 +216,7 @@ impl Playout {
         self.delay = Some(delay);
         let p = now.time + now.lost - first - delay - self.behind;
         // Time may stand still while a delay grows, but does not run backwards.
-        Due::At(if self.played.is_finite() {
+        PlayoutDue::At(if self.played.is_finite() {
             p.max(self.played)
         } else {
             p

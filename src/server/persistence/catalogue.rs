@@ -7,10 +7,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Worlds that are on disk, by name: those that are running and those in quarantine.
 #[derive(Default)]
-pub(super) struct Catalogue(Mutex<Names>);
+pub(super) struct Catalogue(Mutex<CatalogueNames>);
 
 #[derive(Default)]
-struct Names {
+struct CatalogueNames {
     /// Of several of one name the latest.
     latest: BTreeMap<String, WorldRecord>,
     /// Worlds that stay out because a later one has their name. They are deleted with that.
@@ -23,7 +23,7 @@ impl Catalogue {
         let mut all: Vec<_> = recovered.worlds.iter().map(|(w, _)| w).collect();
         all.extend(&recovered.quarantined);
         all.sort_unstable_by_key(|w| w.key);
-        let mut names = Names::default();
+        let mut names = CatalogueNames::default();
         for world in all {
             let Some(out) = names.latest.insert(world.name.clone(), world.clone()) else {
                 continue;
@@ -40,7 +40,7 @@ impl Catalogue {
         Self(Mutex::new(names))
     }
 
-    fn names(&self) -> MutexGuard<'_, Names> {
+    fn names(&self) -> MutexGuard<'_, CatalogueNames> {
         // Entries are inserted whole.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -80,7 +80,7 @@ impl Catalogue {
         self.names().latest.insert(world.name.clone(), world);
     }
 
-    /// Forgets a world and those that it has kept out. A later one may have its name meanwhile: that stays.
+    /// Forgets a world and those that it has kept out. A later world may have its name by then: it stays.
     pub fn remove(&self, name: &str, key: WorldKey) {
         let mut names = self.names();
         if names.latest.get(name).is_some_and(|w| w.key == key) {
@@ -101,7 +101,7 @@ impl Catalogue {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::durable::store::{Durability, History};
+    use crate::durable::store::{Durability, StoredHistory};
 
     fn world(name: &str, key: u64) -> WorldRecord {
         WorldRecord {
@@ -117,7 +117,7 @@ mod tests {
     fn the_latest_world_has_the_name_and_takes_the_older_ones_along() {
         let all = [world("a", 2), world("b", 1), world("a", 3), world("a", 1)];
         let catalogue = Catalogue::of(&Recovered {
-            worlds: all.map(|w| (w, History::default())).into(),
+            worlds: all.map(|w| (w, StoredHistory::default())).into(),
             ..Recovered::default()
         });
         assert!(catalogue.holds(&world("a", 3)) && !catalogue.holds(&world("a", 2)));

@@ -2,7 +2,7 @@
 
 use super::described::DescribedClip;
 use super::{Persistence, Writing, storage};
-use crate::api::App;
+use crate::app::App;
 use crate::durable::store::{CheckpointStore, ClipRecord, RehearsalRecord};
 use crate::library::NewClip;
 use crate::rehearsals::Rehearsed;

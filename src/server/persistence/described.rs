@@ -10,9 +10,9 @@ use sinew_wire::pb;
 use sinew_wire::types::{ControlInfo, KeptLease};
 use std::time::Duration;
 
-/// What is stored of a world besides its states.
+/// The stored description of a world, apart from its states.
 #[derive(Clone, PartialEq, Message)]
-pub(super) struct Described {
+pub(super) struct StoredWorld {
     #[prost(message, optional, tag = "1")]
     pub world: Option<pb::World>,
     #[prost(message, repeated, tag = "2")]
@@ -25,12 +25,12 @@ pub(super) struct Described {
     pub recordings: Vec<StoredRecording>,
     #[prost(message, repeated, tag = "6")]
     pub controls: Vec<StoredControl>,
-    /// Whose share of the worlds it is; empty: nobody's who can come back.
+    /// The client whose share of the worlds it counts for; empty: none that can come back.
     #[prost(string, tag = "7")]
     pub owner: String,
 }
 
-impl Described {
+impl StoredWorld {
     /// A world as it is now, without what changes in each tick.
     pub fn now(handle: &WorldHandle, recordings: &Recordings) -> Self {
         let described = handle.described();
@@ -72,7 +72,7 @@ impl Described {
         a != b && Self::at_rest(a) != Self::at_rest(b)
     }
 
-    /// What is described without that which moves by itself: states have it.
+    /// The description without the values that change by themselves, which are in the states.
     fn at_rest(bytes: &[u8]) -> Option<Self> {
         let mut described = Self::decode(bytes).ok()?;
         let fixed = i32::from(pb::ObstacleMobility::Fixed);
@@ -89,14 +89,14 @@ impl Described {
         Some(described)
     }
 
-    /// True if the world stood still.
+    /// Whether the world stood still.
     pub fn is_paused(&self) -> bool {
         let paused = i32::from(pb::WorldState::Paused);
         self.world.as_ref().is_some_and(|w| w.state == paused)
     }
 }
 
-/// What is stored of who controls a figure.
+/// The stored control of a figure.
 #[derive(Clone, PartialEq, Message)]
 pub(super) struct StoredControl {
     /// Last part of the name of the figure.
@@ -142,7 +142,7 @@ impl StoredControl {
     }
 }
 
-/// What is stored of a clip besides the request that made it.
+/// The stored description of a clip, apart from the request that made it.
 #[derive(Clone, PartialEq, Message)]
 pub(super) struct DescribedClip {
     #[prost(message, optional, tag = "1")]

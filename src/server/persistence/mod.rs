@@ -19,13 +19,13 @@ mod tests;
 mod worlds;
 
 use super::config::Config;
-use super::durable::keeper::{HandedIn, Keeper, Sizes};
+use super::durable::keeper::{HandedIn, Keeper, KeeperSizes};
 use super::durable::local::LocalStore;
 use super::durable::marks::Marks;
 use super::durable::recovery::{Recovered, recover};
 use super::durable::store::{CheckpointStore, Durability, Retention, StoreError};
 use super::recordings::Recordings;
-use super::tick::command::Origin;
+use super::tick::command::CommandOrigin;
 use catalogue::Catalogue;
 use sinew_wire::status::Fault;
 use std::path::Path;
@@ -40,7 +40,7 @@ pub struct Persistence {
     crashed: bool,
     durability: Durability,
     catalogue: Catalogue,
-    /// What is to be brought back.
+    /// The contents that are to be restored.
     recovered: Mutex<Option<Recovered>>,
     /// Parts of the past that are kept, of which the log has the content.
     recordings: Arc<Recordings>,
@@ -77,8 +77,8 @@ fn storage(error: StoreError) -> Fault {
 }
 
 /// Who asks worlds on behalf of the server.
-fn origin() -> Origin {
-    Origin {
+fn origin() -> CommandOrigin {
+    CommandOrigin {
         client: "".into(),
         sequence: 0,
     }
@@ -101,7 +101,7 @@ impl Persistence {
         let catalogue = Catalogue::of(&recovered);
         recovered.worlds.retain(|(w, _)| catalogue.holds(w));
         tell(&recovered);
-        let sizes = Sizes {
+        let sizes = KeeperSizes {
             queue_bytes: config.max_store_queue_bytes as usize,
             retention: Retention {
                 age: Duration::from_secs_f64(config.history_s),

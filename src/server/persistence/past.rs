@@ -2,9 +2,9 @@
 
 use super::Persistence;
 use crate::checkpoints;
-use crate::durable::store::{self, History, Item, WorldKey, WorldRecord};
+use crate::durable::store::{self, StoreItem, StoredHistory, WorldKey, WorldRecord};
 use crate::recordings::StoredRecording;
-use crate::tick::journal::{self, Logged, Segment};
+use crate::tick::journal::{self, JournalItem, JournalSegment};
 use crate::tick::replay::{Replay, ReplayError};
 use crate::tick::scene::Scene;
 use crate::worlds::WorldHandle;
@@ -12,23 +12,23 @@ use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What was logged, up to the first entry that cannot be read: its tick, and why.
-fn read_entries(entries: &[store::Logged]) -> (Vec<Logged>, Option<(u64, String)>) {
+/// The log, up to the first entry that cannot be read: its tick, and why.
+fn read_entries(entries: &[store::LoggedTick]) -> (Vec<JournalItem>, Option<(u64, String)>) {
     let mut out = Vec::with_capacity(entries.len());
     for entry in entries {
         out.push(match &entry.item {
-            Item::Hash(hash) => Logged::Hash(entry.tick, *hash),
-            Item::Input(bytes) => match journal::from_disk(entry.tick, bytes) {
-                Ok(record) => Logged::Record(record),
+            StoreItem::Hash(hash) => JournalItem::Hash(entry.tick, *hash),
+            StoreItem::Input(bytes) => match journal::from_disk(entry.tick, bytes) {
+                Ok(record) => JournalItem::Record(record),
                 Err(why) => return (out, Some((entry.tick, why))),
             },
-            Item::Checkpoint { .. } => continue,
+            StoreItem::Checkpoint { .. } => continue,
         });
     }
     (out, None)
 }
 
-/// What was done again: the scene it has led to, what was not as recorded, and how many hashes were compared.
+/// Result of a replay: the scene, the differences from the record, and how many hashes were compared.
 struct Replayed {
     scene: Scene,
     through: Result<(), ReplayError>,
@@ -42,7 +42,7 @@ struct Replayed {
 /// The state cannot be used.
 fn replay(
     state: &[u8],
-    entries: &[Logged],
+    entries: &[JournalItem],
     until: u64,
     reached: &AtomicU64,
 ) -> Result<Replayed, Fault> {
@@ -61,7 +61,7 @@ fn replay(
 
 /// The last state of a world that is whole: its checkpoint, and what was recorded behind it. `None`: there is none, or
 /// this program cannot go on from it.
-pub(super) async fn last_state(record: &WorldRecord, history: &History) -> Option<Scene> {
+pub(super) async fn last_state(record: &WorldRecord, history: &StoredHistory) -> Option<Scene> {
     let (tick, bytes) = history.checkpoint.clone()?;
     let world = &*record.name;
     let (entries, unreadable) = read_entries(&history.entries);
@@ -130,14 +130,14 @@ impl Persistence {
         self.recordings.bring_back(journal, at, stored, kept);
     }
 
-    /// What the log has of the past of a world from tick `first` to tick `until`, at most `most` bytes of it: a part of
+    /// The part of the log of a world's past from tick `first` to tick `until`, at most `most` bytes of it: a part of
     /// each server that has written it.
     async fn recorded(
         &self,
         key: WorldKey,
         (first, until): (u64, u64),
         most: u64,
-    ) -> Result<Vec<Arc<Segment>>, Fault> {
+    ) -> Result<Vec<Arc<JournalSegment>>, Fault> {
         let oldest = self.on_disk(move |store| Ok(store.oldest(key))).await?;
         let oldest = oldest.unwrap_or(u64::MAX);
         let (mut next, mut bytes, mut out) = (Some(first.max(oldest)), 0, Vec::new());
@@ -153,7 +153,7 @@ impl Persistence {
             let (state, entries) = (state.clone(), read_entries(&history.entries).0);
             let segment = tokio::task::spawn_blocking(move || {
                 let scene = checkpoints::decode("checkpoint", &state)?;
-                Ok::<_, Fault>(Segment::of_disk(scene, entries, until))
+                Ok::<_, Fault>(JournalSegment::of_disk(scene, entries, until))
             });
             let segment = segment
                 .await

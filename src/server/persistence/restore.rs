@@ -1,10 +1,11 @@
 //! A start: everything is brought back that can be.
 
-use super::described::{Described, StoredControl};
+use super::described::{StoredControl, StoredWorld};
 use super::{Persistence, clips, origin, past};
-use crate::api::{App, access};
-use crate::durable::store::{History, WorldKey, WorldRecord};
-use crate::worlds::{Stored, WorldHandle};
+use crate::api::access;
+use crate::app::App;
+use crate::durable::store::{StoredHistory, WorldKey, WorldRecord};
+use crate::worlds::{Persisted, WorldHandle};
 use prost::Message;
 use sinew_wire::convert::{figure, new_id, obstacle, world};
 use sinew_wire::status::Fault;
@@ -41,7 +42,7 @@ impl Persistence {
     async fn restore_worlds(
         self: &Arc<Self>,
         app: &Arc<App>,
-        all: &[(WorldRecord, History)],
+        all: &[(WorldRecord, StoredHistory)],
     ) -> usize {
         // Each waits for ticks of its own; together they wait once.
         let worlds = all.iter().map(|(record, history)| async move {
@@ -68,12 +69,12 @@ impl Persistence {
         self: &Arc<Self>,
         app: &Arc<App>,
         record: &WorldRecord,
-        history: &History,
+        history: &StoredHistory,
     ) -> Result<(), Fault> {
         for loss in &history.losses {
             tracing::error!(world = record.name, %loss, "a part of a world is lost");
         }
-        let described = Described::decode(record.settings.clone());
+        let described = StoredWorld::decode(record.settings.clone());
         let mut described = described.map_err(|e| Fault::Internal(e.to_string()))?;
         let paused = described.is_paused();
         let settings = world::settings(described.world.take())?;
@@ -99,12 +100,12 @@ impl Persistence {
             paused,
             (owner.into(), grants),
         )?;
-        handle.stored.send_replace(Stored::At(record.key));
+        handle.stored.send_replace(Persisted::At(record.key));
         let key = record.key;
         let done = self.complete_world(app, (&handle, key), described, update);
         let done = done.await;
         if done.is_err() {
-            // What is there in part is not left for others to find, and stays on disk as it was.
+            // A partly restored world is not left for others to find, and stays on disk as it was.
             let same = |there: &Arc<WorldHandle>| Arc::ptr_eq(there, &handle);
             let by = "it came back in part";
             let _ = app.worlds.delete_if(&record.name, by, same).await; // the error is told already
@@ -118,7 +119,7 @@ impl Persistence {
         self: &Arc<Self>,
         app: &Arc<App>,
         (handle, key): (&Arc<WorldHandle>, WorldKey),
-        described: Described,
+        described: StoredWorld,
         update: Option<WorldUpdate>,
     ) -> Result<(), Fault> {
         if let Some(update) = update {
@@ -130,7 +131,7 @@ impl Persistence {
             let until = Instant::now() + NOTE_STEPS;
             handle.send(origin(), move |s| s.note_steps(mark, until))?;
         }
-        // What was created or deleted since the state was written is done again.
+        // Creations and deletions since the state was written are repeated.
         let there = handle
             .call(origin(), |s| {
                 let figures = s.figures().into_iter().map(|f| f.id);
@@ -171,7 +172,7 @@ fn last_part(name: &str) -> &str {
 }
 
 impl Inhabitants {
-    fn of(described: &Described) -> Self {
+    fn of(described: &StoredWorld) -> Self {
         let figures = described.figures.iter().map(|f| last_part(&f.name));
         let obstacles = described.obstacles.iter().map(|o| last_part(&o.name));
         Self {
@@ -207,7 +208,7 @@ async fn remove_others(
 async fn create_missing(
     app: &App,
     handle: &WorldHandle,
-    described: &Described,
+    described: &StoredWorld,
     there: &Inhabitants,
 ) -> Result<(), Fault> {
     for f in &described.figures {

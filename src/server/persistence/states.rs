@@ -1,11 +1,11 @@
 //! The states of worlds go to the disk while they run.
 
 use super::{Persistence, origin};
-use crate::api::App;
+use crate::app::App;
 use crate::checkpoints;
 use crate::durable::store::Durability;
-use crate::tick::shard::Shard;
-use crate::worlds::{Stored, WorldHandle};
+use crate::tick::hosted_world::HostedWorld;
+use crate::worlds::{Persisted, WorldHandle};
 use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::time::Duration;
@@ -28,7 +28,7 @@ pub(super) async fn write(
     let Some(journal) = &handle.journal else {
         return Ok(before);
     };
-    // A world that goes back meanwhile has another one by then.
+    // A world that is rewound before then has another one.
     while let Some(capture) = journal.to_write(before) {
         let encoded = Arc::clone(&capture);
         let bytes = tokio::task::spawn_blocking(move || checkpoints::encode(&encoded));
@@ -45,7 +45,7 @@ impl Persistence {
     pub async fn checkpoint_all(&self, app: &App) {
         let worlds = app.worlds.list();
         let all = worlds.iter().map(|handle| async move {
-            let now = |s: &mut Shard| {
+            let now = |s: &mut HostedWorld| {
                 s.checkpoint_now();
                 Ok(())
             };
@@ -66,7 +66,7 @@ impl Persistence {
         let mut closed = handle.closed.clone();
         let place = *handle.stored.borrow();
         let record = self.catalogue.get(&handle.id);
-        let record = record.filter(|w| Stored::At(w.key) == place);
+        let record = record.filter(|w| Persisted::At(w.key) == place);
         let Some(recorder) = record.map(|w| self.keeper.recorder(&w)) else {
             return;
         };

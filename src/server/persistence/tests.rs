@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
 use super::*;
-use crate::api::App;
+use crate::app::App;
 use crate::durable::store::WorldKey;
 use crate::testing::{Temporary, close};
 use crate::worlds::WorldHandle;

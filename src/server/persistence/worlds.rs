@@ -1,15 +1,15 @@
 //! Worlds that come, change and go are written down.
 
-use super::described::Described;
+use super::described::StoredWorld;
 use super::{Persistence, states, storage};
 use crate::durable::store::{CheckpointStore, Durability, WorldKey, WorldRecord};
-use crate::worlds::{Stored, WorldHandle};
+use crate::worlds::{Persisted, WorldHandle};
 use prost::Message;
 use sinew_wire::status::Fault;
 use std::sync::Arc;
 
 impl Persistence {
-    /// Writes a new world down. Who changes or deletes it meanwhile waits for that.
+    /// Writes a new world down. Changes and deletions wait for that.
     ///
     /// # Errors
     /// It could not be written; a world in quarantine has its name.
@@ -17,11 +17,11 @@ impl Persistence {
         let written = self.write_new(handle).await;
         let place = written
             .as_ref()
-            .map_or(Stored::Never, |key| Stored::At(*key));
+            .map_or(Persisted::Never, |key| Persisted::At(*key));
         handle.stored.send_replace(place);
         written?;
         self.follow(handle);
-        // What is done to it from now on follows this state.
+        // Later changes follow this state.
         if self.durability != Durability::None {
             states::write(handle, None).await?;
         }
@@ -51,7 +51,7 @@ impl Persistence {
     }
 
     fn description(&self, handle: &WorldHandle) -> Vec<u8> {
-        Described::now(handle, &self.recordings).encode_to_vec()
+        StoredWorld::now(handle, &self.recordings).encode_to_vec()
     }
 
     /// Writes down what has changed of a world.
@@ -59,7 +59,7 @@ impl Persistence {
     /// # Errors
     /// It could not be written; it is tried again. The world has ended.
     pub async fn changed(&self, handle: &WorldHandle) -> Result<(), Fault> {
-        let Stored::At(key) = handle.place().await? else {
+        let Persisted::At(key) = handle.place().await? else {
             return Ok(()); // it is not to be stored
         };
         // One after the other, so that what is described last is written last.
@@ -68,7 +68,7 @@ impl Persistence {
         // There may be another one of its name. One whose deletion has failed is not there either.
         let record = self.catalogue.running(&handle.id, key);
         let record = record.ok_or_else(|| handle.ended())?;
-        if !Described::differ(&record.settings, &settings) {
+        if !StoredWorld::differ(&record.settings, &settings) {
             return Ok(());
         }
         let changed = WorldRecord {
@@ -88,9 +88,12 @@ impl Persistence {
     pub async fn deleted(&self, handle: &WorldHandle) -> Result<(), Fault> {
         let mut stored = handle.stored.subscribe();
         // One that is being created is written first.
-        let place = stored.wait_for(|s| *s != Stored::Coming).await.map(|s| *s);
+        let place = stored
+            .wait_for(|s| *s != Persisted::Coming)
+            .await
+            .map(|s| *s);
         match place {
-            Ok(Stored::At(key)) => self.forget(&handle.id, key).await,
+            Ok(Persisted::At(key)) => self.forget(&handle.id, key).await,
             _ => Ok(()),
         }
     }

@@ -82,7 +82,7 @@ impl Note {
 /// Sees a call from its arrival to the end of its answer.
 pub(crate) async fn observe(mut request: Request, next: Next) -> Response {
     let method = roles::known(request.uri().path());
-    let call = Call {
+    let call = ObservedCall {
         seconds: method
             .and_then(|m| METERS.methods.get(m))
             .unwrap_or(&METERS.other),
@@ -99,7 +99,7 @@ pub(crate) async fn observe(mut request: Request, next: Next) -> Response {
     // A client that disconnects in the meantime drops this, so the call is counted as cancelled.
     let response = next.run(request).await;
     call.code = code(response.headers());
-    response.map(|body| Body::new(Answer { body, call }))
+    response.map(|body| Body::new(ObservedAnswer { body, call }))
 }
 
 /// The code that headers or trailers name.
@@ -115,7 +115,7 @@ fn code(headers: &HeaderMap) -> Option<usize> {
 }
 
 /// A call.
-struct Call {
+struct ObservedCall {
     seconds: &'static Histogram,
     begun: Instant,
     note: Arc<Note>,
@@ -125,7 +125,7 @@ struct Call {
 
 /// A call that is counted once: when its answer has ended, or is no longer wanted.
 struct Observed {
-    call: Option<Call>,
+    call: Option<ObservedCall>,
     code: Option<usize>,
 }
 
@@ -149,12 +149,12 @@ impl Drop for Observed {
 }
 
 /// The body of an answer on its way.
-struct Answer {
+struct ObservedAnswer {
     body: Body,
     call: Observed,
 }
 
-impl HttpBody for Answer {
+impl HttpBody for ObservedAnswer {
     type Data = Bytes;
     type Error = axum::Error;
 

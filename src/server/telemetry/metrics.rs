@@ -50,7 +50,7 @@ const CALL_BUCKETS_S: &[f64] = &[
 
 /// Kind of a metric.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Kind {
+pub enum MetricKind {
     /// It only grows.
     Counter,
     /// A present value.
@@ -59,7 +59,7 @@ pub enum Kind {
     Histogram(&'static [f64]),
 }
 
-impl Kind {
+impl MetricKind {
     /// Its name in Prometheus.
     pub fn name(self) -> &'static str {
         match self {
@@ -72,19 +72,19 @@ impl Kind {
 
 /// One metric.
 #[derive(Clone, Copy, Debug)]
-pub struct Metric {
+pub struct MetricInfo {
     /// Its name.
     pub name: &'static str,
     /// Its kind.
-    pub kind: Kind,
+    pub kind: MetricKind,
     /// Its label and the label's values; without values, series appear as needed, each from an enumeration.
     pub label: Option<(&'static str, &'static [&'static str])>,
     /// Words of the manual, and of the page itself.
     pub help: &'static str,
 }
 
-const fn metric(name: &'static str, kind: Kind, help: &'static str) -> Metric {
-    Metric {
+const fn metric(name: &'static str, kind: MetricKind, help: &'static str) -> MetricInfo {
+    MetricInfo {
         name,
         kind,
         label: None,
@@ -92,17 +92,21 @@ const fn metric(name: &'static str, kind: Kind, help: &'static str) -> Metric {
     }
 }
 
-const fn by(label: &'static str, values: &'static [&'static str], metric: Metric) -> Metric {
-    Metric {
+const fn by(
+    label: &'static str,
+    values: &'static [&'static str],
+    metric: MetricInfo,
+) -> MetricInfo {
+    MetricInfo {
         label: Some((label, values)),
         ..metric
     }
 }
 
-use Kind::{Counter, Gauge, Histogram as Times};
+use MetricKind::{Counter, Gauge, Histogram as Times};
 
 /// All metrics but those of the process (`process_…`).
-pub const METRICS: &[Metric] = &[
+pub const METRICS: &[MetricInfo] = &[
     metric("sinew_ticks_total", Counter, "ticks computed by all worlds"),
     metric(
         "sinew_tick_seconds",
@@ -343,7 +347,7 @@ pub fn metrics() -> Option<PrometheusHandle> {
 }
 
 /// Describes a metric and makes its series, as far as their labels are known beforehand.
-fn begin(m: &Metric) {
+fn begin(m: &MetricInfo) {
     use metrics::{describe_counter, describe_gauge, describe_histogram};
     let start = |labels: Vec<metrics::Label>| match m.kind {
         Counter => metrics::counter!(m.name, labels).increment(0),

@@ -1,4 +1,4 @@
-//! What the ticks of all worlds cost, and what they may cost.
+//! The cost of the ticks of all worlds, and its limit.
 //!
 //! Each world keeps an account of the processor time of its ticks. What would bring a world or the machine over the
 //! budget is refused before it is done: a new figure, a new world, a faster clock. Costs that grow later (a fall, a
@@ -198,7 +198,7 @@ impl Budget {
 }
 
 fn total(accounts: &[Arc<Account>]) -> f64 {
-    // What a world cannot have it does not take from others.
+    // A world does not take from others the budget that it cannot have.
     accounts.iter().map(|a| a.need().min(1.0)).sum()
 }
 

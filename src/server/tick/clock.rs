@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 /// Deadlines of one world. Deadlines are multiples of the period from a start, so that they do not drift.
 #[derive(Clone, Debug)]
-pub struct Clock {
+pub struct TickClock {
     period: Duration,
     policy: Overrun,
     deadline: Instant,
@@ -21,7 +21,7 @@ pub struct Clock {
     lost: f64,
 }
 
-impl Clock {
+impl TickClock {
     /// A clock whose first tick is due one period from `now`.
     pub fn new(rate_hz: f64, speed: f64, policy: Overrun, now: Instant) -> Self {
         let period = Duration::from_secs_f64(1.0 / (rate_hz * speed));
@@ -144,8 +144,8 @@ mod tests {
 
     const MS: Duration = Duration::from_millis(1);
 
-    fn clock(policy: Overrun, start: Instant) -> Clock {
-        Clock::new(100.0, 1.0, policy, start)
+    fn clock(policy: Overrun, start: Instant) -> TickClock {
+        TickClock::new(100.0, 1.0, policy, start)
     }
 
     #[test]

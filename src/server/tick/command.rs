@@ -1,13 +1,13 @@
-//! What is done to a world between ticks.
+//! Changes of a world between ticks.
 
-use super::shard::Shard;
+use super::hosted_world::HostedWorld;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Who asks and in which order: commands that meet in one tick are carried out by (client, sequence), so that a replay
 /// is exact.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Origin {
+pub struct CommandOrigin {
     /// Who asks.
     pub client: Arc<str>,
     /// Number of the request at that client.
@@ -15,11 +15,11 @@ pub struct Origin {
 }
 
 /// A change of a world or a question to it, carried out by its thread at the start of a tick.
-pub struct Command {
+pub struct WorldCommand {
     /// Who asks.
-    pub origin: Origin,
-    /// What is done.
-    pub action: Box<dyn FnOnce(&mut Shard) + Send>,
+    pub origin: CommandOrigin,
+    /// The change.
+    pub action: Box<dyn FnOnce(&mut HostedWorld) + Send>,
 }
 
 /// Why a command was not taken.
@@ -33,24 +33,24 @@ pub enum Refusal {
 
 /// Commands that wait for a world. It takes memory only while some do.
 #[derive(Debug)]
-pub struct Queue {
-    waiting: Mutex<Waiting>,
+pub struct CommandQueue {
+    waiting: Mutex<QueuedCommands>,
     most: usize,
 }
 
 #[derive(Default)]
-struct Waiting {
-    commands: VecDeque<Command>,
+struct QueuedCommands {
+    commands: VecDeque<WorldCommand>,
     closed: bool,
 }
 
-impl std::fmt::Debug for Waiting {
+impl std::fmt::Debug for QueuedCommands {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} commands", self.commands.len())
     }
 }
 
-impl Queue {
+impl CommandQueue {
     /// An empty queue that holds `most`.
     pub fn new(most: usize) -> Self {
         Self {
@@ -59,7 +59,7 @@ impl Queue {
         }
     }
 
-    fn waiting(&self) -> MutexGuard<'_, Waiting> {
+    fn waiting(&self) -> MutexGuard<'_, QueuedCommands> {
         // Commands are added and taken whole.
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -68,7 +68,7 @@ impl Queue {
     ///
     /// # Errors
     /// There is no room, or nobody takes it any more.
-    pub fn push(&self, command: Command) -> Result<(), Refusal> {
+    pub fn push(&self, command: WorldCommand) -> Result<(), Refusal> {
         let mut waiting = self.waiting();
         if waiting.closed {
             return Err(Refusal::Closed);
@@ -92,13 +92,13 @@ impl Queue {
 
 /// Commands on their way into ticks. Those that a tick has no time for are the first of the next one.
 pub struct Inbox {
-    queue: Arc<Queue>,
-    ready: VecDeque<Command>,
+    queue: Arc<CommandQueue>,
+    ready: VecDeque<WorldCommand>,
 }
 
 impl Inbox {
     /// Commands of `queue`; at most as many again as that holds are ready for a tick.
-    pub fn new(queue: Arc<Queue>) -> Self {
+    pub fn new(queue: Arc<CommandQueue>) -> Self {
         Self {
             queue,
             ready: VecDeque::new(),
@@ -110,7 +110,7 @@ impl Inbox {
         let mut waiting = self.queue.waiting();
         let room = self.queue.most - self.ready.len();
         let many = waiting.commands.len().min(room);
-        let mut fresh: Vec<Command> = waiting.commands.drain(..many).collect();
+        let mut fresh: Vec<WorldCommand> = waiting.commands.drain(..many).collect();
         if waiting.commands.is_empty() {
             waiting.commands = VecDeque::new();
         }
@@ -123,7 +123,7 @@ impl Inbox {
     }
 
     /// The next command.
-    pub fn take(&mut self) -> Option<Command> {
+    pub fn take(&mut self) -> Option<WorldCommand> {
         self.ready.pop_front()
     }
 
@@ -137,9 +137,9 @@ impl Inbox {
 mod tests {
     use super::*;
 
-    fn command(client: &str, sequence: i64) -> Command {
-        Command {
-            origin: Origin {
+    fn command(client: &str, sequence: i64) -> WorldCommand {
+        WorldCommand {
+            origin: CommandOrigin {
                 client: client.into(),
                 sequence,
             },
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn commands_of_a_round_are_ordered_and_those_left_over_come_first() {
-        let queue = Arc::new(Queue::new(8));
+        let queue = Arc::new(CommandQueue::new(8));
         let mut inbox = Inbox::new(queue.clone());
         for (client, sequence) in [("b", 2), ("a", 9), ("b", 1)] {
             queue.push(command(client, sequence)).unwrap();
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn a_flood_fills_the_queue_and_nothing_else() {
-        let queue = Arc::new(Queue::new(8));
+        let queue = Arc::new(CommandQueue::new(8));
         let mut inbox = Inbox::new(queue.clone());
         let mut sent = 0;
         for _ in 0..100 {

@@ -1,7 +1,7 @@
 //! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
 
-use super::scene::{PlayerKey, Scene, Window};
-use crate::ingest::jitter_buffer::{Counts, Frame};
+use super::scene::{PlayerKey, PlayoutWindow, Scene};
+use crate::ingest::jitter_buffer::{BufferedFrame, Counts};
 use crate::ingest::mailbox::{DriverId, Mailbox};
 use sinew_wire::status::Fault;
 use sinew_wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample};
@@ -11,16 +11,16 @@ use std::time::{Duration, Instant};
 
 /// One driven figure.
 #[derive(Debug)]
-pub struct Slot {
+pub struct DrivenFigure {
     /// Last part of the figure's name.
     pub figure: String,
-    /// What plays its motion; `None` once the figure was removed or taken away.
+    /// The player of its motion; `None` once the figure was removed or taken away.
     pub player: Option<PlayerKey>,
 }
 
 /// One driver with its figures.
 #[derive(Debug)]
-pub struct Drive {
+pub struct DriverSession {
     /// Who drives.
     pub id: DriverId,
     /// The stream that may send; `None` for pushes.
@@ -28,20 +28,20 @@ pub struct Drive {
     /// Settings.
     pub settings: DriveSettings,
     /// Figures.
-    pub slots: Vec<Slot>,
+    pub slots: Vec<DrivenFigure>,
     /// When the figures are given up; `None` while a stream is open.
     pub expires: Option<Instant>,
     /// Where its motion waits for the next tick.
     pub mailbox: Arc<Mailbox>,
 }
 
-impl Drive {
+impl DriverSession {
     /// A drive without motion yet.
     pub fn new(
         id: DriverId,
         connection: Option<u64>,
         settings: DriveSettings,
-        slots: Vec<Slot>,
+        slots: Vec<DrivenFigure>,
         now: Instant,
     ) -> Self {
         let figures = slots.iter().map(|s| s.figure.clone()).collect();
@@ -77,13 +77,13 @@ impl Drive {
         self.expires = Some(now + Duration::from_secs_f64(self.settings.grace));
     }
 
-    /// True if it drives exactly these figures.
+    /// Whether it drives exactly these figures.
     pub fn drives(&self, figures: &[String]) -> bool {
         self.slots.len() == figures.len()
             && self.slots.iter().zip(figures).all(|(s, f)| s.figure == *f)
     }
 
-    /// True if it drives this figure.
+    /// Whether it drives this figure.
     pub fn has(&self, figure: &str) -> bool {
         self.slots
             .iter()
@@ -135,7 +135,7 @@ impl Drive {
                     posture.root_position = newest.root_position;
                     posture.root_rotation = newest.root_rotation;
                 }
-                let frame = Frame {
+                let frame = BufferedFrame {
                     sequence: sample.sequence,
                     source_ns: sample.source_ns,
                     posture,
@@ -157,7 +157,7 @@ impl Drive {
         }
     }
 
-    /// What the driver is told.
+    /// The feedback to the driver.
     pub fn feedback(&self, scene: &Scene) -> Feedback {
         let (received, refused) = self.mailbox.counts();
         Feedback {
@@ -186,7 +186,8 @@ impl Drive {
                         stale: counts.stale,
                         overflow: counts.overflow,
                         resyncs: counts.resyncs,
-                        behind: s.buffer.behind() + s.window.as_ref().map_or(0.0, Window::behind),
+                        behind: s.buffer.behind()
+                            + s.window.as_ref().map_or(0.0, PlayoutWindow::behind),
                         window: s.window.as_ref().map_or(0.0, |w| w.length),
                     }
                 })

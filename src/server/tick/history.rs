@@ -29,13 +29,13 @@ fn is_mark(e: &WorldEvent) -> bool {
 
 /// The last frames of one world, one per tick, and its last events of interest.
 #[derive(Debug)]
-pub struct History {
+pub struct FrameHistory {
     held: VecDeque<Arc<Snapshot>>,
     most: usize,
     marks: VecDeque<WorldEvent>,
 }
 
-impl History {
+impl FrameHistory {
     /// Nothing yet; at most `most` frames.
     pub fn new(most: usize) -> Self {
         Self {
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn the_last_events_of_interest_are_held() {
-        let mut history = History::new(8);
+        let mut history = FrameHistory::new(8);
         for tick in 0..2 * MARKS as u64 {
             let kinds = [EventKind::Fell, EventKind::Saturated(3)];
             history.note(&kinds.map(|kind| event(tick, kind)));

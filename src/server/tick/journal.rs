@@ -2,11 +2,11 @@
 //!
 //! The world's thread appends; who seeks, forks, replays or records copies pointers. With a data directory the same
 //! entries go to the thread that writes (`durable`), in the same order. A checkpoint is encoded elsewhere and comes to
-//! it later than it was taken; what was appended meanwhile is handed in once more behind it, so that the disk always
+//! it later than it was taken; later appends are handed in once more behind it, so that the disk always
 //! has a checkpoint with all that followed.
 
-use super::scene::{Record, SavedScene, Scene};
-use crate::durable::keeper::{Recorder, Ticket};
+use super::scene::{RoundRecord, SavedScene, Scene};
+use crate::durable::keeper::{KeeperTicket, Recorder};
 use crate::durable::store::{Durability, StoreError};
 use bytes::Bytes;
 use sinew_physics::saved::Definition;
@@ -21,17 +21,17 @@ use tokio::sync::Notify;
 /// Time between two checkpoints.
 pub const CHECKPOINT_EVERY: Duration = Duration::from_secs(5);
 /// About what an entry takes besides its bytes.
-const ENTRY_BYTES: usize = size_of::<Logged>();
+const ENTRY_BYTES: usize = size_of::<JournalItem>();
 /// Bytes of entries, at least, that are worth a checkpoint of their own.
 const LEAST_SEGMENT: u64 = 1 << 20;
 /// About what one frame of a clip takes, bytes.
 const CLIP_FRAME_BYTES: usize = 1200;
 
-/// What is noted of a world.
+/// A note about a world.
 #[derive(Clone, Debug)]
-pub enum Logged {
-    /// What changed it between two ticks.
-    Record(Record),
+pub enum JournalItem {
+    /// Changes between two ticks.
+    Record(RoundRecord),
     /// A tick was done: its number, and the hash of the state after it.
     Hash(u64, u64),
 }
@@ -63,7 +63,7 @@ pub struct Room {
 }
 
 impl Room {
-    /// True if something is held.
+    /// Whether something is held.
     pub fn any(&self) -> bool {
         self.bytes > 0 && !self.age.is_zero()
     }
@@ -71,19 +71,19 @@ impl Room {
 
 /// A checkpoint and what followed, up to the next one.
 #[derive(Clone, Debug)]
-pub struct Segment {
+pub struct JournalSegment {
     /// The state at its beginning.
     pub start: Arc<Capture>,
     /// When that was.
     pub begun: Instant,
     /// The world was put into that state: it is not where the segment before it ends, though the physics may be.
     pub restored: bool,
-    /// What followed.
-    pub entries: Vec<Logged>,
+    /// The notes that followed.
+    pub entries: Vec<JournalItem>,
     bytes: usize,
 }
 
-impl Segment {
+impl JournalSegment {
     fn new(start: Arc<Capture>, begun: Instant) -> Self {
         Self {
             bytes: start.size() + 256,
@@ -95,12 +95,12 @@ impl Segment {
     }
 
     /// A part of the past that was on disk, up to tick `until`: a state, and what followed.
-    pub fn of_disk(mut start: Scene, entries: Vec<Logged>, until: u64) -> Arc<Self> {
+    pub fn of_disk(mut start: Scene, entries: Vec<JournalItem>, until: u64) -> Arc<Self> {
         let mut out = Self::new(Arc::new(start.capture()), Instant::now());
         // Who drove the world then went on in their own way.
         out.restored = true;
         for entry in entries {
-            if matches!(entry, Logged::Hash(tick, _) if tick > until) {
+            if matches!(entry, JournalItem::Hash(tick, _) if tick > until) {
                 break;
             }
             out.push(entry);
@@ -114,7 +114,7 @@ impl Segment {
         Arc::new(self)
     }
 
-    fn push(&mut self, entry: Logged) {
+    fn push(&mut self, entry: JournalItem) {
         self.bytes += size(&entry);
         self.entries.push(entry);
     }
@@ -125,7 +125,7 @@ impl Segment {
         self.bytes -= gone;
     }
 
-    /// What it takes, bytes.
+    /// Its size, bytes.
     pub fn bytes(&self) -> u64 {
         self.bytes as u64
     }
@@ -133,8 +133,8 @@ impl Segment {
     /// Ticks done at its end.
     pub fn last_tick(&self) -> u64 {
         let hashes = self.entries.iter().rev().find_map(|e| match e {
-            Logged::Hash(tick, _) => Some(*tick),
-            Logged::Record(_) => None,
+            JournalItem::Hash(tick, _) => Some(*tick),
+            JournalItem::Record(_) => None,
         });
         hashes.unwrap_or(self.start.tick())
     }
@@ -148,12 +148,12 @@ impl Segment {
     }
 }
 
-/// What an entry takes, bytes.
-fn size(entry: &Logged) -> usize {
+/// Size of an entry, bytes.
+fn size(entry: &JournalItem) -> usize {
     ENTRY_BYTES
         + match entry {
-            Logged::Record(r) => r.bytes.len(),
-            Logged::Hash(..) => 0,
+            JournalItem::Record(r) => r.bytes.len(),
+            JournalItem::Hash(..) => 0,
         }
 }
 
@@ -178,7 +178,7 @@ pub enum PinEnd {
     Full,
     /// The world has another past now.
     Restored,
-    /// What follows is not on disk any more.
+    /// Later notes are not on disk any more.
     Lost,
 }
 
@@ -192,7 +192,7 @@ pub struct Pin {
 
 #[derive(Debug, Default)]
 struct Pinned {
-    kept: Vec<Arc<Segment>>,
+    kept: Vec<Arc<JournalSegment>>,
     bytes: u64,
     end: Option<PinEnd>,
 }
@@ -213,8 +213,8 @@ impl Pin {
         self.inside().end
     }
 
-    /// Keeps one more segment. False: it has ended.
-    fn keep(&self, segment: &Arc<Segment>, end: Option<PinEnd>) -> bool {
+    /// Keeps one more segment: whether it has not ended.
+    fn keep(&self, segment: &Arc<JournalSegment>, end: Option<PinEnd>) -> bool {
         let mut inside = self.inside();
         if inside.end.is_some() {
             return false;
@@ -228,16 +228,16 @@ impl Pin {
 }
 
 #[derive(Debug)]
-struct Inside {
+struct JournalInner {
     /// From the oldest on.
-    sealed: VecDeque<Arc<Segment>>,
-    /// What is appended to.
-    current: Option<Segment>,
+    sealed: VecDeque<Arc<JournalSegment>>,
+    /// The segment that is appended to.
+    current: Option<JournalSegment>,
     recorder: Option<Recorder>,
     /// Nothing is handed to the recorder until a checkpoint is: the world has another past now.
     holds: bool,
     /// The last entry that was handed in.
-    ticket: Option<Ticket>,
+    ticket: Option<KeeperTicket>,
     /// Parts that are kept longer.
     pins: Vec<Weak<Pin>>,
     /// Bytes of it that are counted in the total.
@@ -251,7 +251,7 @@ struct Inside {
 pub struct Journal {
     room: Room,
     total: Arc<Total>,
-    inside: Mutex<Inside>,
+    inside: Mutex<JournalInner>,
     /// Tells that a checkpoint was handed to the recorder.
     written: Notify,
 }
@@ -269,7 +269,7 @@ impl Journal {
         Self {
             room,
             total,
-            inside: Mutex::new(Inside {
+            inside: Mutex::new(JournalInner {
                 sealed: VecDeque::new(),
                 current: None,
                 recorder: None,
@@ -283,7 +283,7 @@ impl Journal {
         }
     }
 
-    fn inside(&self) -> MutexGuard<'_, Inside> {
+    fn inside(&self) -> MutexGuard<'_, JournalInner> {
         // Every holder leaves it whole.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -296,16 +296,16 @@ impl Journal {
     // ── the world's thread ──
 
     /// Appends what changed the world.
-    pub fn append(&self, record: Record) {
-        self.inside().append(Logged::Record(record));
+    pub fn append(&self, record: RoundRecord) {
+        self.inside().append(JournalItem::Record(record));
     }
 
     /// Notes that a tick is done.
     pub fn stepped(&self, tick: u64, hash: u64) {
-        self.inside().append(Logged::Hash(tick, hash));
+        self.inside().append(JournalItem::Hash(tick, hash));
     }
 
-    /// True if it is time for a checkpoint, and something has happened since the last one.
+    /// Whether it is time for a checkpoint, and something has happened since the last one.
     pub fn wants_checkpoint(&self, now: Instant) -> bool {
         let inside = self.inside();
         match &inside.current {
@@ -321,7 +321,7 @@ impl Journal {
     /// Begins a new segment with a checkpoint. What is too old is forgotten.
     pub fn begin(&self, capture: Capture, now: Instant) {
         let mut inside = self.inside();
-        let mut next = Segment::new(Arc::new(capture), now);
+        let mut next = JournalSegment::new(Arc::new(capture), now);
         // As many as before will come: so they are not moved as the vector grows.
         let count = inside.current.as_ref().map_or(0, |c| c.entries.len());
         next.entries.reserve_exact(count);
@@ -344,7 +344,7 @@ impl Journal {
         let mut inside = self.inside();
         inside.begun_anew += 1;
         let (tick, hash) = (capture.tick(), capture.hash());
-        if let Some(before) = inside.current.take().map(Segment::sealed) {
+        if let Some(before) = inside.current.take().map(JournalSegment::sealed) {
             inside.pin(&before, Some(PinEnd::Restored));
             inside.sealed.push_back(before);
         }
@@ -352,8 +352,7 @@ impl Journal {
             inside.sealed.retain(|s| s.start.tick() <= tick);
             if let Some(last) = inside.sealed.pop_back() {
                 let mut last = Arc::unwrap_or_clone(last);
-                let there =
-                    |e: &Logged| matches!(e, Logged::Hash(t, h) if (*t, *h) == (tick, hash));
+                let there = |e: &JournalItem| matches!(e, JournalItem::Hash(t, h) if (*t, *h) == (tick, hash));
                 let end = last.entries.iter().position(there);
                 last.truncate(end.map_or(0, |i| i + 1));
                 inside.sealed.push_back(Arc::new(last));
@@ -361,9 +360,9 @@ impl Journal {
         } else {
             inside.sealed.clear();
         }
-        inside.current = Some(Segment {
+        inside.current = Some(JournalSegment {
             restored: true,
-            ..Segment::new(Arc::new(capture), now)
+            ..JournalSegment::new(Arc::new(capture), now)
         });
         inside.holds = inside.recorder.is_some();
         inside.cut(&self.room, now, &self.total);
@@ -387,8 +386,8 @@ impl Journal {
         needed.then(|| Arc::clone(start))
     }
 
-    /// Hands a checkpoint in that was encoded, and once more what followed it. False: the world has another past
-    /// meanwhile, or is further than that.
+    /// Hands in an encoded checkpoint, and once more the notes after it: whether the world still has that past, and
+    /// is not further than that.
     pub fn write(&self, capture: &Arc<Capture>, bytes: Bytes) -> bool {
         let mut inside = self.inside();
         let inside = &mut *inside;
@@ -443,7 +442,7 @@ impl Journal {
     ///
     /// # Errors
     /// `from` is not held any more, or `until` is not reached yet.
-    pub fn past(&self, from: u64, until: u64) -> Result<Vec<Arc<Segment>>, Fault> {
+    pub fn past(&self, from: u64, until: u64) -> Result<Vec<Arc<JournalSegment>>, Fault> {
         self.inside().past(&self.room, from, until)
     }
 }
@@ -458,7 +457,7 @@ impl Journal {
         let (_, newest) = inside.held(&self.room).ok_or_else(|| expired(0, None))?;
         let first = first.unwrap_or(newest);
         let mut past = inside.past(&self.room, first, first.max(newest))?;
-        // What is appended to is kept when it is whole.
+        // The segment that is appended to is kept when it is whole.
         past.pop();
         let pin = Arc::new(Pin {
             most_bytes,
@@ -476,7 +475,7 @@ impl Journal {
     /// A pin that was there before: with what is left of it, and going on if it has not ended.
     pub fn pin_again(
         &self,
-        kept: Vec<Arc<Segment>>,
+        kept: Vec<Arc<JournalSegment>>,
         (first, most_bytes): (u64, u64),
         end: Option<PinEnd>,
     ) -> Arc<Pin> {
@@ -501,8 +500,8 @@ impl Journal {
         }
     }
 
-    /// What a pin keeps, up to now, its last tick, and its bytes.
-    pub fn pinned(&self, pin: &Pin) -> (Vec<Arc<Segment>>, u64, u64) {
+    /// The segments that a pin keeps up to now, its last tick, and its bytes.
+    pub fn pinned(&self, pin: &Pin) -> (Vec<Arc<JournalSegment>>, u64, u64) {
         let inside = self.inside();
         let pinned = pin.inside();
         let (mut kept, mut bytes) = (pinned.kept.clone(), pinned.bytes);
@@ -526,19 +525,19 @@ fn expired(asked: u64, held: Option<(u64, u64)>) -> Fault {
     }
 }
 
-impl Inside {
+impl JournalInner {
     fn held(&self, room: &Room) -> Option<(u64, u64)> {
         let current = self.current.as_ref().filter(|_| room.any())?;
         let first = self.sealed.front().map_or(&current.start, |s| &s.start);
         Some((first.tick(), current.last_tick()))
     }
 
-    fn past(&self, room: &Room, from: u64, until: u64) -> Result<Vec<Arc<Segment>>, Fault> {
+    fn past(&self, room: &Room, from: u64, until: u64) -> Result<Vec<Arc<JournalSegment>>, Fault> {
         let held = self.held(room);
         if held.is_none_or(|(oldest, newest)| from < oldest || until > newest || from > until) {
             return Err(expired(from, held));
         }
-        let mut all: Vec<Arc<Segment>> = self.sealed.iter().cloned().collect();
+        let mut all: Vec<Arc<JournalSegment>> = self.sealed.iter().cloned().collect();
         all.extend(self.current.clone().map(Arc::new));
         let first = all.partition_point(|s| s.start.tick() <= from).max(1) - 1;
         let last = all.partition_point(|s| s.start.tick() <= until);
@@ -546,12 +545,12 @@ impl Inside {
     }
 
     /// Lets those that keep the past keep this, too.
-    fn pin(&mut self, segment: &Arc<Segment>, end: Option<PinEnd>) {
+    fn pin(&mut self, segment: &Arc<JournalSegment>, end: Option<PinEnd>) {
         let keeps = |pin: &Weak<Pin>| pin.upgrade().is_some_and(|p| p.keep(segment, end));
         self.pins.retain(keeps);
     }
 
-    fn append(&mut self, entry: Logged) {
+    fn append(&mut self, entry: JournalItem) {
         if let Some(recorder) = self.recorder.as_ref().filter(|_| !self.holds) {
             self.ticket = Some(hand_in(recorder, &entry));
         }
@@ -589,11 +588,13 @@ impl Inside {
     }
 }
 
-fn hand_in(recorder: &Recorder, entry: &Logged) -> Ticket {
+fn hand_in(recorder: &Recorder, entry: &JournalItem) -> KeeperTicket {
     match entry {
-        Logged::Hash(tick, hash) => recorder.hash(*tick, *hash),
-        Logged::Record(r) if r.definitions.is_empty() => recorder.input(r.tick, r.bytes.clone()),
-        Logged::Record(r) => {
+        JournalItem::Hash(tick, hash) => recorder.hash(*tick, *hash),
+        JournalItem::Record(r) if r.definitions.is_empty() => {
+            recorder.input(r.tick, r.bytes.clone())
+        }
+        JournalItem::Record(r) => {
             let size = r.bytes.len() + r.definitions.iter().map(size_of_definition).sum::<usize>();
             let r = r.clone();
             recorder.input_later(r.tick, size, move || with_clips(&r))
@@ -608,7 +609,7 @@ fn size_of_definition(definition: &Definition) -> usize {
 
 /// A record as it is handed to the disk.
 #[cfg(test)]
-pub(super) fn on_disk(record: &Record) -> Bytes {
+pub(super) fn on_disk(record: &RoundRecord) -> Bytes {
     if record.definitions.is_empty() {
         record.bytes.clone()
     } else {
@@ -617,8 +618,8 @@ pub(super) fn on_disk(record: &Record) -> Bytes {
 }
 
 /// A record and behind it the clips that it refers to, after a zero, which no record begins with, and its length.
-fn with_clips(record: &Record) -> Bytes {
-    // What cannot be written cannot be read, which is found when it is.
+fn with_clips(record: &RoundRecord) -> Bytes {
+    // A value that cannot be written cannot be read, which is found on reading.
     let definitions = write_definitions(&record.definitions).unwrap_or_default();
     let mut out = Vec::with_capacity(record.bytes.len() + definitions.len() + 5);
     out.push(0);
@@ -632,7 +633,7 @@ fn with_clips(record: &Record) -> Bytes {
 ///
 /// # Errors
 /// It cannot have been written.
-pub fn from_disk(tick: u64, bytes: &Bytes) -> Result<Record, String> {
+pub fn from_disk(tick: u64, bytes: &Bytes) -> Result<RoundRecord, String> {
     let ends = || "a record that ends too soon".to_owned();
     let (bytes, definitions) = match bytes.first() {
         Some(0) => {
@@ -645,8 +646,8 @@ pub fn from_disk(tick: u64, bytes: &Bytes) -> Result<Record, String> {
         }
         _ => (bytes.clone(), Vec::new()),
     };
-    let seq = super::scene::Reader::seq(&bytes).map_err(|e| e.to_string())?;
-    Ok(Record {
+    let seq = super::scene::RecordReader::seq(&bytes).map_err(|e| e.to_string())?;
+    Ok(RoundRecord {
         seq,
         tick,
         bytes,

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 pub struct Offer {
     /// To whom; `None`: who has the token of the offer.
     pub to: Option<Arc<str>>,
-    /// What is known of its token.
+    /// The hash of its token.
     pub token: TokenHash,
     /// How long the figure goes over, s.
     pub blend: f64,
@@ -23,7 +23,7 @@ pub struct Offer {
     pub expires: Instant,
 }
 
-/// What is known of a secret.
+/// The hash of a secret.
 pub fn token_hash(token: &str) -> TokenHash {
     Sha256::digest(token).into()
 }
@@ -33,7 +33,7 @@ pub fn token_hash(token: &str) -> TokenHash {
 pub struct Lease {
     /// Who has it.
     pub holder: Arc<str>,
-    /// What is known of its secret: who reads memory or disk cannot use it.
+    /// The hash of its secret: it cannot be recovered from memory or disk.
     token: TokenHash,
     /// A higher one takes its place.
     pub priority: i32,
@@ -67,7 +67,7 @@ impl Offer {
     }
 }
 
-/// What a holder learns whose token is not the valid one.
+/// The answer to a holder whose token is not the valid one.
 pub fn fenced(figure: &str) -> Fault {
     Fault::Aborted {
         reason: "CONTROL_FENCED",

@@ -9,20 +9,20 @@ pub mod clock;
 pub mod command;
 pub mod drives;
 pub mod history;
+pub mod hosted_world;
 pub mod journal;
 pub mod leases;
 pub mod planners;
 pub mod replay;
 pub mod scene;
 pub mod scheduler;
-pub mod shard;
 pub mod stage_times;
 
 use crate::telemetry::metrics::ticks;
 use budget::Meter;
-use command::{Inbox, Queue};
-use history::History;
-use shard::Shard;
+use command::{CommandQueue, Inbox};
+use history::FrameHistory;
+use hosted_world::HostedWorld;
 use sinew_wire::status::Fault;
 use sinew_wire::types::{Described, EventKind, Snapshot, WorldEvent};
 use stage_times::StageTimes;
@@ -41,7 +41,7 @@ const COMMAND_SHARE: f64 = 0.25;
 /// Least time for the commands of one tick: fast clocks must not take all day over a few of them.
 const COMMAND_LEAST: Duration = Duration::from_micros(200);
 
-/// What leaves the thread that runs a world.
+/// The output of the thread that runs a world.
 #[derive(Debug)]
 pub struct Outlet {
     /// Why nobody waits for it any more: its tick does not end.
@@ -49,7 +49,7 @@ pub struct Outlet {
     /// Latest frame. Who reads it finds it at once; who waits for the next one is told by [`Outlet::tell`].
     pub latest: watch::Sender<Arc<Snapshot>>,
     /// Frames of the last ticks. Whoever looks into it copies pointers, so a tick does not wait for long.
-    pub history: Mutex<History>,
+    pub history: Mutex<FrameHistory>,
     /// World and figures, as they were when something of them changed last.
     pub described: watch::Sender<Arc<Described>>,
     /// Events of each tick that has some.
@@ -66,14 +66,14 @@ pub struct Outlet {
 
 impl Outlet {
     /// Shows a new world, with so many frames and messages of events held for those who read late.
-    pub fn new(shard: &mut Shard, frames: usize, events: usize) -> Self {
-        let first = shard.snapshot(None);
-        let mut history = History::new(frames);
+    pub fn new(hosted: &mut HostedWorld, frames: usize, events: usize) -> Self {
+        let first = hosted.snapshot(None);
+        let mut history = FrameHistory::new(frames);
         history.push(first.clone());
         let described = Described {
-            world: shard.info(),
-            figures: shard.figures(),
-            controls: shard.controls(),
+            world: hosted.info(),
+            figures: hosted.figures(),
+            controls: hosted.controls(),
             at: Instant::now(),
         };
         Self {
@@ -91,7 +91,7 @@ impl Outlet {
 }
 
 impl Outlet {
-    /// Tells who waits for the next frame that it is there.
+    /// Wakes everyone waiting for the next frame.
     pub fn tell(&self) {
         self.latest.send_modify(|_| {});
     }
@@ -110,7 +110,7 @@ pub enum Next {
 
 /// A world, and what it takes to run it.
 pub struct Runner {
-    shard: Shard,
+    hosted: HostedWorld,
     inbox: Inbox,
     outlet: Arc<Outlet>,
     meter: Meter,
@@ -124,10 +124,10 @@ pub struct Runner {
 
 impl Runner {
     /// A world with the queue of its commands.
-    pub fn new(shard: Shard, commands: &Arc<Queue>, outlet: &Arc<Outlet>) -> Self {
+    pub fn new(hosted: HostedWorld, commands: &Arc<CommandQueue>, outlet: &Arc<Outlet>) -> Self {
         Self {
-            meter: shard.meter(),
-            shard,
+            meter: hosted.meter(),
+            hosted,
             inbox: Inbox::new(commands.clone()),
             outlet: outlet.clone(),
             long: false,
@@ -136,7 +136,7 @@ impl Runner {
         }
     }
 
-    /// What is to be told of the rounds since the last call: where there is a new frame, if there is one.
+    /// The outlet with a new frame since the last call, if there is one.
     pub fn take_news(&mut self) -> Option<Arc<Outlet>> {
         std::mem::take(&mut self.untold).then(|| self.outlet.clone())
     }
@@ -149,8 +149,8 @@ impl Runner {
     /// Whether its rounds should not keep those of others waiting: they take longer than `limit`, or were asked for by
     /// hand.
     pub fn is_long(&mut self, limit: Duration) -> bool {
-        if self.shard.paused {
-            self.long |= self.took > limit || !self.shard.steps.is_empty();
+        if self.hosted.paused {
+            self.long |= self.took > limit || !self.hosted.steps.is_empty();
         } else {
             self.long = self.took > limit || (self.long && self.meter.mean() > limit / 2);
         }
@@ -164,13 +164,13 @@ impl Runner {
         let mut ticked = None;
         if goes_on {
             ticked = self.step();
-            goes_on = self.shard.closing.is_none();
+            goes_on = self.hosted.closing.is_none();
         }
         self.took = self.meter.end();
         if let Some(physics) = ticked {
-            let rest = self.meter.tick(physics, self.shard.figure_count());
-            if !rest.is_zero() && !self.shard.paused {
-                self.shard.clock.rest(Instant::now() + rest);
+            let rest = self.meter.tick(physics, self.hosted.figure_count());
+            if !rest.is_zero() && !self.hosted.paused {
+                self.hosted.clock.rest(Instant::now() + rest);
             }
         }
         if !goes_on {
@@ -182,15 +182,15 @@ impl Runner {
 
     /// When it wants to be called.
     pub fn next(&self) -> Next {
-        let Self { shard, inbox, .. } = self;
+        let Self { hosted, inbox, .. } = self;
         let now = Instant::now();
-        if !shard.paused && shard.failed.is_none() {
-            return Next::At(shard.clock.deadline().min(now + PATIENCE), false);
+        if !hosted.paused && hosted.failed.is_none() {
+            return Next::At(hosted.clock.deadline().min(now + PATIENCE), false);
         }
-        let steps = shard.failed.is_none() && !shard.steps.is_empty();
+        let steps = hosted.failed.is_none() && !hosted.steps.is_empty();
         if steps || inbox.left() > 0 {
             Next::At(now, true)
-        } else if shard.needs_looks() {
+        } else if hosted.needs_looks() {
             Next::At(now + PATIENCE, true)
         } else {
             Next::Idle
@@ -199,12 +199,12 @@ impl Runner {
 
     /// Tells who still waits that there is no more.
     fn end(&mut self) {
-        guarded(&mut self.shard, "the record", |s| {
+        guarded(&mut self.hosted, "the record", |s| {
             s.note(false, Instant::now());
         });
-        self.shard.send_replies();
-        let why = self.shard.closing.take().unwrap_or(Fault::Draining);
-        for step in self.shard.steps.drain(..) {
+        self.hosted.send_replies();
+        let why = self.hosted.closing.take().unwrap_or(Fault::Draining);
+        for step in self.hosted.steps.drain(..) {
             (step.done)(Err(why.clone()));
         }
     }
@@ -212,89 +212,93 @@ impl Runner {
     /// A round but for its account. Returns the time of the physics if there was a tick.
     fn step(&mut self) -> Option<Duration> {
         let Self {
-            shard,
+            hosted,
             inbox,
             outlet,
             untold,
             ..
         } = self;
         let meters = ticks();
-        let stopped = shard.paused || shard.failed.is_some();
+        let stopped = hosted.paused || hosted.failed.is_some();
         let start = Instant::now();
-        let late = start.saturating_duration_since(shard.clock.deadline());
+        let late = start.saturating_duration_since(hosted.clock.deadline());
 
         // Motion that drivers have left, then commands in (client, sequence) order.
-        guarded(shard, "taking motion", Shard::collect_motion);
+        guarded(hosted, "taking motion", HostedWorld::collect_motion);
         let allowance = if stopped {
             PATIENCE
         } else {
-            shard
+            hosted
                 .clock
                 .period()
                 .mul_f64(COMMAND_SHARE)
                 .max(COMMAND_LEAST)
         };
         while let Some(c) = inbox.take() {
-            guarded(shard, "a command", |s| (c.action)(s));
-            shard.touch();
+            guarded(hosted, "a command", |s| (c.action)(s));
+            hosted.touch();
             if start.elapsed() >= allowance {
                 break;
             }
         }
         count(&meters.deferred, inbox.left() as u64);
-        guarded(shard, "drives and plans", |s| {
+        guarded(hosted, "drives and plans", |s| {
             s.expire_drives(start);
             s.offer_plans();
         });
-        if shard.closing.is_some() {
-            publish_events(shard, outlet); // that it was deleted is the last one
+        if hosted.closing.is_some() {
+            publish_events(hosted, outlet); // that it was deleted is the last one
             return None;
         }
         let commands_done = Instant::now();
 
         // Is a tick due?
-        shard.steps.retain(|s| !(s.abandoned)());
-        let stopped = shard.paused || shard.failed.is_some();
+        hosted.steps.retain(|s| !(s.abandoned)());
+        let stopped = hosted.paused || hosted.failed.is_some();
         let due = if stopped {
-            shard.failed.is_none() && !shard.steps.is_empty()
+            hosted.failed.is_none() && !hosted.steps.is_empty()
         } else {
-            shard.clock.deadline() <= start
+            hosted.clock.deadline() <= start
         };
         if !due {
-            guarded(shard, "the record", |s| s.note(false, start));
-            if shard.changed {
-                *untold |= publish(shard, outlet, None).is_some();
+            guarded(hosted, "the record", |s| s.note(false, start));
+            if hosted.changed {
+                *untold |= publish(hosted, outlet, None).is_some();
             }
-            describe(shard, outlet);
-            publish_events(shard, outlet);
-            shard.send_replies();
+            describe(hosted, outlet);
+            publish_events(hosted, outlet);
+            hosted.send_replies();
             return None;
         }
 
-        guarded(shard, "sampling desired motion", Shard::sample_motion);
+        guarded(
+            hosted,
+            "sampling desired motion",
+            HostedWorld::sample_motion,
+        );
         let motion_done = Instant::now();
-        if shard.failed.is_none() {
-            guarded(shard, "the physics", Shard::step_world);
+        if hosted.failed.is_none() {
+            guarded(hosted, "the physics", HostedWorld::step_world);
         }
         let step_done = Instant::now();
-        let hash = guarded(shard, "the record", |s| s.note(true, start)).flatten();
-        let snapshot = match shard.failed {
-            None => publish(shard, outlet, hash),
+        let hash = guarded(hosted, "the record", |s| s.note(true, start)).flatten();
+        let snapshot = match hosted.failed {
+            None => publish(hosted, outlet, hash),
             Some(_) => None,
         };
         *untold |= snapshot.is_some();
-        describe(shard, outlet);
-        publish_events(shard, outlet);
+        describe(hosted, outlet);
+        publish_events(hosted, outlet);
 
-        shard.send_replies();
+        hosted.send_replies();
 
         // Account for time.
         let end = Instant::now();
         if !stopped {
-            shard.clock.advance(end);
+            hosted.clock.advance(end);
         }
         outlet.ticks.fetch_add(1, Ordering::Relaxed);
-        let (overruns, skipped) = (shard.clock.overruns, shard.clock.skipped);
+        let (overruns, skipped) = (hosted.clock.overruns, hosted.clock.skipped);
         let overran = overruns - outlet.overruns.swap(overruns, Ordering::Relaxed);
         let left_out = skipped - outlet.skipped.swap(skipped, Ordering::Relaxed);
         count(&meters.overrun, overran);
@@ -314,7 +318,7 @@ impl Runner {
             times.record(stages);
         }
         if let Some(snapshot) = snapshot {
-            finish_steps(shard, &snapshot); // last, so that who waits finds everything done
+            finish_steps(hosted, &snapshot); // last, so that who waits finds everything done
         }
         Some(physics)
     }
@@ -328,33 +332,37 @@ fn count(counter: &metrics::Counter, more: u64) {
 }
 
 /// Calls `f`; a panic fails this world and no other.
-fn guarded<T>(shard: &mut Shard, what: &str, f: impl FnOnce(&mut Shard) -> T) -> Option<T> {
-    let done = catch_unwind(AssertUnwindSafe(|| f(shard)));
-    done.map_err(|panic| fail(shard, what, &*panic)).ok()
+fn guarded<T>(
+    hosted: &mut HostedWorld,
+    what: &str,
+    f: impl FnOnce(&mut HostedWorld) -> T,
+) -> Option<T> {
+    let done = catch_unwind(AssertUnwindSafe(|| f(hosted)));
+    done.map_err(|panic| fail(hosted, what, &*panic)).ok()
 }
 
 /// Notes that a world has failed, and tells who waits for it. It keeps its last frame and its first reason.
-fn fail(shard: &mut Shard, what: &str, panic: &(dyn Any + Send)) {
+fn fail(hosted: &mut HostedWorld, what: &str, panic: &(dyn Any + Send)) {
     let message = panic
         .downcast_ref::<&str>()
         .map(|s| (*s).to_owned())
         .or_else(|| panic.downcast_ref::<String>().cloned())
         .unwrap_or_else(|| "no message".to_owned());
-    tracing::error!(world = shard.id(), what, message, "world failed");
-    shard.changed = false;
-    if shard.failed.is_some() {
+    tracing::error!(world = hosted.id(), what, message, "world failed");
+    hosted.changed = false;
+    if hosted.failed.is_some() {
         return;
     }
     metrics::counter!("sinew_worlds_failed_total").increment(1);
     let why = format!("{what} panicked: {message}");
-    shard.failed = Some(why.clone());
-    shard.needs_nothing();
-    shard.touch();
-    if let Some(fault) = shard.failure() {
-        shard.close_mailboxes(&fault);
+    hosted.failed = Some(why.clone());
+    hosted.needs_nothing();
+    hosted.touch();
+    if let Some(fault) = hosted.failure() {
+        hosted.close_mailboxes(&fault);
     }
-    shard.world_event(EventKind::Failed(why.clone()));
-    for step in shard.steps.drain(..) {
+    hosted.world_event(EventKind::Failed(why.clone()));
+    for step in hosted.steps.drain(..) {
         (step.done)(Err(Fault::Internal(why.clone())));
     }
 }
@@ -362,8 +370,8 @@ fn fail(shard: &mut Shard, what: &str, panic: &(dyn Any + Send)) {
 /// Shows the world as it is now; `None` if that fails. Who waits for a frame is told later ([`Outlet::tell`]).
 ///
 /// * `hash`: of its state, if that is known.
-fn publish(shard: &mut Shard, outlet: &Outlet, hash: Option<u64>) -> Option<Arc<Snapshot>> {
-    let snapshot = guarded(shard, "the frame", |s| {
+fn publish(hosted: &mut HostedWorld, outlet: &Outlet, hash: Option<u64>) -> Option<Arc<Snapshot>> {
+    let snapshot = guarded(hosted, "the frame", |s| {
         s.publish_feedback();
         s.snapshot(hash)
     })?;
@@ -381,14 +389,14 @@ fn publish(shard: &mut Shard, outlet: &Outlet, hash: Option<u64>) -> Option<Arc<
         *latest = shown;
         false // nobody is told yet
     });
-    shard.note_shown();
+    hosted.note_shown();
     Some(snapshot)
 }
 
 /// Tells what changed of world and figures, before who changed it gets an answer.
-fn describe(shard: &mut Shard, outlet: &Outlet) {
-    if let Some(described) = guarded(shard, "the description", Shard::describe).flatten() {
-        // Who gave it up says that it has failed, after `lost`: that stands.
+fn describe(hosted: &mut HostedWorld, outlet: &Outlet) {
+    if let Some(described) = guarded(hosted, "the description", HostedWorld::describe).flatten() {
+        // The watchdog has already reported the failure; do not overwrite it.
         outlet.described.send_if_modified(|shown| {
             let goes_on = outlet.lost.borrow().is_none();
             if goes_on {
@@ -399,8 +407,8 @@ fn describe(shard: &mut Shard, outlet: &Outlet) {
     }
 }
 
-fn publish_events(shard: &mut Shard, outlet: &Outlet) {
-    let events = shard.take_events();
+fn publish_events(hosted: &mut HostedWorld, outlet: &Outlet) {
+    let events = hosted.take_events();
     if !events.is_empty() {
         let history = outlet.history.lock();
         history
@@ -411,13 +419,13 @@ fn publish_events(shard: &mut Shard, outlet: &Outlet) {
     }
 }
 
-fn finish_steps(shard: &mut Shard, snapshot: &Arc<Snapshot>) {
-    let Some(first) = shard.steps.front_mut() else {
+fn finish_steps(hosted: &mut HostedWorld, snapshot: &Arc<Snapshot>) {
+    let Some(first) = hosted.steps.front_mut() else {
         return;
     };
     first.left -= 1;
     if first.left == 0
-        && let Some(step) = shard.steps.pop_front()
+        && let Some(step) = hosted.steps.pop_front()
     {
         (step.done)(Ok(snapshot.clone()));
     }

@@ -39,7 +39,7 @@ impl Planners {
         Self { queue, threads }
     }
 
-    /// What ticks do that need a plan: they wait for none, unless there is no thread that works it out.
+    /// How ticks get a plan: they do not wait for it, unless there is no thread that works it out.
     pub fn planning(&self) -> Planning {
         if self.threads > 0 {
             Planning::Aside

@@ -1,7 +1,7 @@
 //! Does again what was recorded of a world.
 
-use super::journal::{Logged, Segment};
-use super::scene::{Item, Reader, Scene, Unreadable};
+use super::journal::{JournalItem, JournalSegment};
+use super::scene::{RecordItem, RecordReader, Scene, Unreadable};
 use crate::engine::Planning;
 use sinew_wire::status::Fault;
 use std::sync::Arc;
@@ -43,7 +43,7 @@ impl From<Unreadable> for ReplayError {
 pub struct Replay {
     /// The scene.
     pub scene: Scene,
-    reader: Reader,
+    reader: RecordReader,
     /// World time that the clock has left out so far, s.
     lost: f64,
     threads: Option<usize>,
@@ -56,7 +56,7 @@ impl Replay {
     pub fn new(scene: Scene) -> Self {
         Self {
             scene,
-            reader: Reader::default(),
+            reader: RecordReader::default(),
             lost: 0.0,
             threads: None,
             compared: 0,
@@ -67,7 +67,7 @@ impl Replay {
     ///
     /// # Errors
     /// There is none.
-    pub fn of(past: &[Arc<Segment>]) -> Result<Self, Fault> {
+    pub fn of(past: &[Arc<JournalSegment>]) -> Result<Self, Fault> {
         let first = past.first();
         let first = first.ok_or_else(|| Fault::Internal("an empty past".into()))?;
         Ok(Self::new(first.scene()?))
@@ -87,7 +87,7 @@ impl Replay {
     /// As there.
     pub fn through_past(
         &mut self,
-        past: &[Arc<Segment>],
+        past: &[Arc<JournalSegment>],
         until: u64,
         each: &mut dyn FnMut(&Scene) -> bool,
     ) -> Result<(), ReplayError> {
@@ -121,7 +121,7 @@ impl Replay {
     /// The first thing that is not as it was recorded; `each` had enough.
     pub fn through<'a>(
         &mut self,
-        logged: impl IntoIterator<Item = &'a Logged>,
+        logged: impl IntoIterator<Item = &'a JournalItem>,
         until: u64,
         each: &mut dyn FnMut(&Scene) -> bool,
     ) -> Result<(), ReplayError> {
@@ -129,8 +129,8 @@ impl Replay {
             let now = self.scene.world().tick();
             match entry {
                 // Written twice: a checkpoint came in between.
-                Logged::Record(r) if r.seq <= self.scene.seq() => {}
-                Logged::Record(r) => {
+                JournalItem::Record(r) if r.seq <= self.scene.seq() => {}
+                JournalItem::Record(r) => {
                     let why = match (r.seq == self.scene.seq() + 1, r.tick == now) {
                         (true, true) => None,
                         (false, _) => Some("a record is missing"),
@@ -148,8 +148,8 @@ impl Replay {
                     })?;
                     self.scene.passed(r.seq);
                 }
-                Logged::Hash(tick, _) if *tick < now => {}
-                Logged::Hash(tick, hash) => {
+                JournalItem::Hash(tick, _) if *tick < now => {}
+                JournalItem::Hash(tick, hash) => {
                     if *tick > now + 1 {
                         let why = "a tick is missing";
                         return Err(ReplayError::Record { tick: now, why });
@@ -192,13 +192,13 @@ impl Replay {
         } = self;
         reader.read(bytes, definitions, |item| {
             match item {
-                // What was refused then is refused now.
-                Item::Input(input) => drop(scene.apply(*input)),
-                Item::Frame(player, frame, at) => {
+                // A change that was refused then is refused now.
+                RecordItem::Input(input) => drop(scene.apply(*input)),
+                RecordItem::Frame(player, frame, at) => {
                     scene.take_frame(player, *frame, at);
                 }
-                Item::Tick(left_out) => *lost = left_out,
-                Item::Late(figure, late) => scene.delay_plans(figure, late),
+                RecordItem::Tick(left_out) => *lost = left_out,
+                RecordItem::Late(figure, late) => scene.delay_plans(figure, late),
             }
             Ok(())
         })

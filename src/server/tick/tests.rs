@@ -1,19 +1,19 @@
 //! The loop of one world, with commands that take long and with commands that break it.
 
-use super::command::{Command, Origin, Queue};
+use super::command::{CommandOrigin, CommandQueue, WorldCommand};
+use super::hosted_world::{HostedWorld, WorldLimits};
 use super::planners::Planners;
-use super::scheduler::{Added, Plan, Priority, Scheduler};
-use super::shard::{Limits, Shard};
+use super::scheduler::{Added, Scheduler, SchedulerPlan, WorkerPriority};
 use super::*;
 use sinew_wire::convert;
 use sinew_wire::types::{Overrun, WorldCondition, WorldUpdate};
 use std::sync::mpsc::sync_channel;
 
 /// Workers of a test: plain threads, so that tests beside it are not kept waiting.
-pub(super) fn workers(workers: usize) -> Plan {
-    Plan {
+pub(super) fn workers(workers: usize) -> SchedulerPlan {
+    SchedulerPlan {
         workers,
-        priority: Priority::Plain,
+        priority: WorkerPriority::Plain,
         slow: Duration::from_secs(60),
         stuck: Duration::from_secs(60),
     }
@@ -21,7 +21,7 @@ pub(super) fn workers(workers: usize) -> Plan {
 
 /// A world of a scheduler.
 pub(super) struct Running {
-    commands: Arc<Queue>,
+    commands: Arc<CommandQueue>,
     pub(super) outlet: Arc<Outlet>,
     pub(super) added: Added,
 }
@@ -33,16 +33,17 @@ impl Running {
             ..Default::default()
         }))
         .unwrap();
-        let limits = Limits {
+        let limits = WorldLimits {
             figures: 4,
             window: 0.0,
         };
         let planners = Arc::new(Planners::start());
         let budget = Arc::new(budget::Budget::new(100.0));
-        let mut shard = Shard::new("w".into(), settings, false, limits, planners, budget).unwrap();
-        let outlet = Arc::new(Outlet::new(&mut shard, 4, 16));
-        let commands = Arc::new(Queue::new(1024));
-        let added = scheduler.add(shard, &commands, &outlet);
+        let mut hosted =
+            HostedWorld::new("w".into(), settings, false, limits, planners, budget).unwrap();
+        let outlet = Arc::new(Outlet::new(&mut hosted, 4, 16));
+        let commands = Arc::new(CommandQueue::new(1024));
+        let added = scheduler.add(hosted, &commands, &outlet);
         Self {
             commands,
             outlet,
@@ -50,7 +51,7 @@ impl Running {
         }
     }
 
-    pub(super) fn commands(&self) -> &Arc<Queue> {
+    pub(super) fn commands(&self) -> &Arc<CommandQueue> {
         &self.commands
     }
 
@@ -65,20 +66,20 @@ impl Running {
     }
 
     /// False if it takes no commands any more.
-    pub(super) fn send(&self, action: impl FnOnce(&mut Shard) + Send + 'static) -> bool {
-        let origin = Origin {
+    pub(super) fn send(&self, action: impl FnOnce(&mut HostedWorld) + Send + 'static) -> bool {
+        let origin = CommandOrigin {
             client: "c".into(),
             sequence: 0,
         };
         let action = Box::new(action);
-        let sent = self.commands.push(Command { origin, action }).is_ok();
+        let sent = self.commands.push(WorldCommand { origin, action }).is_ok();
         self.added.ticket.wake();
         sent
     }
 
     pub(super) fn ask<T: Send + 'static>(
         &self,
-        f: impl FnOnce(&mut Shard) -> T + Send + 'static,
+        f: impl FnOnce(&mut HostedWorld) -> T + Send + 'static,
     ) -> T {
         let (tx, rx) = sync_channel(64);
         assert!(self.send(move |s| tx.send(f(s)).unwrap()));

@@ -1,19 +1,19 @@
 //! One world, as seen by services that command or query it.
 
-use super::usage::Usage;
-use super::waiting::Waiting;
+use super::usage::WorldUsage;
+use super::waiting::WaitingCommands;
 use crate::access::caller::Caller;
 use crate::access::grants::Grants;
 use crate::durable::store::WorldKey;
 use crate::fanout::hub::Hub;
 use crate::ingest::mailbox::Mailboxes;
-use crate::shares::Client;
+use crate::shares::ClientKey;
 use crate::tick::Outlet;
-use crate::tick::command::{Command, Origin, Queue, Refusal};
-use crate::tick::history::History;
+use crate::tick::command::{CommandOrigin, CommandQueue, Refusal, WorldCommand};
+use crate::tick::history::FrameHistory;
+use crate::tick::hosted_world::HostedWorld;
 use crate::tick::journal::Journal;
-use crate::tick::scheduler::Ticket;
-use crate::tick::shard::Shard;
+use crate::tick::scheduler::WorldTicket;
 use crate::tick::stage_times::{Percentiles, STAGES};
 use sinew_physics::body::Body;
 use sinew_wire::status::Fault;
@@ -50,26 +50,26 @@ pub struct WorldHandle {
     /// Viewers.
     pub viewers: AtomicI64,
     /// Its last use.
-    pub usage: Usage,
+    pub usage: WorldUsage,
     /// The roles of principals in it.
     pub grants: Grants,
     /// Whether it is stored, and where.
-    pub stored: watch::Sender<Stored>,
+    pub stored: watch::Sender<Persisted>,
     /// Its creator.
-    pub(super) owner: Client,
+    pub(super) owner: ClientKey,
     /// Time of the last event about a refused caller.
     pub(super) told_refused: Mutex<Option<Instant>>,
     /// Waiting commands of each client.
-    pub(super) waiting: Waiting,
-    pub(super) commands: Arc<Queue>,
-    pub(super) ticket: Ticket,
+    pub(super) waiting: WaitingCommands,
+    pub(super) commands: Arc<CommandQueue>,
+    pub(super) ticket: WorldTicket,
     /// Whether worlds end because the server does.
     pub(super) ending: Arc<AtomicBool>,
 }
 
 /// Whether a world is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stored {
+pub enum Persisted {
     /// Not yet. Changes to the world wait for it.
     Coming,
     /// Under this number, which no other world has had.
@@ -102,7 +102,7 @@ pub struct WorldStats {
 
 impl WorldHandle {
     /// The client whose share of the worlds it uses.
-    pub fn owner(&self) -> &Client {
+    pub fn owner(&self) -> &ClientKey {
         &self.owner
     }
 
@@ -110,9 +110,9 @@ impl WorldHandle {
     ///
     /// # Errors
     /// It ended first.
-    pub async fn place(&self) -> Result<Stored, Fault> {
+    pub async fn place(&self) -> Result<Persisted, Fault> {
         let (mut stored, mut closed) = (self.stored.subscribe(), self.closed.clone());
-        let known = stored.wait_for(|s| *s != Stored::Coming);
+        let known = stored.wait_for(|s| *s != Persisted::Coming);
         tokio::select! {
             biased;
             known = known => known.map(|s| *s).map_err(|_| self.ended()),
@@ -178,7 +178,7 @@ impl WorldHandle {
         }
         *told = Some(now);
         drop(told);
-        let origin = Origin {
+        let origin = CommandOrigin {
             client: caller.order.clone(),
             sequence: 0,
         };
@@ -205,15 +205,15 @@ impl WorldHandle {
     /// The queue is full, the client has its share of it, or the world is gone.
     pub fn send(
         &self,
-        origin: Origin,
-        action: impl FnOnce(&mut Shard) + Send + 'static,
+        origin: CommandOrigin,
+        action: impl FnOnce(&mut HostedWorld) + Send + 'static,
     ) -> Result<(), Fault> {
         let place = self.waiting.enter(&origin.client)?;
-        let command = Command {
+        let command = WorldCommand {
             origin,
-            action: Box::new(move |shard| {
+            action: Box::new(move |hosted| {
                 drop(place);
-                action(shard);
+                action(hosted);
             }),
         };
         self.commands.push(command).map_err(|e| match e {
@@ -239,21 +239,21 @@ impl WorldHandle {
     /// Those of `f`; the queue is full; the world is gone.
     pub async fn call<T: Send + 'static>(
         &self,
-        origin: Origin,
-        f: impl FnOnce(&mut Shard) -> Result<T, Fault> + Send + 'static,
+        origin: CommandOrigin,
+        f: impl FnOnce(&mut HostedWorld) -> Result<T, Fault> + Send + 'static,
     ) -> Result<T, Fault> {
         let (tx, rx) = oneshot::channel();
         let _in_use = self.usage.begin();
-        self.send(origin, move |shard| {
-            let done = catch_unwind(AssertUnwindSafe(|| f(shard)));
+        self.send(origin, move |hosted| {
+            let done = catch_unwind(AssertUnwindSafe(|| f(hosted)));
             match done {
-                Ok(result) => shard.reply(move || {
+                Ok(result) => hosted.reply(move || {
                     // The caller may have given up; then the answer is not needed.
                     let _ = tx.send(result);
                 }),
                 Err(panic) => {
                     // The caller learns of it only once others can see that the world has failed.
-                    shard.reply(move || drop(tx));
+                    hosted.reply(move || drop(tx));
                     resume_unwind(panic);
                 }
             }
@@ -339,7 +339,7 @@ impl WorldHandle {
     }
 
     /// Frames of the last ticks.
-    pub fn history(&self) -> MutexGuard<'_, History> {
+    pub fn history(&self) -> MutexGuard<'_, FrameHistory> {
         let history = self.outlet.history.lock();
         history.unwrap_or_else(PoisonError::into_inner)
     }

@@ -7,5 +7,5 @@ pub mod usage;
 
 mod waiting;
 
-pub use handle::{Stored, WorldHandle};
+pub use handle::{Persisted, WorldHandle};
 pub use registry::{Leaving, Registry};

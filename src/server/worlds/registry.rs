@@ -1,20 +1,20 @@
 //! The worlds of this server by name: they come, are found, and go.
 
-use super::handle::{Stored, WorldHandle};
-use super::usage::Usage;
-use super::waiting::Waiting;
+use super::handle::{Persisted, WorldHandle};
+use super::usage::WorldUsage;
+use super::waiting::WaitingCommands;
 use crate::access::grants::{Grant, Grants};
 use crate::config::Config;
 use crate::fanout::hub::Hub;
-use crate::shares::{Client, check_part};
+use crate::shares::{ClientKey, check_part};
 use crate::tick::Outlet;
 use crate::tick::budget::Budget;
-use crate::tick::command::{Origin, Queue};
+use crate::tick::command::{CommandOrigin, CommandQueue};
+use crate::tick::hosted_world::{HostedWorld, StateOrigin as Past, WorldLimits};
 use crate::tick::journal::{Journal, Room, Total};
 use crate::tick::planners::Planners;
 use crate::tick::scene::Scene;
-use crate::tick::scheduler::{Added, Plan, Priority, Scheduler};
-use crate::tick::shard::{Limits, Origin as Past, Shard};
+use crate::tick::scheduler::{Added, Scheduler, SchedulerPlan, WorkerPriority};
 use sinew_wire::status::Fault;
 use sinew_wire::types::{WorldInfo, WorldSettings};
 use std::collections::{BTreeMap, HashSet};
@@ -76,9 +76,10 @@ impl Registry {
     /// The system gives no threads.
     pub fn new(config: Arc<Config>) -> Result<Self, Fault> {
         let budget = Arc::new(Budget::new(config.max_tick_budget));
-        let scheduler = Scheduler::start(Plan {
+        let scheduler = Scheduler::start(SchedulerPlan {
             workers: config.tick_workers as usize,
-            priority: Priority::by_name(&config.tick_priority).unwrap_or(Priority::Fifo),
+            priority: WorkerPriority::by_name(&config.tick_priority)
+                .unwrap_or(WorkerPriority::Fifo),
             slow: Duration::from_secs_f64(config.slow_tick_s),
             stuck: Duration::from_secs_f64(config.stuck_tick_s),
         });
@@ -120,7 +121,7 @@ impl Registry {
     }
 
     /// Workers for the ticks of worlds, and the priority that the system grants them.
-    pub fn workers(&self) -> (usize, Priority) {
+    pub fn workers(&self) -> (usize, WorkerPriority) {
         self.scheduler.workers()
     }
 
@@ -139,7 +140,7 @@ impl Registry {
         id: Option<String>,
         settings: WorldSettings,
         paused: bool,
-        owner: (Client, Vec<Grant>),
+        owner: (ClientKey, Vec<Grant>),
     ) -> Result<Arc<WorldHandle>, Fault> {
         self.start(id, (settings, None), paused, owner, false)
     }
@@ -147,13 +148,13 @@ impl Registry {
     /// Creates a world in the state of a checkpoint.
     ///
     /// # Errors
-    /// Those of [`Self::create`] and of [`Shard::restore`].
+    /// Those of [`Self::create`] and of [`HostedWorld::restore`].
     pub fn fork(
         &self,
         id: Option<String>,
         from: Scene,
         paused: bool,
-        owner: (Client, Vec<Grant>),
+        owner: (ClientKey, Vec<Grant>),
     ) -> Result<Arc<WorldHandle>, Fault> {
         let settings = from.settings().clone();
         self.start(id, (settings, Some(from)), paused, owner, false)
@@ -163,13 +164,13 @@ impl Registry {
     /// if that exceeds the share.
     ///
     /// # Errors
-    /// Those of [`Self::create`] and of [`Shard::restore`].
+    /// Those of [`Self::create`] and of [`HostedWorld::restore`].
     pub fn bring_back(
         &self,
         id: String,
         (settings, from): (WorldSettings, Option<Scene>),
         paused: bool,
-        owner: (Client, Vec<Grant>),
+        owner: (ClientKey, Vec<Grant>),
     ) -> Result<Arc<WorldHandle>, Fault> {
         let settings = from.as_ref().map_or(settings, |f| f.settings().clone());
         self.start(Some(id), (settings, from), paused, owner, true)
@@ -181,7 +182,7 @@ impl Registry {
         &self,
         worlds: &Worlds,
         id: Option<String>,
-        owner: Option<&Client>,
+        owner: Option<&ClientKey>,
     ) -> Result<String, Fault> {
         let taken = |id: &str| worlds.contains_key(id) || locked(&self.leaving).contains(id);
         if self.draining.load(Ordering::SeqCst) {
@@ -227,22 +228,27 @@ impl Registry {
         id: Option<String>,
         settings: WorldSettings,
         paused: bool,
-        owner: &Client,
+        owner: &ClientKey,
     ) -> Result<WorldInfo, Fault> {
         let id = self.admit(&self.read(), id, Some(owner))?;
-        self.shard(id.as_str().into(), settings, paused)
-            .map(|shard| shard.info())
+        self.hosted(id.as_str().into(), settings, paused)
+            .map(|hosted| hosted.info())
     }
 
     /// A world that has no thread yet.
-    fn shard(&self, id: Arc<str>, settings: WorldSettings, paused: bool) -> Result<Shard, Fault> {
-        let limits = Limits {
+    fn hosted(
+        &self,
+        id: Arc<str>,
+        settings: WorldSettings,
+        paused: bool,
+    ) -> Result<HostedWorld, Fault> {
+        let limits = WorldLimits {
             figures: self.config.max_figures_per_world,
             window: self.config.live_window_ms / 1e3,
         };
         let planners = Arc::clone(&self.planners);
         let budget = Arc::clone(&self.budget);
-        Shard::new(id, settings, paused, limits, planners, budget)
+        HostedWorld::new(id, settings, paused, limits, planners, budget)
     }
 
     /// The past of a new world, if one is kept.
@@ -260,7 +266,7 @@ impl Registry {
         id: Option<String>,
         (settings, from): (WorldSettings, Option<Scene>),
         paused: bool,
-        (owner, grants): (Client, Vec<Grant>),
+        (owner, grants): (ClientKey, Vec<Grant>),
         back: bool,
     ) -> Result<Arc<WorldHandle>, Fault> {
         let shares = (!back).then_some(&owner);
@@ -268,24 +274,24 @@ impl Registry {
         let rate_hz = settings.rate_hz;
         let name: Arc<str> = id.as_str().into();
         // Do this outside the lock: it may create many figures, and look-ups of worlds must not wait for it.
-        let mut shard = self.shard(name.clone(), settings, paused)?;
+        let mut hosted = self.hosted(name.clone(), settings, paused)?;
         if let Some(from) = from {
-            shard.restore(from, Past::Beginning)?;
+            hosted.restore(from, Past::Beginning)?;
         }
         let journal = self.journal();
         if let Some(journal) = &journal {
-            shard.keep_past(Arc::clone(journal));
+            hosted.keep_past(Arc::clone(journal));
         }
-        let commands = Arc::new(Queue::new(self.config.command_queue as usize));
+        let commands = Arc::new(CommandQueue::new(self.config.command_queue as usize));
         let outlet = Arc::new(Outlet::new(
-            &mut shard,
+            &mut hosted,
             self.config.history_ticks as usize,
             self.config.event_queue as usize,
         ));
-        let mailboxes = shard.mailboxes();
+        let mailboxes = hosted.mailboxes();
         let mut worlds = self.write();
         let id = self.admit(&worlds, Some(id), shares)?;
-        let Added { ticket, closed } = self.scheduler.add(shard, &commands, &outlet);
+        let Added { ticket, closed } = self.scheduler.add(hosted, &commands, &outlet);
         let handle = Arc::new(WorldHandle {
             id: name,
             outlet,
@@ -295,10 +301,10 @@ impl Registry {
                 self.config.history_ticks as usize,
             ),
             grants: Grants::new(grants),
-            stored: watch::Sender::new(Stored::Coming),
+            stored: watch::Sender::new(Persisted::Coming),
             owner,
             told_refused: Mutex::default(),
-            waiting: Waiting::new(self.config.command_queue, self.config.max_client_share),
+            waiting: WaitingCommands::new(self.config.command_queue, self.config.max_client_share),
             mailboxes,
             journal,
             seeking: tokio::sync::Mutex::default(),
@@ -307,7 +313,7 @@ impl Registry {
             dropped: AtomicU64::new(0),
             refused: AtomicU64::new(0),
             viewers: AtomicI64::new(0),
-            usage: Usage::default(),
+            usage: WorldUsage::default(),
             commands,
             ticket,
             ending: Arc::clone(&self.ending),
@@ -416,7 +422,7 @@ impl Registry {
 
 async fn end(handle: &WorldHandle, why: Fault, by: Option<&str>) {
     // A full queue must not keep the world alive; it drains within a tick.
-    let origin = Origin {
+    let origin = CommandOrigin {
         client: "".into(),
         sequence: i64::MIN,
     };

@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 /// Uses of one world.
 #[derive(Debug)]
-pub struct Usage(Arc<Mutex<State>>);
+pub struct WorldUsage(Arc<Mutex<UsageState>>);
 
 #[derive(Debug)]
-struct State {
+struct UsageState {
     /// Calls that wait and streams that are open.
     open: usize,
     last: Instant,
@@ -16,9 +16,9 @@ struct State {
 
 /// A call or a stream, as long as it lasts.
 #[derive(Debug)]
-pub struct InUse(Arc<Mutex<State>>);
+pub struct InUse(Arc<Mutex<UsageState>>);
 
-fn lock(state: &Mutex<State>) -> MutexGuard<'_, State> {
+fn lock(state: &Mutex<UsageState>) -> MutexGuard<'_, UsageState> {
     // Two numbers are always consistent.
     state.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -31,16 +31,16 @@ impl Drop for InUse {
     }
 }
 
-impl Default for Usage {
+impl Default for WorldUsage {
     fn default() -> Self {
-        Self(Arc::new(Mutex::new(State {
+        Self(Arc::new(Mutex::new(UsageState {
             open: 0,
             last: Instant::now(),
         })))
     }
 }
 
-impl Usage {
+impl WorldUsage {
     /// The world is used now.
     pub fn note(&self) {
         lock(&self.0).last = Instant::now();
@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn a_world_is_idle_from_its_last_use() {
-        let usage = Usage::default();
+        let usage = WorldUsage::default();
         let later = Instant::now() + Duration::from_secs(60);
         assert!(usage.idle(later) >= Duration::from_secs(59));
         let stream = usage.begin();

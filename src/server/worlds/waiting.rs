@@ -8,7 +8,7 @@ use std::time::Duration;
 
 /// Number of waiting commands of each client.
 #[derive(Clone, Debug)]
-pub(super) struct Waiting {
+pub(super) struct WaitingCommands {
     by_client: Arc<Mutex<HashMap<Arc<str>, u64>>>,
     most: u64,
     share: f64,
@@ -16,7 +16,7 @@ pub(super) struct Waiting {
 
 /// A command that waits, as long as this is there.
 pub(super) struct Waits {
-    waiting: Waiting,
+    waiting: WaitingCommands,
     client: Arc<str>,
 }
 
@@ -32,7 +32,7 @@ impl Drop for Waits {
     }
 }
 
-impl Waiting {
+impl WaitingCommands {
     /// No commands yet, for a queue that holds `most`, of which one client may have `share`.
     pub fn new(most: u64, share: f64) -> Self {
         Self {

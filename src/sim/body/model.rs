@@ -236,6 +236,21 @@ impl Body {
         self.joint_offset[shank.index()].norm() + self.joint_offset[foot.index()].norm()
     }
 
+    /// Height of the left (0) or right (1) ankle over the floor while its foot stands flat, m.
+    pub fn ankle_height(&self, side: usize) -> f64 {
+        use super::topology as t;
+        let (foot, toes) = (t::FEET[side], t::TOES[side]);
+        let toe_joint = self.joint_offset[toes.index()];
+        let foot_points = self.segment(foot).contact_points.iter();
+        let low = foot_points.map(|p| p.z).fold(f64::INFINITY, f64::min);
+        let toe_points = self.segment(toes).contact_points.iter();
+        let toe_low = toe_points
+            .map(|p| p.z + toe_joint.z)
+            .fold(f64::INFINITY, f64::min);
+        let height = -low.min(toe_low);
+        if height.is_finite() { height } else { 0.0 }
+    }
+
     /// Height of the pelvis origin over the soles in the zero pose, m.
     pub fn standing_root_height(&self) -> f64 {
         use super::topology as t;

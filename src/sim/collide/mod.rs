@@ -4,11 +4,9 @@
 //! * [`obstacle`]: bodies that are not figures: fixed, led, or free.
 //! * [`broad`]: finds the bodies that may meet within a tick.
 //! * [`narrow`]: nearest points of two shapes.
-//! * [`impact`]: the linear system of a collision as in §3 of the paper.
 //! * [`island`]: one convex problem for all bodies that touch each other.
 
 pub mod broad;
-pub mod impact;
 pub mod island;
 pub mod narrow;
 pub mod obstacle;

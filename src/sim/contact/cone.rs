@@ -26,7 +26,7 @@ struct Inside {
 
 /// A step of such a vector: in x and y, along its `n` and across, along z, and the first-order change of its `s`.
 #[derive(Clone, Copy, Debug, Default)]
-struct Step {
+struct ConeStep {
     t: [f64; 2],
     along: f64,
     across: f64,
@@ -91,12 +91,12 @@ impl Inside {
 
     /// A step that is given by the same components.
     #[inline(always)]
-    fn step(&self, n: [f64; 2], d: [f64; 3]) -> Step {
+    fn step(&self, n: [f64; 2], d: [f64; 3]) -> ConeStep {
         let [less, more] = versines(n, self.n);
         let a = HALF_ROOT * (d[0] - d[1]);
         let t = [n[0] * a - n[1] * d[2], n[1] * a + n[0] * d[2]];
         let sine = n[0] * self.n[1] - n[1] * self.n[0];
-        Step {
+        ConeStep {
             t,
             along: inner(self.n, t),
             across: self.n[0] * t[1] - self.n[1] * t[0],
@@ -107,7 +107,7 @@ impl Inside {
 
     /// Largest step ≤ `most` that stays in the cone.
     #[inline(always)]
-    fn way(&self, d: &Step, most: f64) -> f64 {
+    fn way(&self, d: &ConeStep, most: f64) -> f64 {
         // q0 + 2 q1 s + q2 s² is positive at 0; the cone is left at its first positive root, or where z changes sign.
         let q0 = self.square();
         let q1 = self.length * d.s + self.s * d.z;
@@ -131,7 +131,7 @@ impl Inside {
     }
 
     #[inline(always)]
-    fn advance(&mut self, d: &Step, step: f64) {
+    fn advance(&mut self, d: &ConeStep, step: f64) {
         let next = Self::new(
             [self.t[0] + step * d.t[0], self.t[1] + step * d.t[1]],
             self.s,
@@ -155,8 +155,8 @@ impl Inside {
 pub(crate) struct Cone {
     f: Inside,
     l: Inside,
-    df: Step,
-    dl: Step,
+    df: ConeStep,
+    dl: ConeStep,
     /// W is diagonal along (n, 1), (−n, 1) and across.
     n: [f64; 2],
     /// W⁻² there.

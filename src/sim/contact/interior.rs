@@ -18,7 +18,7 @@
 
 use super::cone::{Cone, squared};
 use super::limits::MAX_LIMITS;
-use super::newton::{Motors, NewtonWorkspace, Problem, System};
+use super::newton::{ConvexProblem, Motors, NewtonWorkspace, System};
 use super::rows::{CHAIN_WIDTH, add_point_stiffness};
 use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::math::{Mat3, Vec3};
@@ -180,9 +180,9 @@ impl Wall {
     }
 }
 
-/// Unknowns of the method.
+/// Unknowns of the method: buffers, which the caller owns.
 #[derive(Clone, Debug)]
-pub(crate) struct Interior {
+pub struct Interior {
     pub(crate) motors: [Inner; DOF_COUNT],
     pub(crate) cones: Box<[Cone; MAX_CONTACTS]>,
     pub(crate) walls: [Wall; MAX_LIMITS],
@@ -232,13 +232,14 @@ pub(crate) fn aim(gap: f64, last_step: f64) -> f64 {
 /// Problem 14.2.
 #[inline(always)]
 pub(crate) fn approach<S: System>(
-    problem: &Problem<'_, S>,
+    problem: &ConvexProblem<'_, S>,
     iterations: u32,
     hessian: &mut S::Hessian,
     x: &mut [f64; NV],
+    inner: &mut Interior,
     ws: &mut NewtonWorkspace,
 ) -> u32 {
-    let Problem {
+    let ConvexProblem {
         system,
         b,
         motors,
@@ -248,7 +249,6 @@ pub(crate) fn approach<S: System>(
     let n = contacts.points.len();
     let mu = contacts.friction;
     let NewtonWorkspace {
-        interior: inner,
         force,
         velocity,
         direction,

@@ -16,8 +16,9 @@ pub mod slides;
 pub mod sparse;
 
 pub use dense::DenseSystem;
+pub use interior::Interior;
 pub use limits::{LimitRow, LimitRows, Tissue, collect_limits};
-pub use newton::{Motors, NewtonWorkspace, Outcome, Problem, StopRule, minimise};
+pub use newton::{ConvexProblem, Motors, NewtonWorkspace, SolveOutcome, StopRule, minimise};
 pub use rows::ContactRows;
 pub use slides::Slides;
 pub use sparse::SparseSystem;

@@ -1,6 +1,5 @@
 //! Semi-smooth Newton method with exact line search, warm start and a bound on its work (`docs/equations.md`, 14.2).
 
-use super::interior::Interior;
 use super::limits::{LimitRows, MAX_LIMITS};
 use super::projection::Region;
 use super::rows::{CHAIN_WIDTH, ContactRows, SegmentRows, add_point_stiffness};
@@ -26,7 +25,7 @@ pub trait System {
 
 /// The convex problem of `docs/equations.md`, 14: ½ xᵀA x − bᵀx + motors + limits + contacts.
 #[derive(Debug)]
-pub struct Problem<'a, S> {
+pub struct ConvexProblem<'a, S> {
     /// A.
     pub system: S,
     /// b.
@@ -102,7 +101,6 @@ pub struct NewtonWorkspace {
     /// Rates of the limit rows at the start of a line search, and along it.
     ways: Box<[[f64; 2]; MAX_LIMITS]>,
     pub(crate) region: Box<[Region; MAX_CONTACTS]>,
-    pub(crate) interior: Interior,
 }
 
 impl Default for NewtonWorkspace {
@@ -116,7 +114,6 @@ impl Default for NewtonWorkspace {
             direction: z(),
             ways: Box::new([[0.0; 2]; MAX_LIMITS]),
             region: Box::new([Region::Open; MAX_CONTACTS]),
-            interior: Interior::default(),
         }
     }
 }
@@ -164,7 +161,7 @@ impl NewtonWorkspace {
 
 /// How a solve ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Outcome {
+pub struct SolveOutcome {
     /// Newton iterations.
     pub iterations: u32,
     /// Largest component of the remaining gradient.
@@ -197,13 +194,13 @@ const LINE_SEARCH: usize = 12;
 /// Problem 14.2.
 #[inline(always)]
 pub fn minimise<S: System>(
-    problem: &Problem<'_, S>,
+    problem: &ConvexProblem<'_, S>,
     stop: StopRule,
     hessian: &mut S::Hessian,
     x: &mut [f64; NV],
     ws: &mut NewtonWorkspace,
-) -> Outcome {
-    let Problem {
+) -> SolveOutcome {
+    let ConvexProblem {
         system,
         b,
         motors,
@@ -214,7 +211,7 @@ pub fn minimise<S: System>(
     let mut ax = [0.0; NV];
     system.mul(x, &mut ax);
     contacts.velocities(x, &mut ws.velocity);
-    let mut out = Outcome::default();
+    let mut out = SolveOutcome::default();
     loop {
         let (grad, slope) = gradient(problem, &ax, x, ws);
         out.residual = largest(&grad);
@@ -264,12 +261,12 @@ pub fn minimise<S: System>(
 /// `ws`.
 #[inline(always)]
 fn gradient<S>(
-    problem: &Problem<'_, S>,
+    problem: &ConvexProblem<'_, S>,
     ax: &[f64; NV],
     x: &[f64; NV],
     ws: &mut NewtonWorkspace,
 ) -> ([f64; NV], [f64; DOF_COUNT]) {
-    let Problem {
+    let ConvexProblem {
         b,
         motors,
         limits,
@@ -309,13 +306,13 @@ fn gradient<S>(
 /// Makes `A` the Newton matrix: adds the slopes of motors, limits and contacts at the point of the last gradient.
 #[inline(always)]
 fn add_slopes<S: System>(
-    problem: &Problem<'_, S>,
+    problem: &ConvexProblem<'_, S>,
     slope: &[f64; DOF_COUNT],
     x: &[f64; NV],
     ws: &NewtonWorkspace,
     hessian: &mut S::Hessian,
 ) {
-    let Problem {
+    let ConvexProblem {
         limits, contacts, ..
     } = problem;
     for j in 0..DOF_COUNT {

@@ -181,7 +181,7 @@ fn newton_reaches_the_minimum_and_both_storages_agree() {
             iterations: 60,
             tolerance: 1e-9,
         };
-        let sparse = Problem {
+        let sparse = ConvexProblem {
             system: SparseSystem(&t.mass_matrix),
             b: &b,
             motors: &motors,
@@ -195,7 +195,7 @@ fn newton_reaches_the_minimum_and_both_storages_agree() {
             o.residual, o.iterations
         );
         let (mut y, mut ws2) = (state.velocity, NewtonWorkspace::default());
-        let dense = Problem {
+        let dense = ConvexProblem {
             system: DenseSystem(&t.m),
             b: &b,
             motors: &motors,

@@ -19,7 +19,7 @@ const BEYOND: f64 = 0.01;
 
 /// How briskly goals are approached.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pace {
+pub struct GoalPace {
     /// Time constant T, s: speeds are taken up at 1/T and are 0.25/T times the distance, critically damped with 0.25/T²
     /// and 1/T; at most 4 T times the largest acceleration, so that they can be braked.
     pub horizon: f64,
@@ -33,7 +33,7 @@ pub struct Pace {
 
 /// Where one part should be.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Goal {
+pub struct ConstraintGoal {
     /// Segment.
     pub segment: SegmentId,
     /// Point, segment frame, m.
@@ -50,7 +50,7 @@ pub struct Goal {
     pub weight: f64,
 }
 
-impl Goal {
+impl ConstraintGoal {
     /// Difference of the wanted position from the present one along the axes that count, world, m; zero if no position
     /// is wanted.
     pub fn distance(&self, terms: &Terms) -> Vec3 {
@@ -104,7 +104,7 @@ impl Goal {
     }
 
     /// Demanded acceleration of the point along the axes that count, m/s².
-    pub fn acceleration(&self, terms: &Terms, pace: &Pace) -> Vec3 {
+    pub fn acceleration(&self, terms: &Terms, pace: &GoalPace) -> Vec3 {
         let v = terms.point_velocity(self.segment.index(), self.point) - self.velocity;
         let v = self.along_axes(v);
         let most = if self.is_on_arm() {
@@ -130,7 +130,7 @@ impl Goal {
     }
 
     /// Demanded angular acceleration of the segment, world axes, rad/s².
-    pub fn angular_acceleration(&self, terms: &Terms, pace: &Pace) -> Vec3 {
+    pub fn angular_acceleration(&self, terms: &Terms, pace: &GoalPace) -> Vec3 {
         let w = terms.kin.omega[self.segment.index()];
         demand(self.turn(terms), w, pace.horizon, pace.most_turn)
     }

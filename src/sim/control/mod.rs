@@ -1,22 +1,21 @@
 //! Tracking controllers: accelerations and torques that follow the desired motion within strength.
 //!
-//! [`Paper`] is Oshita & Makinouchi 2000, Eqs. (4)–(17), with the repairs of `docs/equations.md#repairs`.
+//! [`Modern`] is the default. The controller of Oshita & Makinouchi 2000 is in [`crate::paper`].
 
-pub mod feasible_com;
 pub mod goals;
+pub mod mode;
 pub mod modern;
-pub mod paper;
-pub mod reroot;
+pub mod motors;
+pub mod params;
 pub mod rows;
-pub mod spatial_targets;
 #[cfg(test)]
 pub(crate) mod testing;
-pub mod torque_limits;
 pub mod tracking;
 
-pub use goals::Goal;
+pub use goals::ConstraintGoal;
+pub use mode::Mode;
 pub use modern::{Modern, ModernMemory};
-pub use paper::{Paper, PaperMemory};
+pub use motors::MotorsAlone;
 pub use tracking::Law;
 
 use crate::body::topology::{L_HAND, R_HAND, SEGMENT_COUNT};
@@ -131,7 +130,7 @@ pub struct ControlInput<'a> {
     pub effectors: &'a [Effector],
     /// Constraints from outside, the ones that matter more first: at most [`goals::MAX_GOALS`], of which the paper's
     /// controller takes eight.
-    pub goals: &'a [Goal],
+    pub goals: &'a [ConstraintGoal],
     /// What the left and the right hand of a figure that steps carry, kg.
     pub carried: [f64; 2],
     /// Least available torques, N·m (negative).
@@ -190,7 +189,7 @@ pub struct ContactTargets<'a> {
     /// Left and right foot.
     pub feet: &'a [FootTarget; 2],
     /// Phase of the planted feet.
-    pub phase: ContactPhase,
+    pub phase: StancePhase,
     /// True if places of feet are known before they touch. A foot that lands turning is then stopped sooner.
     pub places_known: bool,
     /// While the whole body works on the floor, as on the way up: whatever touches and is meant to then carries;
@@ -200,7 +199,7 @@ pub struct ContactTargets<'a> {
 
 /// Phase of the contact of the planted feet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ContactPhase {
+pub enum StancePhase {
     /// At least one foot stays on the floor.
     #[default]
     Stance,
@@ -278,6 +277,12 @@ pub fn com_law(target: &PointTarget, com: Vec3, velocity: Vec3, dt: f64) -> Vec3
 pub trait Controller {
     /// Decides one tick.
     fn control(&mut self, input: &ControlInput<'_>) -> &Command;
+    /// The last decision.
+    fn command(&self) -> &Command;
+    /// Touching points that carry nothing in the last decision, by index, if it has decided which carry.
+    fn left_out(&self) -> Option<&[bool; MAX_CONTACTS]> {
+        None
+    }
     /// Forgets the last tick (the figure was reset).
     fn reset(&mut self);
 }

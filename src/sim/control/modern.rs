@@ -13,8 +13,8 @@ use crate::body::topology::{
 use crate::contact::dense::Dense;
 use crate::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
 use crate::contact::{
-    ContactRows, DenseSystem, LimitRows, Motors, NewtonWorkspace, Outcome, Problem, StopRule,
-    interior, minimise,
+    ContactRows, ConvexProblem, DenseSystem, Interior, LimitRows, Motors, NewtonWorkspace,
+    SolveOutcome, StopRule, interior, minimise,
 };
 use crate::dynamics::Terms;
 use crate::dynamics::terms::WIDTH;
@@ -28,13 +28,14 @@ use crate::report::Flags;
 use crate::report::MAX_CONTACTS;
 use crate::support::{Polygon, zmp_above};
 use multiversion::multiversion;
-use tasks::pendulum_time;
+use pendulum::pendulum_time;
 
 pub use memory::ModernMemory;
 
 mod contacts;
 mod memory;
 mod momentum;
+mod pendulum;
 mod roll;
 mod tasks;
 
@@ -120,23 +121,24 @@ pub struct Modern {
     hessian: Box<Dense>,
     contacts: ContactRows,
     /// Weight of each contact point's acceleration, world axes, and that acceleration.
-    hold: Vec<(Hold, Vec3)>,
+    hold: Vec<(HoldStiffness, Vec3)>,
     limits: LimitRows,
     soles: Polygon,
     motors: Motors,
     newton: NewtonWorkspace,
+    interior: Box<Interior>,
     rows: Vec<TaskRow>,
     assist: [f64; 2],
-    seat: Seat,
+    seat: SeatLoad,
     command: Command,
 }
 
 /// Symmetric, world axes.
-type Hold = [[f64; 3]; 3];
+type HoldStiffness = [[f64; 3]; 3];
 
 /// What seats and tables mean to the figure in this tick.
 #[derive(Clone, Copy, Debug, Default)]
-struct Seat {
+struct SeatLoad {
     /// Share of the weight that they carry.
     carries: f64,
     /// 1 where the motion could not stand without, 0 where it could or is about to get up.
@@ -169,11 +171,6 @@ impl Modern {
         self.contacts.friction = friction * FRICTION_MARGIN;
     }
 
-    /// The last decision.
-    pub fn command(&self) -> &Command {
-        &self.command
-    }
-
     /// A controller that plans with a little less friction than the simulator's `friction`.
     pub fn new(friction: f64) -> Self {
         let dense = || Box::new([[0.0; WIDTH]; NV]);
@@ -189,9 +186,10 @@ impl Modern {
             soles: Polygon::with_capacity(MAX_CONTACTS),
             motors: Motors::default(),
             newton: NewtonWorkspace::default(),
+            interior: Box::default(),
             rows: Vec::with_capacity(24 + 6 * MAX_GOALS),
             assist: [0.0; 2],
-            seat: Seat::default(),
+            seat: SeatLoad::default(),
             command: Command::default(),
         }
     }
@@ -359,6 +357,10 @@ impl Controller for Modern {
         &self.command
     }
 
+    fn command(&self) -> &Command {
+        &self.command
+    }
+
     fn reset(&mut self) {
         self.memory.reset();
     }
@@ -372,7 +374,7 @@ fn kernel(
     t: &Terms,
     diagonal: &[f64; NV],
     linear: &mut [f64; WIDTH],
-) -> Option<Outcome> {
+) -> Option<SolveOutcome> {
     // 1. P: diagonal + task rows + held points. Column j of the lower triangle is row j.
     let rows = c.rows.iter().map(|task| (task.weight, &task.row));
     weighted_gram(diagonal, rows, &mut c.p);
@@ -438,7 +440,7 @@ fn kernel(
         }
     }
     // 3. Newton on the dual; 4. v̇ = P⁻¹(p + M x).
-    let problem = Problem {
+    let problem = ConvexProblem {
         system: DenseSystem(&c.a),
         b: &b,
         motors: &c.motors,
@@ -453,7 +455,14 @@ fn kernel(
     let mut outcome = minimise(&problem, stop, hessian, price, newton);
     if !outcome.converged {
         // Jammed between the corners of motors and cones, as happens far from the last tick's problem.
-        let used = interior::approach(&problem, INTERIOR_ITERATIONS, hessian, price, newton);
+        let used = interior::approach(
+            &problem,
+            INTERIOR_ITERATIONS,
+            hessian,
+            price,
+            &mut c.interior,
+            newton,
+        );
         let before = outcome.iterations + used;
         let stop = StopRule {
             iterations: MAX_ITERATIONS.saturating_sub(before),

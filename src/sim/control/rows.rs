@@ -7,9 +7,9 @@ use crate::math::dense::cholesky_solve;
 /// Joint components padded to a multiple of 8 (with zeros).
 pub const ROW: usize = 40;
 /// One padded row.
-pub type Row = [f64; ROW];
+pub type JointRow = [f64; ROW];
 /// A matrix with one row per DOF.
-pub type Square = [Row; DOF_COUNT];
+pub type Square = [JointRow; DOF_COUNT];
 
 /// Diagonal entries of R below this part of the largest count as dependent rows.
 const DEPENDENT: f64 = 1e-10;
@@ -18,7 +18,7 @@ const DAMPING: f64 = 1e-12;
 
 /// Scalar product. Eight partial sums in a fixed order: the same bits on every instruction set.
 #[inline(always)]
-pub fn dot(a: &Row, b: &Row) -> f64 {
+pub fn dot(a: &JointRow, b: &JointRow) -> f64 {
     let mut s = [0.0; 8];
     for i in 0..ROW / 8 {
         for k in 0..8 {
@@ -30,7 +30,7 @@ pub fn dot(a: &Row, b: &Row) -> f64 {
 
 /// `y += s x`.
 #[inline(always)]
-pub fn add_scaled(y: &mut Row, s: f64, x: &Row) {
+pub fn add_scaled(y: &mut JointRow, s: f64, x: &JointRow) {
     for k in 0..ROW {
         y[k] += s * x[k];
     }
@@ -38,7 +38,7 @@ pub fn add_scaled(y: &mut Row, s: f64, x: &Row) {
 
 /// Rows of joint components as a padded row.
 #[inline(always)]
-pub fn padded(a: &[f64; DOF_COUNT]) -> Row {
+pub fn padded(a: &[f64; DOF_COUNT]) -> JointRow {
     let mut r = [0.0; ROW];
     r[..DOF_COUNT].copy_from_slice(a);
     r
@@ -90,7 +90,7 @@ impl RowQr {
 
     /// Appends a row of A. At most 39. O(39·len).
     #[inline(always)]
-    pub fn push(&mut self, row: &Row) {
+    pub fn push(&mut self, row: &JointRow) {
         assert!(self.len < DOF_COUNT, "more rows than joint components");
         let k = self.len;
         let length = dot(row, row).sqrt();
@@ -123,7 +123,7 @@ impl RowQr {
         h: &Square,
         members: &[usize],
         first: usize,
-        held: &[Row],
+        held: &[JointRow],
         mut fixed: usize,
     ) -> usize {
         let k = members.len();
@@ -152,7 +152,7 @@ impl RowQr {
 
     /// Least-norm `x` with `A x = t`; damped least squares if the rows are dependent. `t` has one entry per row.
     #[inline(always)]
-    pub fn solve(&mut self, t: &[f64], x: &mut Row) {
+    pub fn solve(&mut self, t: &[f64], x: &mut JointRow) {
         let n = self.len;
         assert_eq!(t.len(), n);
         *x = [0.0; ROW];
@@ -172,7 +172,7 @@ impl RowQr {
 
     /// Removes from `x` its part in the row space: `x − A⁺A x`.
     #[inline(always)]
-    pub fn project_out(&self, x: &mut Row) {
+    pub fn project_out(&self, x: &mut JointRow) {
         for i in 0..self.len {
             let s = self.beta[i] * dot(&self.reflect[i], x);
             add_scaled(x, -s, &self.reflect[i]);
@@ -182,14 +182,14 @@ impl RowQr {
     }
 
     #[inline(always)]
-    fn apply_q(&self, x: &mut Row) {
+    fn apply_q(&self, x: &mut JointRow) {
         for i in (0..self.len).rev() {
             let s = self.beta[i] * dot(&self.reflect[i], x);
             add_scaled(x, -s, &self.reflect[i]);
         }
     }
 
-    fn solve_damped(&mut self, t: &[f64], x: &mut Row) {
+    fn solve_damped(&mut self, t: &[f64], x: &mut JointRow) {
         let n = self.len;
         for i in 0..n {
             for j in 0..=i {
@@ -214,7 +214,7 @@ mod tests {
     use crate::support::testing::Rng;
     use nalgebra::{DMatrix, DVector};
 
-    fn random_row(rng: &mut Rng) -> Row {
+    fn random_row(rng: &mut Rng) -> JointRow {
         let mut r = [0.0; ROW];
         (0..DOF_COUNT).for_each(|i| r[i] = rng.unit() * 10f64.powf(2.0 * rng.unit()));
         r
@@ -224,7 +224,7 @@ mod tests {
     fn least_norm_solution_and_projection_equal_the_svd_pseudo_inverse() {
         let mut rng = Rng::new(1);
         for k in [1, 2, 5, 17, 38, 39] {
-            let rows: Vec<Row> = (0..k).map(|_| random_row(&mut rng)).collect();
+            let rows: Vec<JointRow> = (0..k).map(|_| random_row(&mut rng)).collect();
             let t: Vec<f64> = (0..k).map(|_| 100.0 * rng.unit()).collect();
             let mut qr = RowQr::default();
             rows.iter().for_each(|r| qr.push(r));

@@ -1,8 +1,8 @@
 //! One tick's input to a controller, for tests.
 
 use super::{
-    CentroidalTarget, ContactPhase, ContactTargets, ControlInput, Effector, FootTarget, Goal,
-    PointTarget, RotationTarget,
+    CentroidalTarget, ConstraintGoal, ContactTargets, ControlInput, Effector, FootTarget,
+    PointTarget, RotationTarget, StancePhase,
 };
 use crate::body::topology::{DOF_COUNT, L_FOOT, L_HAND, R_FOOT, R_HAND};
 use crate::body::{Body, State};
@@ -25,7 +25,7 @@ pub(crate) struct Scene {
     pub(crate) target: TargetPair,
     pub(crate) com: PointTarget,
     pub(crate) effectors: Vec<Effector>,
-    pub(crate) goals: Vec<Goal>,
+    pub(crate) goals: Vec<ConstraintGoal>,
     pub(crate) feet: [FootTarget; 2],
     pub(crate) lower: [f64; DOF_COUNT],
     pub(crate) upper: [f64; DOF_COUNT],
@@ -99,7 +99,7 @@ impl Scene {
             },
             contacts: ContactTargets {
                 feet: &self.feet,
-                phase: ContactPhase::Stance,
+                phase: StancePhase::Stance,
                 places_known: false,
                 floor: None,
             },

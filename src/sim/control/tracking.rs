@@ -1,10 +1,10 @@
 //! Initial accelerations from the desired motion, Eq. (4), and the same law for points (`docs/equations.md#repairs`).
 
-use super::rows::{ROW, Row};
 use crate::body::angles::swing_twist;
 use crate::body::state::{ball_rate_vector, ball_rates};
 use crate::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint};
 use crate::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT, State};
+use crate::control::rows::{JointRow, ROW};
 use crate::math::dense::solve_3;
 use crate::math::{Vec3, vec3::vec3};
 use crate::motion::{Target, TargetPair};
@@ -141,7 +141,12 @@ fn errors(posture: &Posture, target: &Target) -> ([f64; DOF_COUNT], [f64; DOF_CO
 ///
 /// * Returns joint accelerations in rad/s² (ball joints: along the signed child axes), padded. No allocation.
 #[inline(always)]
-pub fn initial_acceleration(body: &Body, state: &State, target: &TargetPair, law: &Law) -> Row {
+pub fn initial_acceleration(
+    body: &Body,
+    state: &State,
+    target: &TargetPair,
+    law: &Law,
+) -> JointRow {
     let posture = &state.posture;
     let (e0, r0) = errors(posture, &target.now);
     let (e1, mut r1) = errors(posture, &target.next);
@@ -169,7 +174,7 @@ pub fn initial_acceleration(body: &Body, state: &State, target: &TargetPair, law
 /// outside already is asked to come back by [`LIMIT_RETURN`] of its violation, not at once: a dead-beat return would
 /// saturate the joint.
 #[inline(always)]
-fn clamp_to_limits(body: &Body, state: &State, dt: f64, qdd: &mut Row) {
+fn clamp_to_limits(body: &Body, state: &State, dt: f64, qdd: &mut JointRow) {
     let clamp = |d: usize, angle: f64, next_rate: f64| {
         let bound = |limit: f64, outside: bool| {
             (limit - angle) / dt * if outside { LIMIT_RETURN } else { 1.0 }

@@ -6,7 +6,7 @@ use crate::body::topology::{
 };
 use crate::body::{Body, SegmentId};
 use crate::control::goals::MAX_GOALS;
-use crate::control::{Effector, Goal, PointTarget};
+use crate::control::{ConstraintGoal, Effector, PointTarget};
 use crate::dynamics::Terms;
 use crate::figure::params::constraints::{
     COM_INSET, COM_LEASH, STREAM_INTERVAL, STREAM_SMOOTHING, STREAM_SPEED, TRUNK_REACH,
@@ -76,7 +76,7 @@ impl Constraint {
 
 /// A place that is given again and again.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct Stream {
+struct PlaceStream {
     on: Constrained,
     position: Vec3,
     velocity: Vec3,
@@ -84,7 +84,7 @@ struct Stream {
     at: f64,
 }
 
-impl Stream {
+impl PlaceStream {
     /// The place that `c` gives at `time`, after it was `before`.
     fn next(before: Option<&Self>, c: &Constraint, time: f64) -> Option<Self> {
         let mut next = Self {
@@ -114,10 +114,10 @@ impl Stream {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Constraints {
     given: Vec<Constraint>,
-    streams: Vec<Stream>,
+    streams: Vec<PlaceStream>,
     fading: Vec<Constraint>,
     #[serde(skip)]
-    goals: Vec<Goal>,
+    goals: Vec<ConstraintGoal>,
     #[serde(skip)]
     hands: [Option<Effector>; 2],
     #[serde(skip)]
@@ -149,10 +149,10 @@ impl Constraints {
     /// for the same part within 0.1 s has moved there, and is taken to move on.
     pub fn replace(&mut self, new: &[Constraint], time: f64) {
         let new = &new[..new.len().min(MAX_CONSTRAINTS)];
-        let streams: [Option<Stream>; MAX_CONSTRAINTS] = std::array::from_fn(|i| {
+        let streams: [Option<PlaceStream>; MAX_CONSTRAINTS] = std::array::from_fn(|i| {
             let c = new.get(i)?;
             let before = self.streams.iter().find(|s| s.on == c.on);
-            Stream::next(before, c, time)
+            PlaceStream::next(before, c, time)
         });
         self.streams.clear();
         self.streams.extend(streams.into_iter().flatten());
@@ -238,14 +238,14 @@ impl Constraints {
                 Constrained::CenterOfMass => {
                     if let Some(at) = c.position {
                         let share = c.axes.map(|a| a * level);
-                        self.shift_com(body, terms, support, (at, velocity), share, com);
+                        self.shift_com(body, terms, support, at, velocity, share, com);
                     }
                 }
                 Constrained::Point(segment, point) => {
                     if c.position.is_some() {
                         self.release(segment);
                     }
-                    let mut goal = Goal {
+                    let mut goal = ConstraintGoal {
                         segment,
                         point,
                         position: c.position,
@@ -268,13 +268,13 @@ impl Constraints {
 
     /// How fast the wanted place of a part moves, m/s: zero unless it is given again and again.
     fn velocity(&self, on: Constrained, time: f64) -> Vec3 {
-        let fresh = |s: &&Stream| s.on == on && time - s.at <= STREAM_INTERVAL;
+        let fresh = |s: &&PlaceStream| s.on == on && time - s.at <= STREAM_INTERVAL;
         let stream = self.streams.iter().find(fresh);
         stream.map_or(Vec3::zero(), |s| s.velocity)
     }
 
     /// A hand whose arm is constrained, or led elsewhere, does not follow the motion in space as well.
-    pub(super) fn release(&mut self, segment: SegmentId) {
+    pub(in crate::figure) fn release(&mut self, segment: SegmentId) {
         match segment {
             L_UPPER_ARM | L_FOREARM | L_HAND => self.hands[0] = None,
             R_UPPER_ARM | R_FOREARM | R_HAND => self.hands[1] = None,
@@ -289,7 +289,8 @@ impl Constraints {
         body: &Body,
         terms: &Terms,
         support: &Support,
-        (wanted, moves): (Vec3, Vec3),
+        wanted: Vec3,
+        moves: Vec3,
         share: [f64; 3],
         com: &mut PointTarget,
     ) {
@@ -348,7 +349,7 @@ impl Constraints {
     }
 
     /// True if one of these segments is constrained, or was and the constraint still fades.
-    pub(super) fn holds(&self, segments: [SegmentId; 3]) -> bool {
+    pub(in crate::figure) fn holds(&self, segments: [SegmentId; 3]) -> bool {
         let on = |c: &Constraint| match c.on {
             Constrained::Point(s, _) => segments.contains(&s),
             Constrained::CenterOfMass => false,
@@ -357,7 +358,7 @@ impl Constraints {
     }
 
     /// What the controllers are to reach in this tick.
-    pub(crate) fn goals(&self) -> &[Goal] {
+    pub(crate) fn goals(&self) -> &[ConstraintGoal] {
         &self.goals
     }
 
@@ -381,7 +382,7 @@ impl Constraints {
                     continue;
                 }
             };
-            let goal = Goal {
+            let goal = ConstraintGoal {
                 segment,
                 point,
                 position: c.position,

@@ -244,28 +244,6 @@ pub mod constraints {
     }
 }
 
-/// Help on the pelvis that physics does not give.
-pub mod assist {
-    crate::params::params! {
-        /// κ of the force over the body mass at assist 1.
-        STIFFNESS: f64 = 50.0, "1", 10..=200, "docs/tick.md";
-        /// Part of a pose error that is taken back per substep.
-        RETURN: f64 = 0.5, "1", 0.1..=1, "numerical";
-        /// Fastest way back to the desired position.
-        RETURN_SPEED: f64 = 1.5, "m/s", 0.5..=5, "numerical";
-        /// Fastest way back to the desired rotation.
-        RETURN_RATE: f64 = 3.0, "rad/s", 1..=10, "numerical";
-        /// Largest force over the body's weight at assist 1.
-        LARGEST_FORCE: f64 = 2.0, "1", 0.5..=5, "docs/tick.md";
-        /// Largest moment over weight times stature at assist 1.
-        LARGEST_MOMENT: f64 = 0.5, "1", 0.1..=2, "docs/tick.md";
-        /// Inertia about the pelvis over mass times stature squared.
-        INERTIA: f64 = 0.05, "1", 0.02..=0.1, "derivation";
-        /// What half the largest force or moment costs a plan at assist 1.
-        PLANNED_COST: f64 = 10.0, "1", 1..=100, "docs/tick.md";
-    }
-}
-
 /// Help while a motion is being lost.
 pub mod help {
     crate::params::params! {
@@ -291,113 +269,11 @@ pub mod help {
         OUT_OF_REACH_AFTER: f64 = 0.5, "s", 0.1..=2.0, "docs/rehearsal.md#live-help";
         /// Time until a figure that was let fall can be helped again.
         AGAIN_AFTER: f64 = 2.0, "s", 0.5..=10.0, "docs/rehearsal.md#live-help";
-        /// Angular frequency of the pull.
-        FREQUENCY: f64 = 8.0, "rad/s", 4..=16, "docs/rehearsal.md#live-help";
-        /// Largest moment over largest force times stature: the force acts within half a stature of the pelvis.
-        LEVER: f64 = 0.5, "1", 0.1..=0.5, "docs/rehearsal.md#live-help";
-    }
-}
-
-/// How stiff motors are: the rate error at which a motor gives all it has.
-pub mod motors {
-    crate::params::params! {
-        /// Motors alone.
-        ALONE_SPEED: f64 = 0.005, "rad/s", 0.001..=0.1, "numerical";
-        /// With the torque of the paper's controller as feed-forward.
-        FEED_FORWARD_SPEED: f64 = 1.0, "rad/s", 0.1..=5, "docs/tick.md";
-        /// With that of the modern controller: legs give a little when a foot lands.
-        MODERN_SPEED: f64 = 3.0, "rad/s", 0.5..=10, "docs/tick.md";
-        /// Gain that is left for the second try of a substep that did not converge.
-        SOFTENING: f64 = 0.01, "1", 1e-3..=0.5, "numerical";
-    }
-}
-
-/// Contact with the ground in a substep.
-pub mod contact {
-    crate::params::params! {
-        /// Compliance R of a contact.
-        COMPLIANCE: f64 = 1e-4, "1/kg", 1e-6..=1e-2, "docs/equations.md";
-        /// Contact points lower than this take part in the solve even if they move away.
-        SPECULATIVE_HEIGHT: f64 = 0.02, "m", 0.005..=0.05, "docs/tick.md";
-        /// Share of a penetration beyond the slop that is taken back per substep.
-        PENETRATION_RETURN: f64 = 0.2, "1", 0.05..=1, "numerical";
-        /// Penetration that is left alone: resting feet neither hover nor chatter.
-        PENETRATION_SLOP: f64 = 1e-4, "m", 0..=1e-3, "numerical";
-        /// Fastest push-out of a penetrating point.
-        PENETRATION_SPEED: f64 = 1.0, "m/s", 0.1..=5, "numerical";
-        /// Most Newton iterations of one substep. 2 to 6 are typical; a foot that strikes while joints are near
-        /// their limits takes up to 70, and a step cut short at 30 there flings light joints.
-        ITERATIONS: u32 = 80, "rounds", 20..=200, "numerical";
-        /// Residual at which a substep counts as solved.
-        TOLERANCE: f64 = 1e-6, "N·m·s", 1e-9..=1e-4, "numerical";
-        /// Rates, and speeds in m/s, beyond this are braked: far above what bodies do (a pitcher's shoulder turns
-        /// at 130 rad/s), low enough that a substep resolves it.
-        LARGEST_SPEED: f64 = 200.0, "rad/s", 140..=1000, "docs/tick.md";
-    }
-}
-
-/// A body that meets itself.
-pub mod self_contact {
-    crate::params::params! {
-        /// Most solves of one substep after its first, each with corrected impulses.
-        ROUNDS: u32 = 3, "rounds", 1..=10, "docs/tick.md#self-contact";
-        /// How much deeper than in the motion a pair may be without a force: capsules are off from the surface by as
-        /// much.
-        SLACK: f64 = 0.03, "m", 0..=0.05, "docs/tick.md#self-contact";
-        /// Stiffness of what is between bones where limbs press on each other or on the trunk: 100 N press 1 cm.
-        STIFFNESS: f64 = 1e4, "N/m", 2e3..=1e5, "docs/tick.md#self-contact";
-        /// Damping over stiffness: about critical for an arm.
-        RELAXATION: f64 = 0.02, "s", 0..=0.1, "docs/tick.md#self-contact";
-        /// Rate at which a pair may still come nearer than it may: 0.1 mm in a substep.
-        TOLERANCE: f64 = 0.01, "m/s", 1e-6..=0.1, "numerical";
-    }
-}
-
-/// A load in two hands: a bar of fixed length between them.
-pub mod bar {
-    crate::params::params! {
-        /// Share of an error of the bar's length that is taken back per substep.
-        RETURN: f64 = 0.3, "1", 0.05..=1, "numerical";
-        /// Fastest way back to its length.
-        RETURN_SPEED: f64 = 0.5, "m/s", 0.1..=2, "numerical";
-        /// Most solves for the impulse of a bar.
-        ITERATIONS: u32 = 6, "rounds", 2..=20, "numerical";
-        /// Rate of the bar's length that is left.
-        TOLERANCE: f64 = 1e-6, "m/s", 1e-9..=1e-4, "numerical";
-    }
-}
-
-/// The kinematic stepper: prescribed accelerations and inelastic impacts.
-pub mod kinematic {
-    crate::params::params! {
-        /// A point that arrives faster than this strikes the ground; a slower one settles.
-        IMPACT_SPEED: f64 = 0.05, "m/s", 0.01..=0.2, "docs/adr/0012-kinematic-stepper.md";
-        /// Points below this height take part in an impact.
-        IMPACT_HEIGHT: f64 = 0.006, "m", 0.001..=0.02, "docs/tick.md";
-        /// While tilting, only points this close to the pivot line carry load.
-        PIVOT_REACH: f64 = 0.012, "m", 0.001..=0.05, "docs/adr/0012-kinematic-stepper.md";
-        /// Compliance of a touching point in an impact.
-        COMPLIANCE: f64 = 1e-6, "1/kg", 1e-9..=1e-4, "numerical";
-        /// Residual of an impact.
-        TOLERANCE: f64 = 1e-9, "N·m·s", 1e-12..=1e-6, "numerical";
-        /// Torque beyond strength that counts as rounding, relative to the limit.
-        LIMIT_TOLERANCE: f64 = 1e-9, "1", 0..=1e-6, "numerical";
-        /// A foot tilted less than this when it comes to hold is laid flat: 1 − cos of 3°.
-        NEARLY_FLAT: f64 = 1.4e-3, "1", 0..=0.01, "docs/adr/0012-kinematic-stepper.md";
-        /// Part of the remaining tilt that is laid flat per tick.
-        SETTLE: f64 = 0.2, "1", 0.05..=1, "docs/adr/0012-kinematic-stepper.md";
-        /// Joint speed that prescribed accelerations may reach; beyond it torques take over.
-        SPEED_CAP: f64 = 15.0, "rad/s", 5..=50, "docs/adr/0012-kinematic-stepper.md";
-        /// Torques give back to prescribed accelerations after the figure has stood so long on flat feet with
-        /// strength to spare.
-        CALM_TIME: f64 = 0.5, "s", 0.1..=2, "docs/adr/0012-kinematic-stepper.md";
-        /// A part other than a foot arrives that would reach the floor within so many ticks.
-        ARRIVAL_TICKS: f64 = 2.0, "1", 1..=5, "docs/adr/0012-kinematic-stepper.md";
     }
 }
 
 /// All groups with their names.
-pub fn groups() -> [(&'static str, &'static [Param]); 17] {
+pub fn groups() -> [(&'static str, &'static [Param]); 11] {
     [
         ("support", support::ALL),
         ("staged", staged::ALL),
@@ -409,12 +285,6 @@ pub fn groups() -> [(&'static str, &'static [Param]); 17] {
         ("load", load::ALL),
         ("second_hand", second_hand::ALL),
         ("constraints", constraints::ALL),
-        ("assist", assist::ALL),
         ("help", help::ALL),
-        ("motors", motors::ALL),
-        ("contact", contact::ALL),
-        ("self_contact", self_contact::ALL),
-        ("bar", bar::ALL),
-        ("kinematic", kinematic::ALL),
     ]
 }

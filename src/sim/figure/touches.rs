@@ -1,9 +1,10 @@
 //! What a figure touches besides the ground: sums over a tick, and what it knows of them in the next.
 
-use super::events::{FigureEvent, Watcher};
 use crate::body::SegmentId;
 use crate::collide::{MAX_TOUCHES, Other, Touch};
+use crate::control::mode::ChosenRests;
 use crate::dynamics::{Dynamics, Terms};
+use crate::figure::events::{FigureEvent, Watcher};
 use crate::figure::params::support::{LARGEST_REACTION, REACTION_GAIN, SPOT_FORGOTTEN, SPOT_SIZE};
 use crate::math::Vec3;
 use crate::support::Rest;
@@ -11,17 +12,6 @@ use serde::{Deserialize, Serialize};
 
 /// Places by which one part rests on one thing: buttocks and thighs do not turn on a stool as on a point.
 const SPOTS: usize = 4;
-
-/// Rests whose reaction a controller chooses itself: those that carry more than so many N.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Chosen {
-    /// None.
-    None,
-    /// Seats and tables.
-    Level(f64),
-    /// Walls, too.
-    All(f64),
-}
 
 /// One contact of a substep, as one figure sees it.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +46,7 @@ struct Spot {
 }
 
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct Entry {
+struct TouchRecord {
     touch: Touch,
     /// Sum of normal forces, weight of the mean position, N.
     weight: f64,
@@ -72,7 +62,7 @@ struct Entry {
     firm: bool,
 }
 
-impl Entry {
+impl TouchRecord {
     fn spots(&self) -> &[Spot] {
         &self.spots[..self.count]
     }
@@ -167,8 +157,8 @@ impl Entry {
 /// Touches of one tick and of the one before.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Touches {
-    now: Vec<Entry>,
-    before: Vec<Entry>,
+    now: Vec<TouchRecord>,
+    before: Vec<TouchRecord>,
     /// Something has pressed on the figure from aside since it was last where its motion has it.
     pressed: bool,
 }
@@ -183,7 +173,7 @@ impl Default for Touches {
     }
 }
 
-fn key(e: &Entry) -> (SegmentId, Other) {
+fn key(e: &TouchRecord) -> (SegmentId, Other) {
     (e.touch.segment, e.touch.other)
 }
 
@@ -224,7 +214,7 @@ impl Touches {
             e.touch.force += force;
             e.touch.depth = e.touch.depth.max(c.depth);
         } else if self.now.len() < MAX_TOUCHES {
-            let mut e = Entry {
+            let mut e = TouchRecord {
                 touch: Touch {
                     segment: c.segment,
                     other: c.other,
@@ -305,12 +295,12 @@ impl Touches {
     }
 
     /// Counts the expected reactions among the forces in `terms.h`, but for those that the controller chooses.
-    pub fn add_reactions(&self, terms: &mut Dynamics, chosen: Chosen) {
+    pub fn add_reactions(&self, terms: &mut Dynamics, chosen: ChosenRests) {
         for e in &self.now {
             let left = match chosen {
-                Chosen::None => false,
-                Chosen::Level(least) => Rest::level(e.touch.normal) && e.carries(least, false),
-                Chosen::All(least) => e.carries(least, true),
+                ChosenRests::None => false,
+                ChosenRests::Level(least) => Rest::level(e.touch.normal) && e.carries(least, false),
+                ChosenRests::All(least) => e.carries(least, true),
             };
             if left || e.expected == Vec3::zero() {
                 continue;

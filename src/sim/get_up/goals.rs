@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 
 /// A goal for a number to be `at` a value, with a weight; weight 0 is no goal.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Aim {
+pub struct GoalAim {
     pub at: f64,
     pub weight: f64,
 }
 
-impl Aim {
+impl GoalAim {
     pub const NONE: Self = Self {
         at: 0.0,
         weight: 0.0,
@@ -39,45 +39,45 @@ impl Aim {
 /// Pairs are left and right.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Goals {
-    pub pelvis: [Aim; 3],
+    pub pelvis: [GoalAim; 3],
     /// Forward bend of the pelvis from upright, its preceding turn about its own long axis, and the heading applied
     /// after that.
-    pub turn: [Aim; 3],
+    pub turn: [GoalAim; 3],
     /// Centre of mass, x and y.
-    pub com: [Aim; 2],
+    pub com: [GoalAim; 2],
     /// Knee caps, balls of the feet, tips of the toes and heels (height only), wrists, palms (height of flat hands).
-    pub knees: [[Aim; 3]; 2],
-    pub balls: [[Aim; 3]; 2],
-    pub tips: [Aim; 2],
-    pub heels: [Aim; 2],
-    pub hands: [[Aim; 3]; 2],
-    pub palms: [Aim; 2],
+    pub knees: [[GoalAim; 3]; 2],
+    pub balls: [[GoalAim; 3]; 2],
+    pub tips: [GoalAim; 2],
+    pub heels: [GoalAim; 2],
+    pub hands: [[GoalAim; 3]; 2],
+    pub palms: [GoalAim; 2],
     /// Height of the front of the chest.
-    pub chest: Aim,
+    pub chest: GoalAim,
     /// Anatomical angles.
     #[serde(with = "crate::saved::array")]
-    pub pose: [Aim; DOF_COUNT],
+    pub pose: [GoalAim; DOF_COUNT],
 }
 
 impl Default for Goals {
     fn default() -> Self {
         Self {
-            pelvis: [Aim::NONE; 3],
-            turn: [Aim::NONE; 3],
-            com: [Aim::NONE; 2],
-            knees: [[Aim::NONE; 3]; 2],
-            balls: [[Aim::NONE; 3]; 2],
-            tips: [Aim::NONE; 2],
-            heels: [Aim::NONE; 2],
-            hands: [[Aim::NONE; 3]; 2],
-            palms: [Aim::NONE; 2],
-            chest: Aim::NONE,
-            pose: [Aim::NONE; DOF_COUNT],
+            pelvis: [GoalAim::NONE; 3],
+            turn: [GoalAim::NONE; 3],
+            com: [GoalAim::NONE; 2],
+            knees: [[GoalAim::NONE; 3]; 2],
+            balls: [[GoalAim::NONE; 3]; 2],
+            tips: [GoalAim::NONE; 2],
+            heels: [GoalAim::NONE; 2],
+            hands: [[GoalAim::NONE; 3]; 2],
+            palms: [GoalAim::NONE; 2],
+            chest: GoalAim::NONE,
+            pose: [GoalAim::NONE; DOF_COUNT],
         }
     }
 }
 
-fn all<const N: usize>(a: &[Aim; N], b: &[Aim; N], u: f64) -> [Aim; N] {
+fn all<const N: usize>(a: &[GoalAim; N], b: &[GoalAim; N], u: f64) -> [GoalAim; N] {
     std::array::from_fn(|k| a[k].mix(b[k], u))
 }
 
@@ -87,7 +87,7 @@ pub fn swapped<T: Copy>(pair: [T; 2]) -> [T; 2] {
 }
 
 /// The joint goals of the mirror image: the trunk bends and turns in the opposite direction.
-fn mirrored(joints: &[Aim; DOF_COUNT]) -> [Aim; DOF_COUNT] {
+fn mirrored(joints: &[GoalAim; DOF_COUNT]) -> [GoalAim; DOF_COUNT] {
     const TRUNK: usize = DOF_START[L_UPPER_ARM.index()];
     const ARM: usize = DOF_START[R_UPPER_ARM.index()];
     const LEG: usize = DOF_START[L_THIGH.index()];
@@ -102,7 +102,7 @@ fn mirrored(joints: &[Aim; DOF_COUNT]) -> [Aim; DOF_COUNT] {
     })
 }
 
-impl Aim {
+impl GoalAim {
     fn turned(self) -> Self {
         Self {
             at: -self.at,
@@ -114,7 +114,7 @@ impl Aim {
 impl Goals {
     /// The goals of the mirror image.
     pub fn mirrored(&self) -> Self {
-        let place = |[x, y, z]: [Aim; 3]| [x, y.turned(), z];
+        let place = |[x, y, z]: [GoalAim; 3]| [x, y.turned(), z];
         let [pitch, roll, yaw] = self.turn;
         Self {
             pelvis: place(self.pelvis),
@@ -143,8 +143,9 @@ impl Goals {
 
     /// Interpolates a fraction `u` of the way to other goals.
     pub fn mix(&self, to: &Self, u: f64) -> Self {
-        let pair =
-            |a: &[[Aim; 3]; 2], b: &[[Aim; 3]; 2]| [all(&a[0], &b[0], u), all(&a[1], &b[1], u)];
+        let pair = |a: &[[GoalAim; 3]; 2], b: &[[GoalAim; 3]; 2]| {
+            [all(&a[0], &b[0], u), all(&a[1], &b[1], u)]
+        };
         Self {
             pelvis: all(&self.pelvis, &to.pelvis, u),
             turn: all(&self.turn, &to.turn, u),

@@ -1,6 +1,6 @@
 //! Joint rates that lead a posture towards goals: damped least squares with limits, one solution per tick.
 
-use super::goals::{Aim, Goals};
+use super::goals::{GoalAim, Goals};
 use crate::body::angles::{anatomical_angles, clamp_to_limits, set_anatomical_angles};
 use crate::body::topology::{
     CHEST, DOF_COUNT, FEET, HANDS, NV, PELVIS, SEGMENT_COUNT, SHANKS, SegmentId, TOES,
@@ -95,7 +95,7 @@ impl Solver {
     }
 
     /// Adds goals that move a point of a segment to the coordinates that have weight.
-    fn point(&mut self, s: SegmentId, point: Vec3, to: [Aim; 3]) {
+    fn point(&mut self, s: SegmentId, point: Vec3, to: [GoalAim; 3]) {
         if to.iter().all(|a| a.weight == 0.0) {
             return;
         }
@@ -134,7 +134,7 @@ impl Solver {
         }
         for k in [2, 3] {
             let p = body.segment(CHEST).contact_points[k];
-            self.point(CHEST, p, [Aim::NONE, Aim::NONE, goals.chest]);
+            self.point(CHEST, p, [GoalAim::NONE, GoalAim::NONE, goals.chest]);
         }
     }
 
@@ -150,26 +150,26 @@ impl Solver {
         for (i, p) in points.iter().enumerate() {
             // The ball of the foot stays in place, but the tips of the toes only have to stay down.
             let to = match beside.get(i) {
-                Some(at) => [x, Aim { at: *at, ..y }, z],
-                None => [Aim::NONE, Aim::NONE, goals.tips[side]],
+                Some(at) => [x, GoalAim { at: *at, ..y }, z],
+                None => [GoalAim::NONE, GoalAim::NONE, goals.tips[side]],
             };
             self.point(toes, *p, to);
         }
         for p in &body.segment(foot).contact_points {
-            self.point(foot, *p, [Aim::NONE, Aim::NONE, goals.heels[side]]);
+            self.point(foot, *p, [GoalAim::NONE, GoalAim::NONE, goals.heels[side]]);
         }
         self.point(hand, Vec3::zero(), goals.hands[side]);
         let palm = goals.palms[side];
         let points = &body.segment(hand).contact_points;
         for k in PALM {
-            self.point(hand, points[k], [Aim::NONE, Aim::NONE, palm]);
+            self.point(hand, points[k], [GoalAim::NONE, GoalAim::NONE, palm]);
         }
         let wrist = self.terms.point_world(hand.index(), Vec3::zero());
-        let ahead = Aim {
+        let ahead = GoalAim {
             at: wrist.y,
             weight: FINGERS * palm.weight,
         };
-        self.point(hand, points[0], [Aim::NONE, ahead, Aim::NONE]);
+        self.point(hand, points[0], [GoalAim::NONE, ahead, GoalAim::NONE]);
     }
 
     /// Adds goals that return points to the floor if they would sink below it at the rates `v`.

@@ -5,7 +5,7 @@
 //! up. A body that lies on its back or on a side first rolls over: it sets up one foot and pushes with it, and brings
 //! leg and arm across. Everything is written for rolling over the right side; the other side is the mirror image.
 
-use super::goals::{Aim, Goals, swapped};
+use super::goals::{GoalAim, Goals, swapped};
 use super::reference_pose::ReferencePoses;
 use crate::body::topology::{DOF_COUNT, outward};
 use crate::get_up::params::layout::{ARMS_APART, HAND_STEP_HEIGHT, SHANK, WRIST_HEIGHT};
@@ -32,7 +32,7 @@ pub struct Layout {
 
 /// A stage of getting up.
 #[derive(Clone, Copy, Debug)]
-pub struct Stage {
+pub struct GetUpStage {
     pub name: &'static str,
     /// Duration, s.
     pub seconds: f64,
@@ -90,8 +90,8 @@ const fn leans(hands: [bool; 2]) -> FloorContacts {
     FloorContacts { hands, ..STANDS }
 }
 
-fn pose_aims(angles: &[f64; DOF_COUNT], weight: f64) -> [Aim; DOF_COUNT] {
-    angles.map(|a| Aim::new(a, weight))
+fn pose_aims(angles: &[f64; DOF_COUNT], weight: f64) -> [GoalAim; DOF_COUNT] {
+    angles.map(|a| GoalAim::new(a, weight))
 }
 
 fn middle(p: [Vec3; 2]) -> Vec3 {
@@ -99,18 +99,18 @@ fn middle(p: [Vec3; 2]) -> Vec3 {
 }
 
 /// Goal to stay on the floor at this place.
-fn stay(p: Vec3, weight: f64) -> [Aim; 3] {
+fn stay(p: Vec3, weight: f64) -> [GoalAim; 3] {
     [
-        Aim::new(p.x, weight),
-        Aim::new(p.y, weight),
-        Aim::new(0.0, weight),
+        GoalAim::new(p.x, weight),
+        GoalAim::new(p.y, weight),
+        GoalAim::new(0.0, weight),
     ]
 }
 
 /// The tips of the toes, tucked under.
-fn tucked(p: Vec3) -> [Aim; 3] {
+fn tucked(p: Vec3) -> [GoalAim; 3] {
     let [x, y, z] = stay(p, FIRM);
-    [x, y, Aim { weight: 0.1, ..z }]
+    [x, y, GoalAim { weight: 0.1, ..z }]
 }
 
 impl Layout {
@@ -129,17 +129,17 @@ impl Layout {
     }
 
     /// A hand that lies flat at `x`, `y`.
-    fn flat(&self, x: f64, y: f64) -> ([Aim; 3], Aim) {
+    fn flat(&self, x: f64, y: f64) -> ([GoalAim; 3], GoalAim) {
         let wrist = [
-            Aim::new(x, HAND),
-            Aim::new(y, HAND),
-            Aim::new(WRIST_HEIGHT * self.scale, HAND),
+            GoalAim::new(x, HAND),
+            GoalAim::new(y, HAND),
+            GoalAim::new(WRIST_HEIGHT * self.scale, HAND),
         ];
-        (wrist, Aim::new(0.0, HAND))
+        (wrist, GoalAim::new(0.0, HAND))
     }
 
     /// Goals for the hands to stay in place.
-    fn hands(&self) -> ([[Aim; 3]; 2], [Aim; 2]) {
+    fn hands(&self) -> ([[GoalAim; 3]; 2], [GoalAim; 2]) {
         let [l, r] = self.hands.map(|p| self.flat(p.x, p.y));
         ([l.0, r.0], [l.1, r.1])
     }
@@ -154,31 +154,31 @@ impl Layout {
     }
 
     /// Centre of mass over the mean of the places, by their shares.
-    fn over(&self, shares: &[(Vec3, f64)], weight: f64) -> [Aim; 2] {
+    fn over(&self, shares: &[(Vec3, f64)], weight: f64) -> [GoalAim; 2] {
         let (mut sum, mut whole) = (Vec3::zero(), 0.0);
         for (p, share) in shares {
             sum += *p * *share;
             whole += share;
         }
         let at = sum * (1.0 / whole);
-        [Aim::new(at.x, weight), Aim::new(at.y, weight)]
+        [GoalAim::new(at.x, weight), GoalAim::new(at.y, weight)]
     }
 
     /// The pelvis bent forward by `pitch`, level and straight otherwise.
-    fn level(&self, pitch: f64, weight: f64) -> [Aim; 3] {
+    fn level(&self, pitch: f64, weight: f64) -> [GoalAim; 3] {
         [
-            Aim::new(pitch, weight),
-            Aim::new(0.0, 1.0),
-            Aim::new(self.yaw, 0.3),
+            GoalAim::new(pitch, weight),
+            GoalAim::new(0.0, 1.0),
+            GoalAim::new(self.yaw, 0.3),
         ]
     }
 
     /// Goal for a place above the floor, `x` ahead of `from`, reference body, m.
-    fn place(&self, from: Vec3, x: f64, z: f64, weight: f64) -> [Aim; 3] {
+    fn place(&self, from: Vec3, x: f64, z: f64, weight: f64) -> [GoalAim; 3] {
         [
-            Aim::new(from.x + x * self.scale, weight),
-            Aim::NONE,
-            Aim::new(z * self.scale, weight),
+            GoalAim::new(from.x + x * self.scale, weight),
+            GoalAim::NONE,
+            GoalAim::new(z * self.scale, weight),
         ]
     }
 }
@@ -188,8 +188,8 @@ const fn stage(
     seconds: f64,
     goals: fn(&Layout, &ReferencePoses) -> Goals,
     down: FloorContacts,
-) -> Stage {
-    Stage {
+) -> GetUpStage {
+    GetUpStage {
         name,
         seconds,
         goals,
@@ -202,10 +202,10 @@ const fn stepping(
     name: &'static str,
     goals: fn(&Layout, &ReferencePoses) -> Goals,
     side: usize,
-) -> Stage {
+) -> GetUpStage {
     let mut hands = [true; 2];
     hands[side] = false;
-    Stage {
+    GetUpStage {
         name,
         seconds: 0.35,
         goals,
@@ -218,14 +218,14 @@ const fn crawling(
     name: &'static str,
     goals: fn(&Layout, &ReferencePoses) -> Goals,
     side: usize,
-) -> Stage {
+) -> GetUpStage {
     let mut out = stepping(name, goals, side);
     out.down.knees = true;
     out
 }
 
 /// Stages of rolling over the right side onto the belly, from the back and from the side.
-pub const OVER: &[Stage] = &[
+pub const OVER: &[GetUpStage] = &[
     stage("gather", 1.1, gather, ROLLS),
     stage("push", 0.35, push, PUSHES),
     stage("over", 0.4, |h, l| roll(h, &l.rolled, 0.0), ROLLS),
@@ -234,7 +234,7 @@ pub const OVER: &[Stage] = &[
 ];
 
 /// Stages of getting up from the belly.
-pub const UP: &[Stage] = &[
+pub const UP: &[GetUpStage] = &[
     stage("sprawl", 0.8, sprawl, LIES),
     stage("plant", 0.95, plant, LIES),
     stage("draw", 0.55, draw, SLIDES),
@@ -272,9 +272,9 @@ fn gather(h: &Layout, l: &ReferencePoses) -> Goals {
 /// Turned by `turn` from lying on the belly, the left foot set up behind.
 fn set_up(h: &Layout, l: &ReferencePoses, turn: f64, weight: f64) -> Goals {
     let mut out = roll(h, &l.gathered, turn);
-    out.balls[0][2] = Aim::new(0.0, weight);
-    out.tips[0] = Aim::new(0.0, weight);
-    out.heels[0] = Aim::new(0.0, weight);
+    out.balls[0][2] = GoalAim::new(0.0, weight);
+    out.tips[0] = GoalAim::new(0.0, weight);
+    out.heels[0] = GoalAim::new(0.0, weight);
     out
 }
 
@@ -288,11 +288,11 @@ fn push(h: &Layout, l: &ReferencePoses) -> Goals {
 /// Turned by `turn` from lying on the belly.
 fn roll(h: &Layout, pose: &[f64; DOF_COUNT], turn: f64) -> Goals {
     Goals {
-        pelvis: h.pelvis.to_array().map(|x| Aim::new(x, FIRM)),
+        pelvis: h.pelvis.to_array().map(|x| GoalAim::new(x, FIRM)),
         turn: [
-            Aim::new(FRAC_PI_2, 0.3),
-            Aim::new(turn, 2.0),
-            Aim::new(h.yaw, 0.3),
+            GoalAim::new(FRAC_PI_2, 0.3),
+            GoalAim::new(turn, 2.0),
+            GoalAim::new(h.yaw, 0.3),
         ],
         pose: pose_aims(pose, 0.03),
         ..Goals::default()
@@ -303,10 +303,10 @@ fn roll(h: &Layout, pose: &[f64; DOF_COUNT], turn: f64) -> Goals {
 fn sprawl(h: &Layout, l: &ReferencePoses) -> Goals {
     let knees = h.knees.map(|p| stay(p, 1.0));
     Goals {
-        pelvis: h.pelvis.to_array().map(|x| Aim::new(x, 1.0)),
+        pelvis: h.pelvis.to_array().map(|x| GoalAim::new(x, 1.0)),
         turn: h.level(FRAC_PI_2, 0.3),
         knees,
-        chest: Aim::new(0.0, 1.0),
+        chest: GoalAim::new(0.0, 1.0),
         pose: pose_aims(&l.sprawled, 0.1),
         ..Goals::default()
     }
@@ -318,7 +318,7 @@ fn plant(h: &Layout, l: &ReferencePoses) -> Goals {
     let y = ARMS_APART * h.scale;
     let [left, right] = [y, -y].map(|y| h.flat(k.x + 0.6 * h.scale, k.y + y));
     Goals {
-        pelvis: h.pelvis.to_array().map(|x| Aim::new(x, 1.0)),
+        pelvis: h.pelvis.to_array().map(|x| GoalAim::new(x, 1.0)),
         turn: h.level(FRAC_PI_2, 0.1),
         knees: h.knees.map(|p| stay(p, FIRM)),
         balls: h.knees.map(|p| {
@@ -327,10 +327,10 @@ fn plant(h: &Layout, l: &ReferencePoses) -> Goals {
                 ..p
             })
         }),
-        tips: [Aim::new(0.0, FIRM); 2],
+        tips: [GoalAim::new(0.0, FIRM); 2],
         hands: [left.0, right.0],
         palms: [left.1, right.1],
-        chest: Aim::new(0.0, FIRM),
+        chest: GoalAim::new(0.0, FIRM),
         pose: pose_aims(&l.planted, POSE),
         ..Goals::default()
     }
@@ -341,7 +341,7 @@ fn draw(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
         pelvis: h.place(middle(h.knees), 0.25, 0.34, 1.0),
         turn: h.level(1.85, 0.3),
-        chest: Aim::new(0.01, FIRM),
+        chest: GoalAim::new(0.01, FIRM),
         pose: pose_aims(&l.drawn, POSE),
         ..kneeling(h)
     }
@@ -353,7 +353,7 @@ fn kneeling(h: &Layout) -> Goals {
         turn: h.level(1.35, 1.0),
         knees: h.knees.map(|p| stay(p, FIRM)),
         balls: h.balls.map(tucked),
-        tips: [Aim::new(0.0, FIRM); 2],
+        tips: [GoalAim::new(0.0, FIRM); 2],
         hands,
         palms,
         ..Goals::default()
@@ -404,7 +404,7 @@ fn leaning(h: &Layout, shares: &[(Vec3, f64)]) -> Goals {
         com: h.over(shares, COM),
         turn: h.level(1.4, 0.3),
         balls: h.balls.map(|p| stay(p, FIRM)),
-        tips: [Aim::new(0.0, FIRM); 2],
+        tips: [GoalAim::new(0.0, FIRM); 2],
         hands,
         palms,
         ..Goals::default()
@@ -452,12 +452,12 @@ fn soles(h: &Layout) -> [(Vec3, f64); 1] {
 fn fold(h: &Layout, l: &ReferencePoses) -> Goals {
     let mut out = Goals {
         pelvis: h.place(middle(h.balls), -0.27, 0.72, 0.5),
-        heels: [Aim::new(0.0, FIRM); 2],
+        heels: [GoalAim::new(0.0, FIRM); 2],
         pose: pose_aims(&l.folded, POSE),
         ..leaning(h, &soles(h))
     };
     for (hand, palm) in out.hands.iter_mut().zip(&mut out.palms) {
-        *hand = hand.map(|a| Aim::new(a.at, 1.0));
+        *hand = hand.map(|a| GoalAim::new(a.at, 1.0));
         palm.weight = 0.5;
     }
     out
@@ -465,9 +465,9 @@ fn fold(h: &Layout, l: &ReferencePoses) -> Goals {
 
 fn rise(h: &Layout, l: &ReferencePoses) -> Goals {
     Goals {
-        hands: [[Aim::NONE; 3]; 2],
-        palms: [Aim::NONE; 2],
-        heels: [Aim::new(0.0, FIRM); 2],
+        hands: [[GoalAim::NONE; 3]; 2],
+        palms: [GoalAim::NONE; 2],
+        heels: [GoalAim::new(0.0, FIRM); 2],
         turn: h.level(0.0, 0.3),
         pose: pose_aims(&l.at_ease, 0.05),
         ..leaning(h, &soles(h))

@@ -16,6 +16,8 @@ pub mod nnls;
 pub mod polygon;
 pub mod quat;
 pub mod rotation_vector;
+pub mod rounding;
+pub mod runs;
 pub mod trig;
 pub mod vec3;
 

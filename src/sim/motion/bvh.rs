@@ -10,12 +10,33 @@
 
 mod parse;
 
+use super::recording::{MotionFormat, Recording, RecordingError, RecordingFacts, RecordingHead};
+use super::skeleton::{JointPose, MAX_JOINTS, RecordedJoint};
 use crate::math::{Quat, Vec3, vec3::vec3};
-use parse::{Reader, Warnings, parse_frames, parse_hierarchy, parse_motion_head};
+use parse::{BvhReader, Warnings, parse_frames, parse_hierarchy, parse_motion_head};
 
-/// Most joints of a skeleton that is read; rigs with full faces have about 300. Bounds the quadratic searches of the
-/// tree.
-pub const MAX_JOINTS: usize = 1024;
+/// BVH as one of the formats that are read.
+pub(super) const FORMAT: MotionFormat = MotionFormat {
+    name: "BVH",
+    recognises: |bytes| {
+        let word = bytes.trim_ascii_start().get(..KEYWORD.len());
+        word.is_some_and(|w| w.eq_ignore_ascii_case(KEYWORD))
+    },
+    head: |bytes| {
+        let head = BvhHead::parse(bytes).map_err(unreadable)?;
+        Ok(head.recording(bytes.len() as u64))
+    },
+    read: |bytes| Bvh::parse(bytes).map_err(unreadable)?.recording(),
+};
+/// First word of a file.
+const KEYWORD: &[u8] = b"HIERARCHY";
+
+fn unreadable(e: BvhError) -> RecordingError {
+    RecordingError::Unreadable {
+        format: FORMAT.name,
+        reason: e.to_string(),
+    }
+}
 
 /// One number of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,13 +99,16 @@ pub struct BvhJoint {
     pub end_site: Option<[f64; 3]>,
 }
 
-/// Pose of one joint in file units and file axes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JointPose {
-    /// Joint position.
-    pub position: Vec3,
-    /// `world_from_joint`.
-    pub rotation: Quat,
+impl BvhJoint {
+    fn recorded(&self) -> RecordedJoint {
+        RecordedJoint {
+            name: self.name.clone(),
+            parent: self.parent,
+            offset: Vec3::from_array(self.offset),
+            end_site: self.end_site.map(Vec3::from_array),
+            has_position: self.channels.iter().any(|c| c.is_position()),
+        }
+    }
 }
 
 /// A motion capture file.
@@ -108,6 +132,9 @@ pub struct Bvh {
     relative_position: Vec<bool>,
 }
 
+/// Bytes of a channel value in memory.
+const VALUE_BYTES: u64 = 8;
+
 /// What the head of a file says, before its frames are read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BvhHead {
@@ -129,10 +156,23 @@ impl BvhHead {
     /// # Errors
     /// The first thing that cannot be read, with its line.
     pub fn parse(bytes: &[u8]) -> Result<Self, BvhError> {
-        Self::read(&mut Reader::new(bytes), &mut Warnings::default())
+        Self::read(&mut BvhReader::new(bytes), &mut Warnings::default())
     }
 
-    fn read(reader: &mut Reader<'_>, warnings: &mut Warnings) -> Result<Self, BvhError> {
+    /// What it says to a reader of recordings. Of the frames that it declares, those count that `bytes` of a file can
+    /// hold: two for each number.
+    fn recording(&self, bytes: u64) -> RecordingHead {
+        let frame_count = self.frame_count.min(bytes / 2);
+        let values = frame_count.saturating_mul(self.channel_count as u64);
+        RecordingHead {
+            joints: self.joints.iter().map(BvhJoint::recorded).collect(),
+            frame_count,
+            rate_hz: 1.0 / self.frame_time,
+            reading_bytes: VALUE_BYTES * values.min(bytes / 2),
+        }
+    }
+
+    fn read(reader: &mut BvhReader<'_>, warnings: &mut Warnings) -> Result<Self, BvhError> {
         let joints = parse_hierarchy(reader, warnings)?;
         let mut first_channel = Vec::with_capacity(joints.len());
         let mut channel_count = 0;
@@ -227,7 +267,7 @@ impl Bvh {
     /// # Errors
     /// The first thing that cannot be read, with its line and, in the motion part, its frame and column.
     pub fn parse(bytes: &[u8]) -> Result<Self, BvhError> {
-        let mut reader = Reader::new(bytes);
+        let mut reader = BvhReader::new(bytes);
         let mut warnings = Warnings::default();
         let head = BvhHead::read(&mut reader, &mut warnings)?;
         let (columns, declared) = (head.channel_count, head.frame_count);
@@ -246,6 +286,22 @@ impl Bvh {
         bvh.find_relative_positions(&mut warnings);
         bvh.warnings = warnings.0;
         Ok(bvh)
+    }
+
+    /// The motion as a recording.
+    ///
+    /// # Errors
+    /// A skeleton without the bones of a body, a motion that is too short or too long, a place that is not finite.
+    pub fn recording(&self) -> Result<Recording, RecordingError> {
+        let facts = RecordingFacts {
+            joints: self.joints.iter().map(BvhJoint::recorded).collect(),
+            frame_count: self.frame_count,
+            rate_hz: 1.0 / self.frame_time,
+            unit_m: None,
+            up: None,
+            warnings: self.warnings.clone(),
+        };
+        Recording::new(facts, |frame, poses| self.world_into(frame, poses))
     }
 
     /// Channel values of one frame in joint and channel order, file units and degrees.

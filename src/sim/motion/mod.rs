@@ -7,12 +7,18 @@ pub mod bvh_write;
 pub mod clip;
 pub mod filter;
 pub mod leg_ik;
+pub mod read;
+pub mod recording;
+pub mod skeleton;
 pub mod skeleton_map;
+pub mod table;
 pub mod target;
 
 pub use bvh::{Bvh, BvhError};
 pub use bvh_write::write_bvh;
 pub use clip::{Clip, ClipError, PlanarTransform};
+pub use read::read;
+pub use recording::{Recording, RecordingError, UpAxis};
 pub use target::{Target, TargetPair};
 
 /// Gravity that motions are made and planned for, and that a share of the weight refers to, m/s².

@@ -6,7 +6,7 @@
 //! the arms meet), so spine names never matter. When names fail, the shape of the tree decides: two legs, and a trunk
 //! that splits into two arms and a head.
 
-use super::bvh::{BvhJoint, MAX_JOINTS};
+use super::skeleton::{MAX_JOINTS, RecordedJoint};
 use crate::math::Vec3;
 
 /// The bones of one arm and one leg; indices into the file's joints.
@@ -79,7 +79,7 @@ pub enum MapError {
 
 /// A body part as names tell it, still ambiguous where dialects disagree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
+enum NamedPart {
     Head,
     Shoulder, // clavicle or upper arm, depending on what else there is
     UpperArm,
@@ -129,25 +129,27 @@ fn words(name: &str) -> Vec<String> {
     out
 }
 
-fn part_of(stem: &str) -> Option<Part> {
+fn part_of(stem: &str) -> Option<NamedPart> {
     Some(match stem {
-        "head" | "face" | "skull" => Part::Head,
-        "shoulder" | "clavicle" | "clav" | "collar" | "collarbone" => Part::Shoulder,
+        "head" | "face" | "skull" => NamedPart::Head,
+        "shoulder" | "clavicle" | "clav" | "collar" | "collarbone" => NamedPart::Shoulder,
         "arm" | "upperarm" | "uparm" | "armupper" | "shldr" | "humerus" | "bicep" | "shldrbend" => {
-            Part::UpperArm
+            NamedPart::UpperArm
         }
         "forearm" | "lowerarm" | "lowarm" | "armlower" | "elbow" | "radius" | "forearmbend" => {
-            Part::Forearm
+            NamedPart::Forearm
         }
-        "hand" | "wrist" => Part::Hand,
-        "fingerbase" => Part::Palm,
-        "thigh" | "upleg" | "upperleg" | "legupper" | "hip" | "femur" | "thighbend" => Part::Thigh,
-        "leg" => Part::Leg,
+        "hand" | "wrist" => NamedPart::Hand,
+        "fingerbase" => NamedPart::Palm,
+        "thigh" | "upleg" | "upperleg" | "legupper" | "hip" | "femur" | "thighbend" => {
+            NamedPart::Thigh
+        }
+        "leg" => NamedPart::Leg,
         "shin" | "lowerleg" | "lowleg" | "leglower" | "calf" | "knee" | "tibia" | "shank" => {
-            Part::Shank
+            NamedPart::Shank
         }
-        "foot" | "ankle" => Part::Foot,
-        "toe" | "toes" | "toebase" | "ball" | "football" | "toesbase" => Part::Toes,
+        "foot" | "ankle" => NamedPart::Foot,
+        "toe" | "toes" | "toebase" | "ball" | "football" | "toesbase" => NamedPart::Toes,
         _ => return None,
     })
 }
@@ -176,7 +178,7 @@ const RIG_WORDS: [&str; 16] = [
 const DECOYS: [&str; 1] = ["hipjoint"];
 
 /// Side and part that a bone name tells.
-fn read_name(name: &str) -> Option<(Option<Side>, Part)> {
+fn read_name(name: &str) -> Option<(Option<Side>, NamedPart)> {
     let words = words(name);
     let mut side = None;
     let mut stem = String::new();
@@ -227,18 +229,18 @@ fn read_name(name: &str) -> Option<(Option<Side>, Part)> {
 
 /// The tree of a file, with what the mapping asks of it.
 struct Tree<'a> {
-    joints: &'a [BvhJoint],
+    joints: &'a [RecordedJoint],
     children: Vec<Vec<usize>>,
     /// Length of the longest way to a leaf below each joint, file units.
     reach: Vec<f64>,
 }
 
-fn length(v: [f64; 3]) -> f64 {
-    Vec3::from_array(v).norm()
+fn length(v: Vec3) -> f64 {
+    v.norm()
 }
 
 impl<'a> Tree<'a> {
-    fn new(joints: &'a [BvhJoint]) -> Self {
+    fn new(joints: &'a [RecordedJoint]) -> Self {
         let mut children = vec![Vec::new(); joints.len()];
         let mut reach: Vec<f64> = joints
             .iter()
@@ -304,7 +306,7 @@ impl<'a> Tree<'a> {
 /// # Errors
 /// [`MapError::Missing`] names the segments without a bone, [`MapError::Ambiguous`] a name that several joints share
 /// where names decide.
-pub fn map_skeleton(joints: &[BvhJoint]) -> Result<SkeletonMap, MapError> {
+pub fn map_skeleton(joints: &[RecordedJoint]) -> Result<SkeletonMap, MapError> {
     if joints.len() > MAX_JOINTS {
         return Err(MapError::TooManyJoints(joints.len()));
     }
@@ -322,7 +324,7 @@ pub fn map_skeleton(joints: &[BvhJoint]) -> Result<SkeletonMap, MapError> {
 }
 
 /// The first segment that names lead to several joints for. Bones that the tree decides on may be called anything.
-fn ambiguous(joints: &[BvhJoint], map: &SkeletonMap) -> Option<MapError> {
+fn ambiguous(joints: &[RecordedJoint], map: &SkeletonMap) -> Option<MapError> {
     let [l, r] = &map.sides;
     let limb = |s: &SideMap, names: [&'static str; 7]| {
         let bones = [
@@ -357,7 +359,7 @@ fn ambiguous(joints: &[BvhJoint], map: &SkeletonMap) -> Option<MapError> {
     let mut bones = limb(l, left).chain(limb(r, right));
     bones.find_map(|(segment, bone)| {
         let name = &joints[bone?].name;
-        let same: Vec<&BvhJoint> = joints.iter().filter(|j| j.name == *name).collect();
+        let same: Vec<&RecordedJoint> = joints.iter().filter(|j| j.name == *name).collect();
         (same.len() > 1).then(|| MapError::Ambiguous {
             segment,
             name: name.clone(),
@@ -375,8 +377,10 @@ fn ambiguous(joints: &[BvhJoint], map: &SkeletonMap) -> Option<MapError> {
 
 fn by_names(tree: &Tree<'_>) -> Result<SkeletonMap, Vec<&'static str>> {
     let read: Vec<_> = tree.joints.iter().map(|j| read_name(&j.name)).collect();
-    let find = |side: Side, part: Part| read.iter().position(|r| *r == Some((Some(side), part)));
-    let last = |side: Side, part: Part| read.iter().rposition(|r| *r == Some((Some(side), part)));
+    let find =
+        |side: Side, part: NamedPart| read.iter().position(|r| *r == Some((Some(side), part)));
+    let last =
+        |side: Side, part: NamedPart| read.iter().rposition(|r| *r == Some((Some(side), part)));
     let mut missing = Vec::new();
     let mut sides = Vec::new();
     for side in [Side::Left, Side::Right] {
@@ -387,25 +391,29 @@ fn by_names(tree: &Tree<'_>) -> Result<SkeletonMap, Vec<&'static str>> {
             })
         };
         // A clavicle and an upper arm may both be called shoulder-something: then the lower one moves the arm.
-        let upper_arm = find(side, Part::UpperArm).or_else(|| last(side, Part::Shoulder));
-        let shank = find(side, Part::Shank);
-        let (thigh, shank) = match (find(side, Part::Thigh), shank, find(side, Part::Leg)) {
+        let upper_arm = find(side, NamedPart::UpperArm).or_else(|| last(side, NamedPart::Shoulder));
+        let shank = find(side, NamedPart::Shank);
+        let (thigh, shank) = match (
+            find(side, NamedPart::Thigh),
+            shank,
+            find(side, NamedPart::Leg),
+        ) {
             (t, Some(s), leg) => (t.or(leg), Some(s)),
             (t, None, leg) => (t, leg),
         };
         let upper_arm = need(upper_arm, ["l_upper_arm", "r_upper_arm"]);
-        let forearm = need(find(side, Part::Forearm), ["l_forearm", "r_forearm"]);
+        let forearm = need(find(side, NamedPart::Forearm), ["l_forearm", "r_forearm"]);
         let thigh = need(thigh, ["l_thigh", "r_thigh"]);
         let shank = need(shank, ["l_shank", "r_shank"]);
-        let foot = need(find(side, Part::Foot), ["l_foot", "r_foot"]);
+        let foot = need(find(side, NamedPart::Foot), ["l_foot", "r_foot"]);
         sides.push(SideMap {
             upper_arm,
             forearm,
-            hand: find(side, Part::Palm).or_else(|| find(side, Part::Hand)),
+            hand: find(side, NamedPart::Palm).or_else(|| find(side, NamedPart::Hand)),
             thigh,
             shank,
             foot,
-            toes: find(side, Part::Toes),
+            toes: find(side, NamedPart::Toes),
         });
     }
     if !missing.is_empty() {
@@ -432,7 +440,7 @@ fn by_names(tree: &Tree<'_>) -> Result<SkeletonMap, Vec<&'static str>> {
     }
     let head = read
         .iter()
-        .position(|r| matches!(r, Some((None, Part::Head))));
+        .position(|r| matches!(r, Some((None, NamedPart::Head))));
     finish(tree, [sides[0], sides[1]], head, false).ok_or_else(|| vec!["pelvis"])
 }
 
@@ -566,7 +574,7 @@ fn by_structure(tree: &Tree<'_>) -> Option<SkeletonMap> {
         let mut at = start;
         let mut sum = 0.0;
         loop {
-            sum += tree.joints[at].offset[0];
+            sum += tree.joints[at].offset.x;
             match tree.children[at]
                 .iter()
                 .copied()
@@ -605,8 +613,8 @@ mod tests {
 
     #[test]
     fn names_of_every_dialect_are_read() {
-        use Part::*;
-        let cases: &[(&str, Option<Side>, Part)] = &[
+        use NamedPart::*;
+        let cases: &[(&str, Option<Side>, NamedPart)] = &[
             ("LeftUpLeg", Some(Side::Left), Thigh),
             ("mixamorig:RightForeArm", Some(Side::Right), Forearm),
             ("mixamorig9:LeftToeBase", Some(Side::Left), Toes),

@@ -4,9 +4,15 @@
 //! one of its points moves slowly near its *own* lowest level; hysteresis, short gaps and short touches are cleaned up
 //! afterwards.
 
+use crate::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
+use crate::body::{Body, Posture};
 use crate::math::Vec3;
+use crate::math::runs::{remove_short, runs};
 use crate::motion::filter::{low_pass_points, percentile, speeds};
+use crate::motion::leg_ik::forward;
 use crate::plan::params::contact;
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
 
 /// A stretch of the clip with the same feet on the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +25,17 @@ pub struct ContactPhase {
     pub planted: [bool; 2],
 }
 
+impl Serialize for ContactPhase {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        let mut out = s.serialize_struct("ContactPhase", 4)?;
+        out.serialize_field("from_s", &self.start)?;
+        out.serialize_field("to_s", &self.end)?;
+        out.serialize_field("left", &self.planted[0])?;
+        out.serialize_field("right", &self.planted[1])?;
+        out.end()
+    }
+}
+
 impl ContactPhase {
     /// `D` both feet, `L`, `R`, or `-` none.
     pub fn letter(&self) -> char {
@@ -27,36 +44,6 @@ impl ContactPhase {
             [true, false] => 'L',
             [false, true] => 'R',
             [false, false] => '-',
-        }
-    }
-}
-
-/// Runs of equal value as half-open index ranges: `(start, end, value)`.
-pub fn runs<T: PartialEq + Copy>(flags: &[T]) -> Vec<(usize, usize, T)> {
-    let mut out = Vec::new();
-    let mut start = 0;
-    for i in 1..=flags.len() {
-        if i == flags.len() || flags[i] != flags[start] {
-            out.push((start, i, flags[start]));
-            start = i;
-        }
-    }
-    out
-}
-
-/// The [`runs`] of true values: `(start, end)`.
-pub(crate) fn stretches(on: &[bool]) -> impl Iterator<Item = (usize, usize)> + use<> {
-    let all = runs(on).into_iter().filter(|run| run.2);
-    all.map(|(start, end, _)| (start, end))
-}
-
-/// Takes out what lasts for fewer than so many samples between others: first gaps, then what they are between.
-pub(crate) fn remove_short(on: &mut [bool], shortest: f64) {
-    for value in [false, true] {
-        for (i, j, v) in runs(on) {
-            if v == value && i > 0 && j < on.len() && ((j - i) as f64) < shortest {
-                on[i..j].fill(!value);
-            }
         }
     }
 }
@@ -103,6 +90,41 @@ fn label_foot(points: &[Vec<Vec3>], n: usize, rate_hz: f64) -> Vec<bool> {
     }
     remove_short(&mut on, contact::SHORTEST * rate_hz);
     on
+}
+
+/// Lowest contact point of each foot (left, right) in a posture, world, m.
+fn soles(body: &Body, posture: &Posture) -> [Vec3; 2] {
+    let poses = forward(body, posture);
+    [[L_FOOT, L_TOES], [R_FOOT, R_TOES]].map(|side| {
+        let points = side.iter().flat_map(|s| {
+            let (at, turn) = poses[s.index()];
+            let points = body.segment(*s).contact_points.iter();
+            points.map(move |c| at + turn.rotate(*c))
+        });
+        let lowest = points.min_by(|a, b| a.z.total_cmp(&b.z));
+        lowest.unwrap_or(poses[side[0].index()].0)
+    })
+}
+
+/// Feet (left, right) that a desired motion keeps on the floor between two postures `dt` seconds apart, on a floor at
+/// z = 0: low and slow, by the thresholds of [`label_feet`], without hysteresis.
+pub fn planted_between(body: &Body, before: &Posture, after: &Posture, dt: f64) -> [bool; 2] {
+    let (a, b) = (soles(body, before), soles(body, after));
+    std::array::from_fn(|i| {
+        let slow = (b[i] - a[i]).norm() < contact::SPEED_ON * dt.max(1e-3);
+        b[i].z < contact::HEIGHT_ON && slow
+    })
+}
+
+/// [`planted_between`] the neighbours of each posture.
+pub fn label_postures(body: &Body, postures: &[Posture], rate_hz: f64) -> Vec<[bool; 2]> {
+    (0..postures.len())
+        .map(|i| {
+            let (a, b) = (i.saturating_sub(1), (i + 1).min(postures.len() - 1));
+            let dt = (b - a).max(1) as f64 / rate_hz;
+            planted_between(body, &postures[a], &postures[b], dt)
+        })
+        .collect()
 }
 
 /// Phases of a label sequence, in order, without gaps between them.

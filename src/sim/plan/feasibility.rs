@@ -5,13 +5,13 @@
 //! the wrench that its acceleration needs lies in the friction cones of the feet that stand. How far it is from that
 //! says, before anything is simulated, how hard it will be to follow. Pure, offline; nothing here changes a motion.
 
-use super::contact_labels::stretches;
 use super::foot_lock::{FootPlacement, Sole};
 use super::pelvis_shift::mass_track;
 use crate::body::topology::FEET;
 use crate::body::{Body, Posture};
 use crate::math::nnls::nnls;
 use crate::math::polygon::{hull, margin};
+use crate::math::runs::stretches;
 use crate::math::{Vec3, trig};
 use crate::motion::GRAVITY;
 use crate::motion::leg_ik::forward;

@@ -4,21 +4,27 @@
 //! same way, heel first: labels by the speed of the foot see the middle half of that. What does tell stance from flight
 //! is the body, whose mass falls freely in flight; a motion that is to be followed has to let it.
 
-use super::contact_labels::{remove_short, runs, stretches};
 use super::envelope::bent_below;
 use super::foot_lock::{FootPlacement, LockedFoot, Sole, Stance, StanceTurns};
+use super::free_fall::in_free_fall;
 use super::pelvis_shift::{MassTrack, mass_track};
 use crate::body::{Body, Posture};
 use crate::math::Vec3;
+use crate::math::runs::{remove_short, runs, stretches};
 use crate::motion::GRAVITY;
 use crate::motion::filter::low_pass;
 use crate::motion::leg_ik::forward;
 use crate::plan::params::{balance, contact, leg, run};
+use crate::reference::params::run_detection;
+use std::ops::RangeInclusive;
 
-/// Speed over the floor between so many samples before `from` and after `to`, m/s.
-fn pace(at: impl Fn(usize) -> Vec3, (from, to): (usize, usize), n: usize, rate_hz: f64) -> f64 {
-    let half = (run::PACE_TIME * rate_hz) as usize;
-    let (a, b) = (from.saturating_sub(half), (to + half).min(n - 1));
+/// Speed over the floor about the samples `during`, from [`run_detection::PACE_TIME`] before to as long after, m/s.
+fn pace(at: impl Fn(usize) -> Vec3, during: RangeInclusive<usize>, n: usize, rate_hz: f64) -> f64 {
+    let half = (run_detection::PACE_TIME * rate_hz) as usize;
+    let (a, b) = (
+        during.start().saturating_sub(half),
+        (during.end() + half).min(n - 1),
+    );
     let way = at(b) - at(a);
     way.level() * rate_hz / (b - a).max(1) as f64
 }
@@ -57,7 +63,7 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
             .map(of)
             .fold(f64::INFINITY, f64::min)
     };
-    let fast = |i: usize| pace(|k| track.com[k], (i, i), n, rate_hz) > run::SPEED;
+    let fast = |i: usize| pace(|k| track.com[k], i..=i, n, rate_hz) > run::SPEED;
     let fast: Vec<bool> = (0..n).map(fast).collect();
     for (i, j) in stretches(&fast) {
         let mut left: Vec<bool> = (i..j)
@@ -94,7 +100,7 @@ impl FlightPhases {
         let none: Vec<bool> = label.iter().map(|l| *l == [false; 2]).collect();
         let mut air = vec![false; n];
         for (i, j) in stretches(&none) {
-            let speed = pace(|k| upper[k].root_position, (i, j - 1), n, rate_hz);
+            let speed = pace(|k| upper[k].root_position, i..=j - 1, n, rate_hz);
             if speed > run::SPEED && (j - i) as f64 >= contact::SHORTEST_TOLD * rate_hz {
                 air[i..j].fill(true);
             }
@@ -137,11 +143,6 @@ impl FlightPhases {
             )
         })
     }
-}
-
-/// True if the sample `i` and both beside it are in the air.
-pub(crate) fn in_free_fall(air: &[bool], i: usize) -> bool {
-    air[i - 1] && air[i] && air[i + 1]
 }
 
 /// Vertical acceleration of the centre of mass in stances between two flights: what gravity takes all the time the

@@ -12,13 +12,13 @@ pub(in crate::plan) use sole::FootOffset;
 pub use sole::{FootPlacement, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
-use super::contact_labels::runs;
 use crate::body::topology::outward;
 use crate::math::curve::{fade, smoothstep_to};
+use crate::math::runs::runs;
 use crate::math::{Quat, Vec3};
 use crate::motion::filter::low_pass;
 use crate::plan::params::{contact, pitch, swing};
-use stances::Track;
+use stances::FootTrack;
 use std::ops::Range;
 
 /// A foot that stands as the body's sole allows, and how much was changed for that.
@@ -109,7 +109,7 @@ pub fn lock_foot(
 ) -> LockedFoot {
     let RecordedFoot { ankles, rotations } = recorded;
     let n = ankles.len();
-    let track = Track::new(sole, ankles, rotations);
+    let track = FootTrack::new(sole, ankles, rotations);
     let toes: Vec<f64> = track.pitch.iter().map(|p| swing_toe(*p)).collect();
     let mut out = LockedFoot {
         poses: (0..n).map(|i| recorded.pose(i, toes[i])).collect(),
@@ -143,7 +143,7 @@ pub fn lock_foot(
     for (i, j, on) in runs(&out.planted.clone()) {
         if !on {
             let flies = [off((i + long).min(n - 1)), off(j.saturating_sub(long))];
-            swing(sole, &mut out, (recorded, &toes), i..j, flies, rate_hz);
+            swing(sole, &mut out, recorded, &toes, i..j, flies, rate_hz);
         }
     }
     out
@@ -201,7 +201,8 @@ struct End {
 fn swing(
     sole: &Sole,
     out: &mut LockedFoot,
-    (recorded, toes): (RecordedFoot<'_>, &[f64]),
+    recorded: RecordedFoot<'_>,
+    toes: &[f64],
     samples: Range<usize>,
     flies: [bool; 2],
     rate_hz: f64,

@@ -7,17 +7,22 @@ pub mod envelope;
 pub mod feasibility;
 pub(crate) mod flight_phases;
 pub mod foot_lock;
+mod free_fall;
 mod leg_reach;
 pub mod likeness;
 pub mod motion_transition;
 pub mod params;
 pub mod pelvis_shift;
 pub mod prepare;
+pub mod reading_report;
+pub mod recording;
 pub mod splice;
 pub mod stop;
 pub mod stream;
 
 pub use cycle::cycle;
+pub use reading_report::ReadingReport;
+pub use recording::{PreparedRecording, prepare_recording, prepare_recording_unless};
 pub use stream::StreamPlan;
 
 use crate::body::SegmentId;

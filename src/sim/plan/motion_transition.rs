@@ -25,6 +25,7 @@ use crate::motion::clip::{Clip, PlanarTransform};
 use crate::motion::target::Target;
 use crate::plan::params::{stop, transition};
 use candidates::{Features, moments};
+use seam::{ClipEntry, transition_at};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -112,6 +113,15 @@ impl TransitionClip {
     }
 }
 
+/// Samples of a known motion that bound when it is left.
+#[derive(Clone, Copy, Debug)]
+pub struct LeavingSamples {
+    /// The motion continues at least up to this sample.
+    pub now: usize,
+    /// First sample at which it may be left.
+    pub earliest: usize,
+}
+
 /// The ways from a motion into a clip, at the moments that are most alike. Each can be worked out on its own; the first
 /// one that a body can go is taken.
 #[derive(Serialize, Deserialize)]
@@ -135,18 +145,14 @@ impl std::fmt::Debug for TransitionCandidates {
 
 impl TransitionCandidates {
     /// * `known`: the motion from at least [`transition::RUN_UP`] ago to [`transition::AHEAD`] and
-    ///   [`transition::BEYOND`] ahead, samples at [`stop::RATE`]; it goes on at least up to sample `now`.
-    /// * `from`: the first sample at which it may be left.
-    pub fn new(
-        body: &Arc<Body>,
-        known: Vec<Sample>,
-        (now, from): (usize, usize),
-        next: NextClip,
-    ) -> Self {
+    ///   [`transition::BEYOND`] ahead, samples at [`stop::RATE`]; it continues at least up to sample
+    ///   `left.now`.
+    pub fn new(body: &Arc<Body>, known: Vec<Sample>, left: LeavingSamples, next: NextClip) -> Self {
         // With a sample before and after, for rates.
         let beginning = next.samples(-next.speed / stop::RATE, next.skipped_samples() + 3);
+        let LeavingSamples { now, earliest } = left;
         let (left, entered) = (Features::new(body, &known), Features::new(body, &beginning));
-        let moments = moments(&left, from.max(now), &entered);
+        let moments = moments(&left, earliest.max(now), &entered);
         Self {
             body: Arc::clone(body),
             known,
@@ -191,12 +197,15 @@ impl TransitionCandidates {
         if k > self.found.load(Ordering::Relaxed) {
             return None;
         }
-        let (asks, way) = seam::transition_at(
+        let (asks, way) = transition_at(
             &self.body,
             &self.known,
             self.now,
             &self.next,
-            (moment, self.enters(moment)),
+            ClipEntry {
+                moment,
+                enters: self.enters(moment),
+            },
         )?;
         if asks > transition::MOST_INFEASIBLE {
             return None;

@@ -370,12 +370,8 @@ pub mod leg {
 /// Runs as they were recorded: flights, pushes and feet that roll off.
 pub mod run {
     crate::params::params! {
-        /// Least cut-off of a run: its steps come three to five times a second.
-        CUTOFF: f64 = 10.0, "Hz", 6.0..=20.0, "docs/locomotion.md#runs";
         /// What flies and is faster than this runs.
         SPEED: f64 = 2.0, "m/s", 1.5..=3.0, "docs/locomotion.md#runs";
-        /// Time before and after over which a pace is taken.
-        PACE_TIME: f64 = 0.05, "s", 0.02..=0.2, "docs/locomotion.md#runs";
         /// Least ground force over weight of a stance.
         STANCE_LOAD: f64 = 0.45, "1", 0.1..=0.9, "docs/locomotion.md#runs";
         /// A foot that comes down faster does not stand yet.

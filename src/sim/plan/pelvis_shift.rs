@@ -5,7 +5,7 @@
 //! back; it answers to a shift Δ of the centre of mass by `Δ − Δ̈/ω²`, `ω² = (g + c̈_z)/c_z` (cart-table model of
 //! Kajita et al. 2003).
 
-use super::flight_phases::in_free_fall;
+use super::free_fall::in_free_fall;
 use crate::body::topology::SEGMENT_COUNT;
 use crate::body::{Body, Posture};
 use crate::math::Vec3;

@@ -2,6 +2,7 @@
 //! kept.
 
 mod ankle_unloading;
+mod compared;
 mod deep_flexion;
 mod joint_limits;
 mod pelvis_yaw;
@@ -21,6 +22,7 @@ use crate::math::polygon::margin;
 use crate::math::{Quat, Vec3};
 use crate::plan::params::{balance, leg, pelvis};
 use ankle_unloading::AnkleUnloading;
+pub use compared::{Compared, Excess};
 use deep_flexion::{DeepFlexion, unfold};
 use joint_limits::{clamp_upper, into_limits};
 pub use support_phases::ZmpOutside;
@@ -78,13 +80,13 @@ pub struct Prepared {
     /// Feet locked to the floor: left, right.
     pub planted: Vec<[bool; 2]>,
     /// By how much each DOF was outside the body's limits, rad, and in which fraction of the samples.
-    pub clamped: [(f64, f64); DOF_COUNT],
+    pub clamped: [Excess; DOF_COUNT],
     /// Largest distance of a planted foot from its place, m: as recorded, and prepared.
-    pub slide: (f64, f64),
+    pub slide: Compared<f64>,
     /// Largest depth of a sole below the floor while the foot is on it, m: as recorded, and prepared.
-    pub penetration: (f64, f64),
+    pub penetration: Compared<f64>,
     /// Zero-moment point before and after balancing.
-    pub zmp: (ZmpOutside, ZmpOutside),
+    pub zmp: Compared<ZmpOutside>,
     /// Largest horizontal shift of the pelvis for balance, m.
     pub shift_max: f64,
     /// Largest lowering of the pelvis so that planted legs reach, m.
@@ -110,7 +112,7 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
 /// [`balance::REACH_ROUND`], as for what joins two motions, feet that their legs do not reach go on carrying: taken off
 /// the floor they would step in place, and there is no time for that.
 pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: usize) -> Prepared {
-    let mut work = Preparation::new(body, draft, options);
+    let mut work = PreparationWork::new(body, draft, options);
     let zmp_before = zmp_outside(&work.motion.track, &work.feet.support);
     let depth_before = work.recorded_depth();
     let short = draft.postures.len() < 8;
@@ -136,7 +138,7 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
 }
 
 /// What the feet do.
-struct Feet {
+struct PreparedFeet {
     stances: [Vec<Stance>; 2],
     locked: [LockedFoot; 2],
     /// Locked to the floor, per sample.
@@ -147,7 +149,7 @@ struct Feet {
 }
 
 /// What the body does.
-struct Motion {
+struct PreparedMotion {
     postures: Vec<Posture>,
     track: MassTrack,
     /// Shift of the pelvis for balance, m.
@@ -157,7 +159,7 @@ struct Motion {
 }
 
 /// A preparation under way: its methods are its stages.
-struct Preparation<'a> {
+struct PreparationWork<'a> {
     body: &'a Body,
     draft: &'a Draft,
     options: PrepareOptions,
@@ -165,22 +167,22 @@ struct Preparation<'a> {
     ankle_limit: AnkleTorqueLimit,
     /// Postures of the draft with spine, neck and arms within their limits.
     upper: Vec<Posture>,
-    clamped: [(f64, f64); DOF_COUNT],
+    clamped: [Excess; DOF_COUNT],
     flights: Option<FlightPhases>,
     unloading: AnkleUnloading,
     other_support: Vec<OtherSupport>,
-    feet: Feet,
-    motion: Motion,
+    feet: PreparedFeet,
+    motion: PreparedMotion,
 }
 
-impl<'a> Preparation<'a> {
+impl<'a> PreparationWork<'a> {
     /// Feet locked, legs solved for the pelvis as recorded.
     fn new(body: &'a Body, draft: &'a Draft, options: PrepareOptions) -> Self {
         let n = draft.postures.len();
         let rate = draft.rate_hz;
         let soles = [Sole::new(body, 0), Sole::new(body, 1)];
         let mut upper = draft.postures.clone();
-        let mut clamped = [(0.0f64, 0.0f64); DOF_COUNT];
+        let mut clamped = [Excess::default(); DOF_COUNT];
         clamp_upper(body, &mut upper, rate, &mut clamped);
         let low = pelvis::LYING * body.standing_root_height();
         let upright = |i: usize| options.lock_feet && upper[i].root_position.z > low;
@@ -214,13 +216,13 @@ impl<'a> Preparation<'a> {
         Self {
             other_support: other_support(body, &upper, &planted, rate),
             ankle_limit: AnkleTorqueLimit::new(body),
-            motion: Motion {
+            motion: PreparedMotion {
                 track: mass_track(body, &postures, rate),
                 postures,
                 shift,
                 drop,
             },
-            feet: Feet {
+            feet: PreparedFeet {
                 stances,
                 locked,
                 carries: planted.clone(),
@@ -330,12 +332,12 @@ impl<'a> Preparation<'a> {
             return DeepFlexion::default();
         }
         let (postures, feet) = (&mut self.motion.postures, &self.feet);
-        let locked = (&self.soles, &feet.locked);
         unfold(
             self.body,
             postures,
             &feet.planted,
-            locked,
+            &self.soles,
+            &feet.locked,
             self.draft.rate_hz,
         )
     }
@@ -366,7 +368,9 @@ impl<'a> Preparation<'a> {
             self.body,
             &mut motion.postures,
             &mut feet.planted,
-            (&self.soles, &feet.locked, self.options.held),
+            &self.soles,
+            &feet.locked,
+            self.options.held,
             &mut self.clamped,
         );
         let n = motion.postures.len();
@@ -381,9 +385,18 @@ impl<'a> Preparation<'a> {
         let shifts = motion.shift.iter().map(|s| Vec3::on_floor(*s).level());
         Prepared {
             clamped: self.clamped,
-            slide: (left.slide_before.max(right.slide_before), held.slide),
-            penetration: (depth_before, held.penetration),
-            zmp: (zmp_before, zmp_outside(&track, &feet.support)),
+            slide: Compared {
+                recorded: left.slide_before.max(right.slide_before),
+                prepared: held.slide,
+            },
+            penetration: Compared {
+                recorded: depth_before,
+                prepared: held.penetration,
+            },
+            zmp: Compared {
+                recorded: zmp_before,
+                prepared: zmp_outside(&track, &feet.support),
+            },
             shift_max: shifts.fold(0.0, f64::max),
             drop_max: -motion.drop.iter().copied().fold(0.0, f64::min),
             tilt_max: folded.tilt_max,

@@ -61,6 +61,15 @@ struct KnownMotion {
     now: usize,
 }
 
+/// How a motion that is stopped stands in the end, wherever that is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StandGoal {
+    /// The stand; at ease if absent.
+    pub posture: Option<Posture>,
+    /// Whether the motion is a stream, which is known less well than a clip.
+    pub streamed: bool,
+}
+
 impl std::fmt::Debug for StopCandidates {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("StopCandidates")
@@ -73,14 +82,11 @@ impl StopCandidates {
 
     /// * `known`: the motion so far and as far ahead as it is known, samples at [`stream::RATE`]; it goes on at least
     ///   up to sample `now`.
-    /// * `how`: how it stands in the end, wherever that is, at ease if not given; and whether the motion is a stream,
-    ///   which is known less well than a clip.
-    pub fn new(
-        body: &Arc<Body>,
-        known: Vec<Sample>,
-        now: usize,
-        (goal, streamed): (Option<Posture>, bool),
-    ) -> Self {
+    pub fn new(body: &Arc<Body>, known: Vec<Sample>, now: usize, to: StandGoal) -> Self {
+        let StandGoal {
+            posture: goal,
+            streamed,
+        } = to;
         Self {
             body: Arc::clone(body),
             known,
@@ -106,8 +112,11 @@ impl StopCandidates {
 
     /// The end that leads to a stand like `goal`, of all that do.
     pub fn like(&self, goal: Posture) -> Option<Clip> {
-        let how = (Some(goal), self.streamed);
-        stop(&self.body, self.known.clone(), self.now, how)
+        let to = StandGoal {
+            posture: Some(goal),
+            streamed: self.streamed,
+        };
+        stop(&self.body, self.known.clone(), self.now, to)
     }
 
     fn way(&self) -> Option<&KnownMotion> {
@@ -169,13 +178,8 @@ impl StopCandidates {
 }
 
 /// Ends a motion by the steps that bring it to a stand ([`StopCandidates`]).
-pub fn stop(
-    body: &Arc<Body>,
-    known: Vec<Sample>,
-    now: usize,
-    how: (Option<Posture>, bool),
-) -> Option<Clip> {
-    let ends = StopCandidates::new(body, known, now, how);
+pub fn stop(body: &Arc<Body>, known: Vec<Sample>, now: usize, to: StandGoal) -> Option<Clip> {
+    let ends = StopCandidates::new(body, known, now, to);
     StopCandidates::best((0..StopCandidates::MOST).map(|k| ends.end(k)))
 }
 

@@ -7,9 +7,13 @@
 //! pelvis may, as little as will do. The result ([`RehearsedMotion`]) is played by a figure, and runs there as it did
 //! here.
 //!
+//! [`follow`] chooses the easiest way in which a clip is followed, by trials ([`trial`]): plain tracking, a rehearsal,
+//! help.
+//!
 //! Everything is deterministic: random numbers belong to (seed, round, window, sample), and any number of threads finds
 //! the same. `docs/rehearsal.md` has the problem, the limits and the figures.
 
+pub mod follow;
 pub mod look;
 pub mod problem;
 pub mod random;
@@ -18,8 +22,10 @@ mod sample;
 pub mod search;
 pub mod settings;
 pub mod simulator;
+pub mod trial;
 
 pub use problem::{Problem, ProblemError, Reference};
 pub use result::{Rehearsal, rehearse};
 pub use search::Progress;
 pub use settings::Settings;
+pub use trial::{Conditions, RehearsedRun, TrackingReference};

@@ -3,7 +3,7 @@
 use super::look::{Look, Looker, Off};
 use super::settings::{Rest, Settings};
 use crate::body::{Body, Links, Posture, State};
-use crate::figure::rehearsed::{MAX_TICKS, Stage};
+use crate::figure::motion::rehearsed::{MAX_TICKS, RehearsalWorld};
 use crate::math::curve::smootherstep;
 use crate::motion::{Clip, Target, TargetPair};
 use crate::setup::StrengthScale;
@@ -24,7 +24,7 @@ pub struct Problem {
     /// Friction of the floor.
     pub friction: f64,
     /// The world.
-    pub stage: Stage,
+    pub stage: RehearsalWorld,
     /// Largest force of the help over the weight; 0: none.
     pub most_help: f64,
     /// Postures in which the body stands before a recording that begins slowly, and after one that ends so. Without
@@ -51,7 +51,12 @@ pub enum ProblemError {
 
 impl Problem {
     /// An unloaded body without help.
-    pub fn new(body: Arc<Body>, strength: &StrengthScale, friction: f64, stage: Stage) -> Self {
+    pub fn new(
+        body: Arc<Body>,
+        strength: &StrengthScale,
+        friction: f64,
+        stage: RehearsalWorld,
+    ) -> Self {
         Self {
             links: Links::new(&body),
             strength: Arc::new(Strength::at_percentile(&body, strength.percentile)),

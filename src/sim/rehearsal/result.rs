@@ -6,8 +6,9 @@ use super::settings::Settings;
 use super::simulator::{Action, Simulator};
 use crate::body::State;
 use crate::body::topology::{DOF_COUNT, SEGMENT_COUNT};
-use crate::figure::rehearsed::{Hold, RehearsedMotion, RootStep};
+use crate::figure::motion::rehearsed::RehearsedMotion;
 use crate::motion::{Clip, GRAVITY};
+use crate::stepper::pelvis_wrench::{PelvisHold, RootStep};
 
 /// Mean distance from the recording beyond which a motion is lost, m (Luo et al. 2023, *PHC*).
 pub const LOST: f64 = 0.5;
@@ -277,7 +278,7 @@ impl Rehearsal {
         let motion = RehearsedMotion {
             stage: problem.stage,
             motors: settings.motors,
-            hold: Hold {
+            hold: PelvisHold {
                 frequency: share.frequency,
                 inertia: [p.mass, share.inertia * p.mass * p.height * p.height],
                 most: [share.force * weight, share.moment * weight * p.height],

@@ -6,7 +6,7 @@ use super::random::Random;
 use super::settings::{SAMPLED, Settings};
 use super::simulator::{Action, Simulator};
 use crate::body::State;
-use crate::figure::rehearsed::JointOffset;
+use crate::figure::motion::rehearsed::JointOffset;
 
 /// Sampled joints, and the help.
 pub(super) const D: usize = SAMPLED.len() + 1;

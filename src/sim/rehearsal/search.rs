@@ -62,7 +62,7 @@ pub struct Search<'a> {
 
 /// What a search goes over to when it does not get any farther, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
+enum SearchStage {
     /// Strength alone, and nothing that is far off.
     Near,
     /// With help, if there may be any.
@@ -74,7 +74,7 @@ enum Stage {
 /// How a search stands.
 #[derive(Clone, Copy, Debug)]
 struct Standing {
-    stage: Stage,
+    stage: SearchStage,
     round: usize,
     reached: usize,
     total: f64,
@@ -130,7 +130,7 @@ impl<'a> Search<'a> {
                 .map(|_| Simulator::new(problem, settings))
                 .collect(),
             state: Standing {
-                stage: Stage::Near,
+                stage: SearchStage::Near,
                 round: 0,
                 reached: 0,
                 total: f64::INFINITY,
@@ -159,10 +159,10 @@ impl<'a> Search<'a> {
         let mut limit = budget;
         while self.state.polished < trials.polish.rounds && !self.state.stopped {
             if self.ticks() > limit || self.state.stuck >= trials.patience {
-                if self.reached_end() || self.state.stage == Stage::Far {
+                if self.reached_end() || self.state.stage == SearchStage::Far {
                     break;
                 }
-                if self.state.stage == Stage::Near && self.problem.most_help > 0.0 {
+                if self.state.stage == SearchStage::Near && self.problem.most_help > 0.0 {
                     self.begin_to_help();
                 } else {
                     self.begin_to_go_far();
@@ -201,34 +201,34 @@ impl<'a> Search<'a> {
 
     /// True if samples may be helped.
     fn helps(&self) -> bool {
-        self.state.stage != Stage::Near && self.problem.most_help > 0.0
+        self.state.stage != SearchStage::Near && self.problem.most_help > 0.0
     }
 
     /// How hard windows are tried now.
     fn tries(&self) -> Tries {
         let trials = &self.settings.trials;
         match self.state.stage {
-            Stage::Near | Stage::Helped => trials.near,
-            Stage::Far => trials.far,
+            SearchStage::Near | SearchStage::Helped => trials.near,
+            SearchStage::Far => trials.far,
         }
     }
 
     /// What comes next is not measured by what was reached before.
-    fn begin(&mut self, stage: Stage) {
+    fn begin(&mut self, stage: SearchStage) {
         self.state.stage = stage;
         (self.state.stuck, self.state.farther, self.state.total) = (0, 0, f64::INFINITY);
     }
 
     /// From now on nothing is lost that is near enough to count as kept, and everything is open again.
     fn begin_to_go_far(&mut self) {
-        self.begin(Stage::Far);
+        self.begin(SearchStage::Far);
         self.spreads.fill(self.first);
     }
 
     /// From now on samples may be helped. Where the search was lost it begins with all the help that is allowed, since
     /// what is kept can be improved: samples with less are preferred.
     fn begin_to_help(&mut self) {
-        self.begin(Stage::Helped);
+        self.begin(SearchStage::Helped);
         let back = self.settings.trials.back;
         for m in &mut self.means[self.state.reached.saturating_sub(back)..] {
             m[HELP] = self.problem.most_help;
@@ -414,7 +414,7 @@ pub(super) fn window_ticks(problem: &Problem, settings: &Settings) -> usize {
 mod tests {
     use super::*;
     use crate::body::Body;
-    use crate::figure::rehearsed::Stage as World;
+    use crate::figure::motion::rehearsed::RehearsalWorld as World;
     use crate::motion::Clip;
     use crate::motion::builtin::builtin;
     use crate::setup::StrengthScale;

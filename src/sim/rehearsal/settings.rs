@@ -1,7 +1,7 @@
 //! All numbers of a rehearsal, with units and why. One set for all clips.
 
 use crate::body::topology::{ABDOMEN, CHEST, DOF_COUNT, DOF_SEGMENT, HEAD, L_THIGH};
-use crate::figure::rehearsed::MotorLaw;
+use crate::stepper::motor_law::MotorLaw;
 
 /// Joint DOFs that a sample offsets: waist, thorax, shoulders without rotation, hips, knees, ankles without rotation.
 /// What the others do is too light, or too far out, to change how the body moves.

@@ -10,17 +10,18 @@ use crate::body::{Body, Links, State};
 use crate::contact::Tissue;
 use crate::control::Law;
 use crate::dynamics::Terms;
-use crate::figure::assist::PelvisHelp;
-use crate::figure::help;
-use crate::figure::plan_task::Planning;
-use crate::figure::rehearsed::{JointOffset, MotorLaw, RootStep};
-use crate::figure::tick::TickContext;
-use crate::figure::torque_step::{
-    Accuracy, ExternalForces, StepInput, TickStart, TorqueRange, TorqueStepper,
-};
+use crate::figure::motion::rehearsed::JointOffset;
 use crate::math::Vec3;
 use crate::motion::TargetPair;
+use crate::stepper::command::{StepForces, StepInput, TickStart, TorqueRange};
+use crate::stepper::motor_law::MotorLaw;
+use crate::stepper::pelvis_wrench;
+use crate::stepper::pelvis_wrench::PelvisHelp;
+use crate::stepper::pelvis_wrench::RootStep;
+use crate::stepper::torque_step::{Accuracy, TorqueStepper};
 use crate::strength::{MuscleScale, Strength};
+use crate::tick_context::Planning;
+use crate::tick_context::TickContext;
 use std::sync::Arc;
 
 /// What a sample adds to the desired motion in a window.
@@ -148,7 +149,7 @@ impl Simulator {
         let TorqueRange { lower, upper } = &mut self.available;
         strength.range(&angles, &rates, muscles, lower, upper);
         let command = self.motors.command(&self.law, body, state, &moved);
-        let pull = (action.help > 0.0).then(|| help::pull(body, action.help));
+        let pull = (action.help > 0.0).then(|| pelvis_wrench::pull(body, action.help));
         let input = StepInput {
             body,
             links,
@@ -162,7 +163,7 @@ impl Simulator {
             last_acceleration: &[0.0; NV],
             command: &command,
             tissue: Some(&tissue),
-            forces: ExternalForces {
+            forces: StepForces {
                 applied: &[],
                 bar: None,
                 assist: pull.map(|p| PelvisHelp::Pull(p, target)),

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 /// State of a figure that is coming to a stand.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(super) struct Stop {
+pub(super) struct PlannedStand {
     /// Last posture of the clip, as mapped to the world.
     from: Posture,
     /// Time since the end of the clip, s.
@@ -97,7 +97,7 @@ impl StepTracker {
         let change = self.anchor.transform().power(-1.0).after(before);
         change.apply_posture(&mut from);
         if let Some(f) = &mut self.followed {
-            f.stop = Some(Stop { from, since: 0.0 });
+            f.stop = Some(PlannedStand { from, since: 0.0 });
         }
         for side in 0..2 {
             if !self.feet[side].down {

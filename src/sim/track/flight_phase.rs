@@ -44,7 +44,7 @@ impl StepTracker {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Foot;
+    use super::super::{PlacedPlan, TrackedFoot};
     use super::*;
     use crate::body::Body;
     use crate::motion::builtin::at_ease;
@@ -75,8 +75,8 @@ mod tests {
         let clip = jumps(&body);
         let mut tracker = StepTracker::new(&body);
         let plan = StepPlan::new(&body, &clip, false);
-        tracker.follow(Some((plan, 1.0, PlanarTransform::default())));
-        tracker.feet = [Foot {
+        tracker.follow(Some(PlacedPlan::new(plan, 1.0, PlanarTransform::default())));
+        tracker.feet = [TrackedFoot {
             down: true,
             ..Default::default()
         }; 2];

@@ -46,7 +46,7 @@ use crate::math::exp::exp;
 use crate::motion::builtin::at_ease;
 use crate::motion::{PlanarTransform, TargetPair};
 use crate::support::Support;
-use clip_end::Stop;
+use clip_end::PlannedStand;
 use foot_places::{stance_points, turn};
 use params::common::{LEAST_SPEED, SETTLED_OFFSET};
 use params::flight::ANNOUNCED;
@@ -59,7 +59,7 @@ use swing::follow_com;
 
 /// State of one foot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Foot {
+struct TrackedFoot {
     /// On the floor, by events.
     down: bool,
     /// Landed before its time; the plan has to catch up.
@@ -76,7 +76,7 @@ struct Foot {
     initial_depth: Option<f64>,
 }
 
-impl Foot {
+impl TrackedFoot {
     /// Leaves the floor at clip time `phase` (s) for the next foothold of the plan.
     fn lift(&mut self, phase: f64) {
         *self = Self {
@@ -145,23 +145,45 @@ struct FollowedPlan {
     /// Place of the plan in the world before any step.
     origin: PlanarTransform,
     /// The stop, once the plan has ended in motion.
-    stop: Option<Stop>,
+    stop: Option<PlannedStand>,
 }
 
 impl FollowedPlan {
-    fn new((plan, speed, origin): (StepPlan, f64, PlanarTransform)) -> Self {
+    fn new(placed: PlacedPlan) -> Self {
+        Self {
+            plan: placed.plan,
+            speed: placed.speed.max(LEAST_SPEED),
+            origin: placed.origin,
+            stop: None,
+        }
+    }
+}
+
+/// A plan to follow.
+#[derive(Clone, Debug)]
+pub struct PlacedPlan {
+    /// When and where feet stand.
+    pub plan: StepPlan,
+    /// Clip seconds per second.
+    pub speed: f64,
+    /// Where the plan lies in the world.
+    pub origin: PlanarTransform,
+}
+
+impl PlacedPlan {
+    /// A plan that runs at `speed` clip seconds per second, at `origin` in the world.
+    pub fn new(plan: StepPlan, speed: f64, origin: PlanarTransform) -> Self {
         Self {
             plan,
-            speed: speed.max(LEAST_SPEED),
+            speed,
             origin,
-            stop: None,
         }
     }
 }
 
 /// Time of the plan.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-struct Clock {
+struct PlanClock {
     /// Clip time now, s.
     phase: f64,
     /// World time that the plan is behind its schedule, s.
@@ -210,9 +232,9 @@ pub struct StepTracker {
     legs: Legs,
     /// `None` for a motion whose feet never leave the floor.
     followed: Option<FollowedPlan>,
-    clock: Clock,
+    clock: PlanClock,
     anchor: Anchor,
-    feet: [Foot; 2],
+    feet: [TrackedFoot; 2],
     capture: Capture,
     height_error: HeightError,
     events: TickEvents,
@@ -226,9 +248,9 @@ impl StepTracker {
         Self {
             legs: Legs::of(body),
             followed: None,
-            clock: Clock::default(),
+            clock: PlanClock::default(),
             anchor: Anchor::default(),
-            feet: [Foot::default(); 2],
+            feet: [TrackedFoot::default(); 2],
             capture: Capture::new(body),
             height_error: HeightError::default(),
             events: TickEvents::default(),
@@ -265,15 +287,15 @@ impl StepTracker {
 
     /// Follows another motion from the next tick on: a clip with its plan, speed (clip seconds per second) and origin,
     /// or, if `None`, a motion whose feet stay in place.
-    pub fn follow(&mut self, plan: Option<(StepPlan, f64, PlanarTransform)>) {
-        let steps = plan.filter(|(p, ..)| p.steps());
+    pub fn follow(&mut self, plan: Option<PlacedPlan>) {
+        let steps = plan.filter(|p| p.plan.steps());
         self.followed = steps.map(FollowedPlan::new);
         self.reset();
     }
 
     /// Continues with another plan, with its speed and origin, in the middle of a motion; feet, places and lag stay.
     /// The new plan's time 0 is time `begin` (s) of the present one; both origins are in the same coordinates.
-    pub fn continue_with(&mut self, plan: (StepPlan, f64, PlanarTransform), begin: f64) {
+    pub fn continue_with(&mut self, plan: PlacedPlan, begin: f64) {
         let (next, speed) = (FollowedPlan::new(plan), self.speed());
         for foot in &mut self.feet {
             foot.lifted = (foot.lifted - begin) / speed * next.speed;
@@ -292,7 +314,7 @@ impl StepTracker {
     /// Forgets the past, so that the motion is at its planned place.
     pub fn reset(&mut self) {
         self.anchor = Anchor::default();
-        self.feet = [Foot::default(); 2];
+        self.feet = [TrackedFoot::default(); 2];
         self.clock.started = false;
         self.clock.lag = 0.0;
         if let Some(f) = &mut self.followed {
@@ -305,7 +327,7 @@ impl StepTracker {
     /// Resets the clock only, for a frozen figure: the values that the clock keeps of the motion may not be finite.
     pub fn reset_clock(&mut self) {
         self.reset();
-        self.clock = Clock::default();
+        self.clock = PlanClock::default();
     }
 
     /// Clip time now, s.
@@ -415,7 +437,7 @@ impl StepTracker {
     ) -> TargetPair {
         self.events = TickEvents::default();
         if carried {
-            self.feet = [Foot::default(); 2];
+            self.feet = [TrackedFoot::default(); 2];
             self.recovery = Recovery::default();
             self.timing = StepTiming::default();
             self.clock.started = false;

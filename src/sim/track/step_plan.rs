@@ -7,10 +7,10 @@ use super::params::step_plan::{
 use crate::body::topology::FEET;
 use crate::body::{Body, Posture};
 use crate::math::Vec3;
+use crate::math::runs::{remove_short, stretches};
 use crate::motion::Clip;
 use crate::motion::clip::{MAX_SAMPLES, PlanarTransform};
 use crate::motion::leg_ik::forward;
-use crate::plan::contact_labels::{remove_short, stretches};
 use crate::plan::foot_lock::Sole;
 use crate::plan::motion_transition::TransitionClip;
 use crate::plan::params::contact::SHORTEST_TOLD;

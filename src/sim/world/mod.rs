@@ -7,19 +7,20 @@ mod validate;
 pub use collisions::CollisionReport;
 
 pub use crate::figure::{
-    ClipPlayback, Drive, Figure, FigureEvent, FigureKey, FigureSetup, LivePlayback,
+    ClipPlayback, Figure, FigureEvent, FigureKey, FigureSetup, LivePlayback, MotionSource,
     RehearsedMotion, RehearsedPlayback,
 };
 
 use crate::body::State;
 use crate::collide::{MAX_OBSTACLES, Obstacle, ObstacleKey, ObstacleSetup};
-use crate::figure::loads::MAX_PERTURBATIONS;
 use crate::figure::{
     Constraint, ControlParams, ControllerKind, FigureOptions, LatePlans, MAX_CONSTRAINTS,
-    Perturbation, PlanRequest, Planning, Slot, StrengthScale, TickContext,
+    Perturbation, PlanRequest, StrengthScale, WorkspaceSlot,
 };
 use crate::math::hash::Fnv;
 use crate::motion::GRAVITY;
+use crate::setup::MAX_PERTURBATIONS;
+use crate::tick_context::{Planning, TickContext};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 
@@ -168,7 +169,7 @@ impl World {
         let Slots { mut slots, unused } = SLOTS.take();
         let needed = threads.max(near.len());
         if slots.len() < needed {
-            slots.resize_with(needed, Slot::default);
+            slots.resize_with(needed, WorkspaceSlot::default);
         }
         each_with(alone, &mut slots[..threads], |f, slot| {
             if !f.is_frozen() {
@@ -455,7 +456,7 @@ const UNUSED_TICKS: u32 = 10_000;
 
 #[derive(Default)]
 struct Slots {
-    slots: Vec<Slot>,
+    slots: Vec<WorkspaceSlot>,
     /// Number of consecutive ticks that did not need all of them.
     unused: u32,
 }

@@ -2,7 +2,7 @@
 
 use super::super::pb;
 use super::super::status::Fault;
-use super::masks::Fields;
+use super::masks::MaskFields;
 pub use super::names::grant_name;
 use super::{shortened, within};
 use std::time::SystemTime;
@@ -115,7 +115,7 @@ pub fn taken(
     g: &pb::Grant,
     mask: Option<&prost_types::FieldMask>,
 ) -> Result<Vec<&'static str>, Fault> {
-    Fields {
+    MaskFields {
         settable: &[
             ("roles", !g.roles.is_empty()),
             ("figure_ids", !g.figure_ids.is_empty()),

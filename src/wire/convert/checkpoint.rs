@@ -6,7 +6,7 @@ use super::timestamp;
 use crate::pb;
 use std::time::SystemTime;
 
-/// What a checkpoint is told by.
+/// The identity of a checkpoint.
 #[derive(Clone, Debug)]
 pub struct CheckpointInfo<'a> {
     /// Last parts of the names of its world and its own.

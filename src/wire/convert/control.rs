@@ -3,9 +3,9 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{ControlInfo, ControlKey};
-use super::motion::MAX_DRIVEN_FIGURES;
 use super::names::FIGURE;
 use super::{or_default, timestamp, within};
+use crate::types::MAX_DRIVEN_FIGURES;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
@@ -15,7 +15,7 @@ const MOST_TOKEN: usize = 128;
 const GRACE_MS: f64 = 10_000.0;
 
 fn token(field: &str, token: &str) -> Result<(), Fault> {
-    // What was sent is not repeated: it may be a secret for something else.
+    // The input is not repeated: it may be a secret for something else.
     if token.len() > MOST_TOKEN {
         return Err(Fault::invalid(
             field,

@@ -3,7 +3,7 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{FigureInfo, FigureSettings, FigureUpdate};
-use super::masks::Fields;
+use super::masks::MaskFields;
 use super::names::{BODY, CLIP, FIGURE};
 use super::{
     body, constraint, display_name, etags, motion, or_default, place, place_out, shortened, within,
@@ -202,7 +202,7 @@ pub fn update(
     f: &pb::Figure,
     mask: Option<&prost_types::FieldMask>,
 ) -> Result<FigureUpdate, Fault> {
-    let fields = Fields {
+    let fields = MaskFields {
         settable: &[
             ("display_name", !f.display_name.is_empty()),
             ("strength", f.strength.is_some()),

@@ -4,9 +4,9 @@ use super::super::status::Fault;
 use super::shortened;
 use prost_types::FieldMask;
 
-/// What there is of a resource to change.
+/// The fields of a resource that can change.
 #[derive(Clone, Copy, Debug)]
-pub struct Fields<'a> {
+pub struct MaskFields<'a> {
     /// Fields that may change, each with whether the request gives it a value.
     pub settable: &'a [(&'static str, bool)],
     /// Fields that are set at creation.
@@ -15,7 +15,7 @@ pub struct Fields<'a> {
     pub output: &'a [&'static str],
 }
 
-impl Fields<'_> {
+impl MaskFields<'_> {
     /// The fields that a mask takes from the request: those that it names; without one, those that have a value; all
     /// for `*`.
     ///
@@ -74,7 +74,7 @@ mod tests {
         let mask = paths.map(|p| FieldMask {
             paths: p.iter().map(|p| (*p).to_owned()).collect(),
         });
-        let fields = Fields {
+        let fields = MaskFields {
             settable: &[("speed", true), ("display_name", false)],
             fixed: &["rate_hz"],
             output: &["name", "tick"],

@@ -4,27 +4,29 @@ use super::super::pb;
 use super::super::posture::{segment_of_bone, set_joint_rotation};
 use super::super::status::Fault;
 use super::super::types::{
-    BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, Follow,
-    FollowSettings, FollowWay, ForecastInfo, ForecastVerdict, MotionSample, MotionSource, Playback,
-    ReadingReport, RehearsalInfo, Supply,
+    BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, FollowSettings,
+    MAX_DRIVEN_FIGURES, MotionSample, MotionSource, Playback, RehearsalInfo, Supply,
 };
 use super::names::{BODY, CLIP};
 use super::{
     WORLD_EXTENT, client_id, or_default, place, rotation, shortened, timestamp, vector, within,
 };
 use sinew_physics::body::angles::set_anatomical_angles;
-use sinew_physics::body::topology::{BONE_NAMES, PARENT};
+use sinew_physics::body::topology::{BONE_NAMES, PARENT, SEGMENT_NAMES};
 use sinew_physics::body::{DOF_COUNT, NV, Posture, SEGMENT_COUNT};
 use sinew_physics::figure::FollowMode;
+use sinew_physics::forecast::{Forecast, ForecastVerdict};
 use sinew_physics::math::Quat;
+use sinew_physics::motion::UpAxis;
+use sinew_physics::plan::ReadingReport;
+use sinew_physics::plan::contact_labels::ContactPhase;
+use sinew_physics::rehearsal::follow::{Follow, FollowWay};
 use std::fmt::Display;
 use std::sync::Arc;
 use std::time::Duration;
 
 /// Most frames in one batch.
 pub const MAX_BATCH_FRAMES: usize = 64;
-/// Most figures one driver can drive.
-pub const MAX_DRIVEN_FIGURES: usize = 64;
 /// Most frames of a clip given as frames.
 pub const MAX_CLIP_FRAMES: usize = sinew_physics::motion::clip::MAX_SAMPLES;
 
@@ -496,49 +498,60 @@ pub fn feedback_out(f: &Feedback) -> pb::DriveFeedback {
 /// How a file was understood, for a response.
 pub fn report_out(r: &ReadingReport) -> pb::RetargetReport {
     pb::RetargetReport {
-        mapped: r
-            .mapped
-            .iter()
-            .map(|(bone, joints)| pb::BoneMapping {
-                bone: bone.clone(),
-                joints: joints.clone(),
+        mapped: { r.skeleton.mapped.iter() }
+            .map(|m| pb::BoneMapping {
+                bone: bone_of(m.segment),
+                joints: m.bones.clone(),
             })
             .collect(),
-        missing_bones: r.missing.clone(),
-        by_structure: r.by_structure,
-        sides_swapped: r.sides_swapped,
-        scale: r.scale,
-        source_rate_hz: r.source_rate_hz,
-        run_speed_mps: r.run_speed,
-        runs_walked: r.runs_walked,
-        unit_m: r.unit_m,
-        up_axis: r.up_axis.clone(),
-        stature_m: r.stature_m,
-        floor_offset_m: r.floor_offset_m,
-        clamped: r
-            .clamped
-            .iter()
-            .map(|(dof, fraction, most)| pb::ClampedAngle {
-                dof: dof.clone(),
-                fraction: *fraction,
-                max_excess_rad: *most,
+        missing_bones: r.skeleton.missing.iter().map(|s| bone_of(s)).collect(),
+        by_structure: r.skeleton.by_structure,
+        sides_swapped: r.skeleton.sides_swapped,
+        scale: r.size.scale,
+        source_rate_hz: r.frames.source_rate_hz,
+        run_speed_mps: r.runs.speed,
+        runs_walked: r.runs.walked,
+        unit_m: r.size.unit_m,
+        up_axis: match r.size.up {
+            UpAxis::Y => "y",
+            UpAxis::Z => "z",
+        }
+        .into(),
+        stature_m: r.size.stature,
+        floor_offset_m: r.place.floor_offset,
+        clamped: { r.clamped.iter() }
+            .map(|c| pb::ClampedAngle {
+                dof: c.dof.into(),
+                fraction: c.fraction,
+                max_excess_rad: c.max,
             })
             .collect(),
-        foot_slide_before_m: r.foot_slide_m[0],
-        foot_slide_after_m: r.foot_slide_m[1],
-        bridged_frame_count: r.bridged as i32,
-        contact_phases: r
-            .phases
-            .iter()
-            .map(|(left, start, end)| pb::ContactPhase {
-                left: *left,
-                start_s: *start,
-                end_s: *end,
-            })
-            .collect(),
+        foot_slide_before_m: r.feet.slide.recorded,
+        foot_slide_after_m: r.feet.slide.prepared,
+        bridged_frame_count: { r.frames.bridged.iter() }.map(|b| b.count as i32).sum(),
+        contact_phases: r.feet.phases.iter().flat_map(stances_of).collect(),
         warnings: r.warnings.clone(),
-        dropped_frame_count: r.dropped as i32,
+        dropped_frame_count: r.frames.skipped_frames as i32,
     }
+}
+
+/// Name of the bone of a segment.
+fn bone_of(segment: &str) -> String {
+    let i = SEGMENT_NAMES.iter().position(|s| *s == segment);
+    i.map_or(segment, |i| BONE_NAMES[i]).to_owned()
+}
+
+/// The phase as one stance for each foot on the floor.
+fn stances_of(p: &ContactPhase) -> impl Iterator<Item = pb::ContactPhase> + use<> {
+    let (start_s, end_s) = (p.start, p.end);
+    let sides = [(true, p.planted[0]), (false, p.planted[1])].into_iter();
+    sides
+        .filter(|(_, down)| *down)
+        .map(move |(left, _)| pb::ContactPhase {
+            left,
+            start_s,
+            end_s,
+        })
 }
 
 /// A clip for a response.
@@ -600,7 +613,7 @@ pub fn budget(field: &str, given: Option<prost_types::Duration>) -> Result<Durat
     given.ok_or_else(|| Fault::invalid(field, "must be 1 s…1 h"))
 }
 
-/// How far it may go with the bound of the help; what is not given is as in `unless`.
+/// The means of following a clip and the bound of the help; values that are not given are those of `unless`.
 pub fn follow_settings(
     value: i32,
     most_help: Option<f64>,
@@ -613,7 +626,7 @@ pub fn follow_settings(
     })
 }
 
-/// In which way a figure follows its motion, for its status.
+/// The way in which a figure follows its motion, for its status.
 pub fn follow_mode_out(mode: FollowMode) -> pb::FollowWay {
     match mode {
         FollowMode::Nothing => pb::FollowWay::Unspecified,
@@ -623,7 +636,7 @@ pub fn follow_mode_out(mode: FollowMode) -> pb::FollowWay {
     }
 }
 
-/// What came of a rehearsal, for a response.
+/// The result of a rehearsal, for a response.
 pub fn rehearsal_out(r: &RehearsalInfo) -> pb::Rehearsal {
     let way = match r.way {
         FollowWay::Tracked => pb::FollowWay::Tracked,
@@ -655,30 +668,31 @@ pub fn rehearsal_out(r: &RehearsalInfo) -> pb::Rehearsal {
 }
 
 /// A forecast for a response.
-pub fn forecast_out(f: &ForecastInfo) -> pb::Forecast {
+pub fn forecast_out(f: &Forecast) -> pb::Forecast {
     use pb::ForecastVerdict as V;
     let verdict = match f.verdict {
         ForecastVerdict::Follows => V::Follows,
         ForecastVerdict::NeedsHelp => V::NeedsHelp,
         ForecastVerdict::Cannot => V::Cannot,
     };
+    let d = &f.difficulty;
     pb::Forecast {
         verdict: verdict.into(),
         reason: f.reason.clone(),
         demand: f.demand,
-        lacking_force_rms_weights: f.lacking_force[0],
-        lacking_force_peak_weights: f.lacking_force[1],
-        lacking_force_peak_time_s: f.lacking_force[2],
-        lacking_moment_peak_weight_m: f.lacking_moment,
-        capture_point_drift_m: f.drift_m,
-        strength_peak_ratio: f.strength_peak[0],
-        strength_peak_time_s: f.strength_peak[1],
-        strength_dof: f.strength_dof.clone(),
-        strength_p95_ratio: f.strength_p95,
-        flight_s: f.times_s[0],
-        longest_flight_s: f.times_s[1],
-        floor_contact_s: f.times_s[2],
-        inverted_s: f.times_s[3],
+        lacking_force_rms_weights: d.lacking_force_rms,
+        lacking_force_peak_weights: d.lacking_force_peak,
+        lacking_force_peak_time_s: d.lacking_force_at_s,
+        lacking_moment_peak_weight_m: d.lacking_moment_peak,
+        capture_point_drift_m: d.drift_m,
+        strength_peak_ratio: d.support_peak,
+        strength_peak_time_s: d.support_peak_at_s,
+        strength_dof: d.support_p95_dof.clone(),
+        strength_p95_ratio: d.support_p95,
+        flight_s: d.flight_s,
+        longest_flight_s: d.longest_flight_s,
+        floor_contact_s: d.floor_s,
+        inverted_s: d.inverted_s,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::super::pb;
 use super::super::status::Fault;
 use super::super::types::{FREE_PLANE, ObstacleInfo, ObstacleMobility, ObstacleUpdate};
-use super::masks::Fields;
+use super::masks::MaskFields;
 use super::names::OBSTACLE;
 use super::{WORLD_EXTENT, etags, rotation, vector, vector_out, within};
 use sinew_physics::collide::{Mobility, OBSTACLE_FRICTION, ObstacleSetup, Shape};
@@ -132,7 +132,7 @@ pub fn update(
         None => false,
     };
     let shapes = ["sphere", "capsule", "box", "plane"];
-    let taken = Fields {
+    let taken = MaskFields {
         settable: &[
             ("sphere", given("sphere")),
             ("capsule", given("capsule")),
@@ -344,7 +344,7 @@ mod tests {
             panic!("no box was given");
         };
         assert_eq!(field, "obstacle.box");
-        // What becomes free needs a mass.
+        // An obstacle that becomes free needs a mass.
         let free = pb::Obstacle {
             mobility: pb::ObstacleMobility::Free.into(),
             ..Default::default()

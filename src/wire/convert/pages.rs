@@ -8,7 +8,7 @@ const SIZE: (usize, usize) = (100, 1000);
 /// Bytes of a token: a checksum and the key of the item before the page, in hexadecimal digits.
 const MOST_TOKEN: usize = 2 * (8 + 512);
 
-/// What a list is of: a token of one list is none of another.
+/// The kind of a list: a token of one list is none of another.
 fn checksum(list: &str, key: &str) -> [u8; 8] {
     xxh3_64(format!("{list}\0{key}").as_bytes()).to_be_bytes()
 }
@@ -91,7 +91,7 @@ mod tests {
     fn pages_continue_where_the_last_one_ended() {
         let (first, token) = page("worlds", items(5), 2, "").unwrap();
         assert_eq!(first, [0, 1]);
-        // What was listed before may be gone by now, and the rest comes all the same.
+        // Earlier items may be gone by now; the rest is listed all the same.
         let later = items(5).into_iter().skip(2);
         assert_eq!(page("worlds", later, 3, &token).unwrap().0, [2, 3, 4]);
         let (rest, token) = page("worlds", items(5), 3, &token).unwrap();

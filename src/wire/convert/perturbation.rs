@@ -30,7 +30,7 @@ pub(super) fn lasting(field: &str, value: f64) -> Result<f64, Fault> {
     or_default(field, value, f64::INFINITY, 0.0, DAY)
 }
 
-/// What holds a load besides its segment.
+/// The second holder of a load.
 fn second_segment(at: &dyn Fn(&str) -> String, l: &pb::Load) -> Result<SecondSegment, Fault> {
     use pb::TwoHands;
     let two_hands = TwoHands::try_from(l.two_hands).map_err(|_| {
@@ -86,7 +86,7 @@ fn held_second(at: &dyn Fn(&str) -> String, l: &pb::Load) -> Result<SecondSegmen
     ))
 }
 
-/// What disturbs a figure; `field` is where the message stands in the request.
+/// A disturbance; `field` is the place of the message in the request.
 pub fn disturbance(field: &str, p: &pb::Perturbation) -> Result<Disturbance, Fault> {
     use pb::perturbation::Kind;
     let point = |at: &str, p: Option<pb::Vector3>| p.map(|p| vector(at, p, 2.0)).transpose();

@@ -2,14 +2,13 @@
 
 use super::super::pb;
 use super::super::status::Fault;
-use super::super::types::{
-    MotionSource, ReadingReport, SimulationSettings, SimulationSummary, WorldEvent,
-};
+use super::super::types::{MotionSource, SimulationSettings, SimulationSummary, WorldEvent};
 use super::{figure, motion, or_default, perturbation, state, world};
+use sinew_physics::plan::ReadingReport;
 
 /// Where the motion of a simulation comes from.
 #[derive(Debug)]
-pub enum Source {
+pub enum SimulationSource {
     /// Last part of a clip's name.
     Clip(String),
     /// A file.
@@ -21,12 +20,12 @@ pub fn settings(
     r: pb::SimulateClipRequest,
     max_bytes: u64,
     max_seconds: f64,
-) -> Result<(Source, SimulationSettings), Fault> {
+) -> Result<(SimulationSource, SimulationSettings), Fault> {
     use pb::simulate_clip_request::Source as S;
     let source = match r.source {
         None => return Err(Fault::invalid("source", "must be clip or bvh")),
-        Some(S::Clip(name)) => Source::Clip(super::clip_name("clip", &name)?.to_owned()),
-        Some(S::Bvh(b)) => Source::File(motion::bvh("bvh", b, max_bytes)?),
+        Some(S::Clip(name)) => SimulationSource::Clip(super::clip_name("clip", &name)?.to_owned()),
+        Some(S::Bvh(b)) => SimulationSource::File(motion::bvh("bvh", b, max_bytes)?),
     };
     let duration = or_default("duration_s", r.duration_s, 0.0, 0.0, max_seconds)?;
     Ok((
@@ -43,7 +42,7 @@ pub fn settings(
     ))
 }
 
-/// What came of it, for a response, without the frames.
+/// The result, for a response, without the frames.
 pub fn response(
     s: &SimulationSummary,
     events: &[WorldEvent],

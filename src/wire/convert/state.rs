@@ -3,7 +3,7 @@
 use super::super::frame::FIELD_NAMES;
 use super::super::pb;
 use super::super::status::Fault;
-use super::super::types::{EventFilter, EventKind, Fields, NumberFormat, ViewSpec, WorldEvent};
+use super::super::types::{EventFilter, EventKind, FieldSet, NumberFormat, ViewSpec, WorldEvent};
 use super::names::CLIP;
 use super::{count, shortened};
 use sinew_physics::body::topology::DOF_NAMES;
@@ -27,7 +27,7 @@ fn figures(field: &str, names: &[String]) -> Result<Vec<String>, Fault> {
     Ok(out)
 }
 
-/// What a viewer wants.
+/// The selection of a viewer.
 pub fn view(v: Option<&pb::View>) -> Result<ViewSpec, Fault> {
     let none = pb::View::default();
     let v = v.unwrap_or(&none);
@@ -36,12 +36,12 @@ pub fn view(v: Option<&pb::View>) -> Result<ViewSpec, Fault> {
         .as_ref()
         .map(|m| m.paths.as_slice())
         .unwrap_or_default();
-    let mut fields = Fields(0);
+    let mut fields = FieldSet(0);
     for (i, path) in paths.iter().enumerate() {
         fields.0 |= if path == "*" {
-            Fields::ALL.0
+            FieldSet::ALL.0
         } else {
-            Fields::named(path)
+            FieldSet::named(path)
                 .ok_or_else(|| {
                     Fault::invalid(
                         format!("view.fields.paths[{i}]"),
@@ -56,7 +56,7 @@ pub fn view(v: Option<&pb::View>) -> Result<ViewSpec, Fault> {
         };
     }
     if paths.is_empty() {
-        fields = Fields::DEFAULT;
+        fields = FieldSet::DEFAULT;
     }
     Ok(ViewSpec {
         figures: figures("view.figure_ids", &v.figure_ids)?,
@@ -137,7 +137,7 @@ fn event_type(kind: &EventKind) -> pb::EventType {
     }
 }
 
-/// True if the filter lets the event pass.
+/// Whether the filter lets the event pass.
 pub fn wanted(filter: &EventFilter, e: &WorldEvent) -> bool {
     (filter.figures.is_empty() || filter.figures.binary_search(&e.figure).is_ok())
         && (filter.types.is_empty() || filter.types.contains(&event_type(&e.kind).into()))
@@ -220,8 +220,8 @@ mod tests {
         }))
         .unwrap();
         assert_eq!(v.figures, ["a", "b"]);
-        assert_eq!(v.fields, Fields(1 | 1 << 6));
-        assert_eq!(view(None).unwrap().fields, Fields::DEFAULT);
+        assert_eq!(v.fields, FieldSet(1 | 1 << 6));
+        assert_eq!(view(None).unwrap().fields, FieldSet::DEFAULT);
         let Err(Fault::Invalid { field, .. }) = view(Some(&pb::View {
             fields: mask(&["torque", "colour"]),
             ..Default::default()

@@ -2,8 +2,10 @@
 
 use super::super::pb;
 use super::super::status::Fault;
-use super::super::types::{Overrun, Pace, WorldCondition, WorldInfo, WorldSettings, WorldUpdate};
-use super::masks::Fields;
+use super::super::types::{
+    Overrun, WorldCondition, WorldInfo, WorldPace, WorldSettings, WorldUpdate,
+};
+use super::masks::MaskFields;
 use super::names::WORLD;
 use super::{count, display_name, etags, or_default, timestamp, within};
 use sinew_physics::world::WorldParams;
@@ -73,7 +75,7 @@ pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
             2.0,
         )?,
         collisions: w.collisions.unwrap_or(true),
-        pace: Pace {
+        pace: WorldPace {
             display_name: display_name("world.display_name", &w.display_name)?,
             overrun: overrun("world.overrun_policy", w.overrun_policy, catch_up_limit)?,
             catch_up_limit,
@@ -83,8 +85,8 @@ pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
     })
 }
 
-/// True if these settings could have come in a request.
-pub fn is_pace(pace: &Pace) -> bool {
+/// Whether these settings could have come in a request.
+pub fn is_pace(pace: &WorldPace) -> bool {
     let caught_up = match pace.overrun {
         Overrun::CatchUp(most) => most,
         Overrun::Skip | Overrun::Dilate => pace.catch_up_limit,
@@ -112,7 +114,7 @@ pub fn idle_ttl(
 
 /// Changes of a world.
 pub fn update(w: &pb::World, mask: Option<&prost_types::FieldMask>) -> Result<WorldUpdate, Fault> {
-    let fields = Fields {
+    let fields = MaskFields {
         settable: &[
             ("display_name", !w.display_name.is_empty()),
             ("overrun_policy", w.overrun_policy != 0),

@@ -10221,9 +10221,7 @@ pub mod state_service_client {
             &mut self,
             request: impl tonic::IntoRequest<super::WatchWorldRequest>,
         ) -> std::result::Result<
-            tonic::Response<
-                tonic::codec::Streaming<crate::watched::WatchWorldResponse>,
-            >,
+            tonic::Response<tonic::codec::Streaming<crate::watched::WatchWorldResponse>>,
             tonic::Status,
         > {
             self.inner

@@ -157,9 +157,9 @@ fn malformed_bytes_are_named_by_the_fields_of_the_protos() {
 #[test]
 fn nesting_ends_where_the_protos_end() {
     let depth = |i: usize| -> usize {
-        fn of(shapes: &[Shape], i: usize) -> usize {
+        fn of(shapes: &[MessageShape], i: usize) -> usize {
             let inner = shapes[i].fields.iter().filter_map(|f| match f.kind {
-                Kind::Message(m) => Some(1 + of(shapes, m)),
+                FieldKind::Message(m) => Some(1 + of(shapes, m)),
                 _ => None,
             });
             inner.max().unwrap_or(0)

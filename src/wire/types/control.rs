@@ -46,7 +46,7 @@ pub type TokenHash = [u8; 32];
 pub struct KeptLease {
     /// Who has it.
     pub holder: Arc<str>,
-    /// What is known of its secret.
+    /// The hash of its secret.
     pub token: TokenHash,
     /// Its priority.
     pub priority: i32,
@@ -71,6 +71,6 @@ pub struct ControlInfo {
     pub implicit: bool,
     /// To whom it is offered.
     pub offered_to: Option<Arc<str>>,
-    /// What of it outlives the server. Not for clients.
+    /// The part of it that outlives the server. Not for clients.
     pub kept: Option<KeptLease>,
 }

@@ -4,6 +4,9 @@ use super::control::ControlKey;
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{NV, Posture};
 
+/// Most figures that one driver can drive.
+pub const MAX_DRIVEN_FIGURES: usize = 64;
+
 /// Delay between arrival and use of live motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Delay {
@@ -44,7 +47,7 @@ pub struct DriveOpen {
     pub figures: Vec<String>,
     /// Who drives; empty: the server chooses.
     pub driver: String,
-    /// Whose drive it is, and by which leases.
+    /// The driver, and its leases.
     pub who: ControlKey,
     /// Settings.
     pub settings: DriveSettings,
@@ -57,7 +60,7 @@ pub struct FigureSample {
     pub slot: usize,
     /// Desired posture. Without `has_root` its pelvis pose means nothing.
     pub posture: Posture,
-    /// True if the sender gave the pelvis pose.
+    /// Whether the sender gave the pelvis pose.
     pub has_root: bool,
     /// Desired velocity, layout of `State::velocity`.
     pub velocity: Option<Box<[f64; NV]>>,
@@ -121,7 +124,7 @@ pub struct FigureFeedback {
     pub stale: u64,
     /// Frames dropped for want of room.
     pub overflow: u64,
-    /// Times that the stream began anew.
+    /// Times that the stream restarted.
     pub resyncs: u64,
     /// How far it is behind because its world leaves ticks out, s; contained in the delay.
     pub behind: f64,

@@ -1,6 +1,6 @@
-//! Figures: what they are asked for, what they are, and what changes.
+//! Figures: their settings, their state, and changes.
 
-use super::world::Place;
+use super::place::Place;
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{Profile, SegmentId};
 use sinew_physics::figure::{
@@ -73,7 +73,7 @@ pub struct FigureInfo {
     pub clip: Option<String>,
     /// Last part of the name of the clip that begins once it stands.
     pub next_clip: Option<String>,
-    /// Who drives it.
+    /// Its driver.
     pub driver: Option<String>,
     /// Index in frames.
     pub index: i32,
@@ -86,7 +86,7 @@ pub struct FigureInfo {
 /// How a figure follows its motion, with the help that it may get.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Follows {
-    /// In which way, and what help that took.
+    /// The way, and the help that it took.
     pub so_far: Following,
     /// Largest force of the help over the weight if the motion is being lost; 0: none.
     pub most_help: f64,

@@ -1,4 +1,4 @@
-//! What requests and frames are about, as domain types: checked once at the edge, trusted afterwards.
+//! Domain types of requests and frames: checked once at the edge, trusted afterwards.
 
 mod clip;
 mod control;
@@ -6,6 +6,7 @@ mod drive;
 mod figure;
 mod obstacle;
 mod perturbation;
+mod place;
 mod simulation;
 mod state;
 mod world;
@@ -16,6 +17,7 @@ pub use drive::*;
 pub use figure::*;
 pub use obstacle::*;
 pub use perturbation::*;
+pub use place::*;
 pub use simulation::*;
 pub use state::*;
 pub use world::*;

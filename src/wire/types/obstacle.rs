@@ -81,7 +81,7 @@ pub struct ObstacleInfo {
     pub id: String,
     /// Counts up from obstacle to obstacle of a world.
     pub number: u64,
-    /// What it is, with its present pose and velocity.
+    /// Its setup, with its present pose and velocity.
     pub setup: ObstacleSetup,
     /// Mean force on it over the last tick, N.
     pub force: Vec3,

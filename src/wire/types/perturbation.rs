@@ -1,11 +1,11 @@
-//! What disturbs a figure.
+//! Disturbances of a figure.
 
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::SegmentId;
 use sinew_physics::figure::SecondHand;
 use sinew_physics::math::Vec3;
 
-/// What holds a load besides its segment. In bytes, the first two are an option.
+/// The second holder of a load. In bytes, the first two are an option.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum SecondSegment {
     /// Nothing.
@@ -16,7 +16,7 @@ pub enum SecondSegment {
     Helps(SecondHand),
 }
 
-/// What disturbs a figure.
+/// A disturbance of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Disturbance {
     /// A carried mass, kg.
@@ -29,7 +29,7 @@ pub enum Disturbance {
         mass: f64,
         /// Velocity before it is taken, world axes, m/s.
         velocity: Vec3,
-        /// What else holds it.
+        /// The second holder.
         second: SecondSegment,
         /// Force at one hand beyond which it is lost, N.
         grip: f64,
@@ -56,6 +56,6 @@ pub struct FigureDisturbance {
     pub figure: String,
     /// Tick at whose start it begins; `None`: the next.
     pub tick: Option<i64>,
-    /// What happens.
+    /// The disturbance.
     pub what: Disturbance,
 }

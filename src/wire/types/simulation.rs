@@ -4,7 +4,7 @@ use super::figure::FigureSettings;
 use super::perturbation::Disturbance;
 use super::state::ViewSpec;
 
-/// What an offline simulation is asked for.
+/// The request of an offline simulation.
 #[derive(Clone, Debug)]
 pub struct SimulationSettings {
     /// The figure.

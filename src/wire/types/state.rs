@@ -1,4 +1,4 @@
-//! What viewers see: snapshots, events, and what they want of them.
+//! Views of a world: snapshots, events, and the selection that a viewer asks for.
 
 use super::figure::Follows;
 use super::obstacle::ObstacleInfo;
@@ -21,15 +21,15 @@ pub enum NumberFormat {
 
 /// A set of the optional fields of a figure's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Fields(pub u32);
+pub struct FieldSet(pub u32);
 
-/// What a viewer wants; equal views share encoded frames.
+/// The selection of a viewer; equal views share encoded frames.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ViewSpec {
     /// Last parts of figure names, sorted; empty: all.
     pub figures: Vec<String>,
     /// Fields.
-    pub fields: Fields,
+    pub fields: FieldSet,
     /// Number format.
     pub format: NumberFormat,
     /// One frame for every so many ticks.
@@ -47,7 +47,7 @@ pub struct RosterEntry {
     pub body: String,
 }
 
-/// What a world looks like after one tick: everything that any view can show.
+/// A world after one tick: everything that any view can show.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
     /// Last part of the world's name.
@@ -83,9 +83,9 @@ pub struct FigureSnapshot {
     pub body: Arc<Body>,
     /// Positions and velocities.
     pub state: State,
-    /// What the tick did; `None` before the first.
+    /// The report of the tick; `None` before the first.
     pub report: Option<TickReport>,
-    /// What was asked for at the end of the tick.
+    /// The target at the end of the tick.
     pub desired: Target,
     /// Sequence of the desired-motion frame that acts; −1 if not driven live.
     pub applied_sequence: i64,
@@ -93,13 +93,13 @@ pub struct FigureSnapshot {
     pub applied_source_ns: i64,
     /// Loads carried: segment, point (segment frame, m), mass (kg).
     pub loads: Vec<(SegmentId, Vec3, f64)>,
-    /// What each of the report's touches touches: `figures/{figure}` or `obstacles/{obstacle}`.
+    /// The other side of each of the report's touches: `figures/{figure}` or `obstacles/{obstacle}`.
     pub touched: Vec<String>,
     /// How it follows its motion.
     pub follows: Follows,
 }
 
-/// What happened in a world.
+/// An event of a world.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EventKind {
     /// A segment began to support the figure.
@@ -151,7 +151,7 @@ pub enum EventKind {
     DriveBegan(String),
     /// A driver no longer has the figure: driver, why.
     DriveEnded(String),
-    /// The stream of a drive began anew: driver and reason.
+    /// The stream of a drive restarted: driver and reason.
     DriveResynced(String),
     /// A lease began: holder, and from whom.
     ControlAcquired(String),
@@ -188,7 +188,7 @@ pub struct WorldEvent {
     pub time: f64,
     /// Last part of the figure's name; empty for events of the world.
     pub figure: String,
-    /// What happened.
+    /// The event.
     pub kind: EventKind,
 }
 

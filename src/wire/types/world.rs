@@ -1,22 +1,11 @@
-//! Worlds: what they are asked for, what they are, and what changes.
+//! Worlds: their settings, their state, and changes.
 
 use super::control::ControlInfo;
 use super::figure::FigureInfo;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
-/// A place on the ground: world x, y (m) and heading about z (rad).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Place {
-    /// World x, m.
-    pub x: f64,
-    /// World y, m.
-    pub y: f64,
-    /// Heading about z, rad.
-    pub yaw: f64,
-}
-
-/// What the clock does when a tick takes longer than its period.
+/// How the clock treats a tick that takes longer than its period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Overrun {
     /// Leaves out the deadlines that were missed.
@@ -29,7 +18,7 @@ pub enum Overrun {
 
 /// Settings of a world that may change while it runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Pace {
+pub struct WorldPace {
     /// Name for people.
     pub display_name: String,
     /// Overrun policy.
@@ -55,11 +44,11 @@ pub struct WorldSettings {
     pub friction: f64,
     /// Figures and obstacles touch each other.
     pub collisions: bool,
-    /// What may change later.
-    pub pace: Pace,
+    /// The settings that may change later.
+    pub pace: WorldPace,
 }
 
-/// What a world is doing.
+/// Condition of a world.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WorldCondition {
     /// Its clock runs.
@@ -77,7 +66,7 @@ pub struct WorldInfo {
     pub id: String,
     /// Settings.
     pub settings: WorldSettings,
-    /// What it is doing.
+    /// Its condition.
     pub condition: WorldCondition,
     /// Ticks computed.
     pub tick: u64,
@@ -108,7 +97,7 @@ pub struct WorldUpdate {
 
 impl WorldUpdate {
     /// Changes the settings that it holds.
-    pub fn apply(self, pace: &mut Pace) {
+    pub fn apply(self, pace: &mut WorldPace) {
         if let Some(name) = self.display_name {
             pace.display_name = name;
         }
@@ -137,8 +126,8 @@ pub struct Described {
     pub world: WorldInfo,
     /// Its figures, in the order of creation.
     pub figures: Vec<FigureInfo>,
-    /// Who controls each of them, in the same order.
+    /// The control of each of them, in the same order.
     pub controls: Vec<ControlInfo>,
-    /// When that was so.
+    /// The time of the description.
     pub at: Instant,
 }

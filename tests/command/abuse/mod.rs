@@ -2,7 +2,7 @@
 //! healthy, and a bystander world has the states that it has alone.
 //!
 //! There is one file per kind of attack: `net_…` sends bytes, connections and requests meant to exhaust the server;
-//! `tick_…` takes shared resources: ticks, workers, places. `cargo test --test abuse` runs the short form,
+//! `tick_…` takes shared resources: ticks, workers, places. `cargo test --test command abuse` runs the short form,
 //! `tests/abuse/run.sh` the long one.
 #![cfg(target_os = "linux")] // limits of a process and its memory as Linux tells them
 

@@ -3,7 +3,7 @@
 use sinew_client::Client;
 use sinew_physics::plan::cycle;
 use sinew_server::engine::{self, Planning};
-use sinew_server::tick::scene::{Done, Input, Scene};
+use sinew_server::tick::scene::{InputResult, Scene, SceneInput};
 use sinew_wire::convert;
 use sinew_wire::pb;
 use sinew_wire::types::Playback;
@@ -98,15 +98,15 @@ fn alone(tick: i64) -> i64 {
     // A walk repeats its best cycle.
     let walk = engine::builtin(&body, CLIP).unwrap();
     let clip = Arc::new(cycle(&body, &walk).unwrap_or(walk));
-    let added = scene.apply(Input::AddFigure {
+    let added = scene.apply(SceneInput::AddFigure {
         id: "a".into(),
         settings: Box::new(settings),
         body: Some(body),
     });
-    let Ok(Done::Figure(figure)) = added else {
+    let Ok(InputResult::Figure(figure)) = added else {
         panic!("{added:?}")
     };
-    let played = scene.apply(Input::Play {
+    let played = scene.apply(SceneInput::Play {
         figure,
         name: CLIP.into(),
         clip,

@@ -96,7 +96,6 @@ fn every_long_clamp_is_a_warning() {
     for f in all_fits() {
         let r = &f.fitted.report;
         for c in r
-            .joints
             .clamped
             .iter()
             .filter(|c| c.max.to_degrees() > 5.0 && c.fraction > 0.05)

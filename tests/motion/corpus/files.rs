@@ -23,7 +23,7 @@ fn committed_files_are_what_the_program_writes() {
     }
     assert!(
         wrong.is_empty(),
-        "cargo run --example corpus -- tests/corpus would change {wrong:?}"
+        "cargo run -p tools --bin corpus -- tests/corpus would change {wrong:?}"
     );
     let kept: BTreeSet<String> = std::fs::read_dir(folder())
         .unwrap()

@@ -15,6 +15,7 @@
 
 #[path = "../../../tools/corpus/actor.rs"]
 mod actor;
+#[allow(clippy::module_inception, reason = "named as in the program")]
 #[path = "../../../tools/corpus/corpus.rs"]
 mod corpus;
 #[path = "../../../tools/corpus/dialect.rs"]

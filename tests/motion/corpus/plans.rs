@@ -4,12 +4,14 @@ use crate::common::corpus::piece;
 use crate::corpus::recorded::{RetargetOptions, man, motion, motions};
 use sinew_physics::body::Body;
 use sinew_physics::motion::target::Target;
-use sinew_physics::motion::{Bvh, Clip};
+use sinew_physics::motion::{Clip, read};
 use sinew_physics::plan::cycle;
-use sinew_physics::plan::motion_transition::{NextClip, TransitionCandidates, TransitionClip};
-use sinew_physics::plan::splice::{self, Sample};
+use sinew_physics::plan::motion_transition::{
+    LeavingSamples, NextClip, TransitionCandidates, TransitionClip,
+};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::plan::splice::{self, Sample, StandGoal};
 use sinew_physics::plan::stream;
-use sinew_physics::retarget::retarget;
 use std::sync::Arc;
 
 /// Known time of its motion before and after the moment at which a figure is told to stop, s.
@@ -46,7 +48,7 @@ pub fn stop(body: &Arc<Body>, clip: &Arc<Clip>, at: f64) -> Option<Continued> {
     let leaves = STOP_KNOWN[0] + LEAD;
     let now = (leaves * stream::RATE).round() as usize;
     Some(Continued {
-        clip: splice::stop(body, samples, now, (None, false))?,
+        clip: splice::stop(body, samples, now, StandGoal::default())?,
         before: Box::new(move |t| of(t - STOP_KNOWN[0])),
         leaves,
     })
@@ -70,7 +72,8 @@ pub fn way_over(body: &Arc<Body>, clip: &Arc<Clip>, at: f64, next: &Arc<Clip>) -
         speed: 1.0,
         looped: false,
     };
-    let ways = TransitionCandidates::new(body, samples, (now, now), next);
+    let ways =
+        TransitionCandidates::new(body, samples, LeavingSamples { now, earliest: now }, next);
     let (way, place) = (0..ways.moments().len()).find_map(|k| ways.way(k))?;
     let mut clip = way.clip.clone();
     let (postures, planted) = clip
@@ -102,11 +105,7 @@ pub fn walks() -> Vec<&'static str> {
 pub fn strides(name: &str) -> Arc<Clip> {
     let long = motion(name).duration();
     let part = piece(&format!("{name}.vrm"), 0.3 * long, 0.7 * long);
-    let fitted = retarget(
-        &Bvh::parse(&part).unwrap(),
-        &man(),
-        &RetargetOptions::default(),
-    );
+    let fitted = prepare_recording(&read(&part).unwrap(), &man(), &RetargetOptions::default());
     Arc::new(fitted.unwrap().clip)
 }
 

@@ -6,7 +6,7 @@ use crate::corpus::tracks::DEG;
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::Bvh;
 use sinew_physics::plan::foot_lock::Sole;
-use sinew_physics::retarget::UpAxis;
+use sinew_physics::reference::UpAxis;
 
 /// Rounding of the files (0.005° and up to 0.5 mm) over the length of a limb, m.
 const ROUNDING: f64 = 1e-3;

@@ -5,9 +5,9 @@ use crate::corpus::dialect::Dialect;
 use crate::corpus::plan::Motion;
 use sinew_physics::body::Body;
 use sinew_physics::motion::Bvh;
-use sinew_physics::retarget::Retargeted;
-use sinew_physics::retarget::retarget;
-pub use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::plan::PreparedRecording;
+use sinew_physics::plan::prepare_recording;
+pub use sinew_physics::reference::{Preparation, RetargetOptions};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
@@ -58,7 +58,7 @@ pub fn recordings() -> Vec<(&'static str, Dialect)> {
 pub struct Fit {
     pub motion: &'static Motion,
     pub dialect: Dialect,
-    pub fitted: Retargeted,
+    pub fitted: PreparedRecording,
 }
 
 impl Fit {
@@ -112,8 +112,13 @@ pub fn man() -> Body {
 }
 
 /// A recording fitted to a body.
-pub fn fitted(motion: &str, dialect: &str, body: &Body, options: &RetargetOptions) -> Retargeted {
-    retarget(&bvh(motion, dialect), body, options)
+pub fn fitted(
+    motion: &str,
+    dialect: &str,
+    body: &Body,
+    options: &RetargetOptions,
+) -> PreparedRecording {
+    prepare_recording(&bvh(motion, dialect).recording().unwrap(), body, options)
         .unwrap_or_else(|e| panic!("{motion}.{dialect}: {e}"))
 }
 
@@ -129,7 +134,6 @@ pub struct Foothold {
     pub until: f64,
     pub x: f64,
     pub y: f64,
-    pub yaw: f64,
 }
 
 impl Truth {
@@ -170,7 +174,6 @@ impl Truth {
                 until: of(h, "until"),
                 x: of(h, "x"),
                 y: of(h, "y"),
-                yaw: of(h, "yaw_deg").to_radians(),
             })
             .collect()
     }

@@ -10,8 +10,8 @@ use sinew_physics::body::angles::{anatomical_angles, set_anatomical_angles};
 use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES};
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::{Bvh, Clip};
-use sinew_physics::retarget::Retargeted;
-use sinew_physics::retarget::retarget;
+use sinew_physics::plan::PreparedRecording;
+use sinew_physics::plan::prepare_recording;
 use std::sync::Arc;
 
 /// Differences that rounding in a file leaves, and that preparation does not enlarge: pelvis, m, and angles, degrees.
@@ -20,8 +20,13 @@ const SAME: (f64, f64) = (2e-3, 0.3);
 /// stance moves the foot that pushes off.
 const SAME_RUN: (f64, f64) = (5e-3, 2.0);
 
-fn fit(bvh: &Bvh) -> Retargeted {
-    retarget(bvh, &man(), &RetargetOptions::default()).unwrap()
+fn fit(bvh: &Bvh) -> PreparedRecording {
+    prepare_recording(
+        &bvh.recording().unwrap(),
+        &man(),
+        &RetargetOptions::default(),
+    )
+    .unwrap()
 }
 
 /// The mirror image of a posture: y and −y, left and right are exchanged.

@@ -4,7 +4,7 @@ use crate::common::Scene;
 use crate::corpus::plans;
 use crate::corpus::recorded::{Fit, fits, man};
 use sinew_evaluate::RunReport;
-use sinew_evaluate::experiments::walk::{Walk, Walker, walk};
+use sinew_evaluate::experiments::walk::{WalkTrial, Walker, walk};
 use sinew_physics::figure::ControllerKind;
 use std::sync::Arc;
 
@@ -86,7 +86,7 @@ fn strides_are_walked_from_standing_to_standing() {
         if way.x.hypot(way.y) / clip.duration() > BRISK {
             continue;
         }
-        let w = walk(&Walker::new(&body), &Walk::once(&clip));
+        let w = walk(&Walker::new(&body), &WalkTrial::once(&clip));
         let text = format!(
             "{name}: {:.2} deg, capture point {:.0} mm, slides {:.1} mm",
             w.report.tracking_joint_rms_deg,

@@ -82,7 +82,7 @@ fn hands_that_are_turned_over_for_a_whole_clip_leave_forearms_within_their_limit
         for side in ["l", "r"] {
             let name = format!("{side}_elbow_pronation");
             let d = dof(&name);
-            let clamped = r.report.joints.clamped.iter().find(|c| c.dof == name);
+            let clamped = r.report.clamped.iter().find(|c| c.dof == name);
             assert!(
                 clamped.is_none_or(|c| c.fraction < 0.05),
                 "{twist}°: {clamped:?}"

@@ -9,9 +9,11 @@ use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::builtin::builtin;
 use sinew_physics::motion::leg_ik::forward;
 use sinew_physics::motion::{Bvh, Clip};
+use sinew_physics::plan::PreparedRecording;
 use sinew_physics::plan::foot_lock::Sole;
-use sinew_physics::retarget::{Preparation, retarget};
-use sinew_physics::retarget::{RetargetOptions, Retargeted};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::Preparation;
+use sinew_physics::reference::RetargetOptions;
 use std::fmt::Write;
 
 /// Samples per second of the built-in motions.
@@ -154,9 +156,9 @@ impl File {
         self
     }
 
-    pub fn read(&self, body: &Body, options: &RetargetOptions) -> Retargeted {
+    pub fn read(&self, body: &Body, options: &RetargetOptions) -> PreparedRecording {
         let bvh = Bvh::parse(self.text().as_bytes()).unwrap();
-        retarget(&bvh, body, options).unwrap()
+        prepare_recording(&bvh.recording().unwrap(), body, options).unwrap()
     }
 }
 

@@ -5,13 +5,14 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use sinew_physics::body::Body;
 use sinew_physics::motion::Bvh;
-use sinew_physics::retarget::RetargetOptions;
-use sinew_physics::retarget::retarget;
+use sinew_physics::motion::read;
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::{RetargetError, RetargetOptions};
 
 fn refuse(text: &str) -> String {
-    match Bvh::parse(text.as_bytes()) {
+    match read(text.as_bytes()) {
         Err(e) => e.to_string(),
-        Ok(bvh) => retarget(&bvh, &Body::adult_man(), &RetargetOptions::default())
+        Ok(file) => prepare_recording(&file, &Body::adult_man(), &RetargetOptions::default())
             .map(|_| ())
             .unwrap_err()
             .to_string(),
@@ -83,7 +84,14 @@ fn names_that_joints_share_are_named_and_never_guessed_between() {
         lines[0], lines[1]
     );
     assert_eq!(bvh.warnings, [said]);
-    assert!(retarget(&bvh, &Body::adult_man(), &RetargetOptions::default()).is_ok());
+    assert!(
+        prepare_recording(
+            &bvh.recording().unwrap(),
+            &Body::adult_man(),
+            &RetargetOptions::default()
+        )
+        .is_ok()
+    );
 }
 
 #[test]
@@ -130,7 +138,10 @@ fn damaged_files_are_refused_by_line_or_frame_and_never_panic() {
             }
             Ok(bvh) if read < 60 => {
                 // A readable file gives a clip or a reason.
-                if let Err(e) = retarget(&bvh, &body, &RetargetOptions::default()) {
+                let options = RetargetOptions::default();
+                let fitted = bvh.recording().map_err(RetargetError::from);
+                let fitted = fitted.and_then(|r| prepare_recording(&r, &body, &options));
+                if let Err(e) = fitted {
                     assert!(!e.to_string().is_empty());
                 }
                 read += 1;
@@ -162,7 +173,10 @@ fn huge_numbers_in_frames_are_an_error_or_a_clip() {
             }
         }
         let bvh = Bvh::parse(file.text().as_bytes()).unwrap();
-        if let Ok(r) = retarget(&bvh, &body, &RetargetOptions::default()) {
+        let Ok(recording) = bvh.recording() else {
+            continue;
+        };
+        if let Ok(r) = prepare_recording(&recording, &body, &RetargetOptions::default()) {
             let finite = |i: usize| r.clip.posture(i).root_position.is_finite();
             assert!((0..r.clip.len()).all(finite), "round {round}");
         }

@@ -4,7 +4,7 @@ use crate::reading::file::{File, bare, motion, turned};
 use sinew_physics::body::Body;
 use sinew_physics::body::topology::{L_UPPER_ARM, R_FOREARM};
 use sinew_physics::math::{Quat, Vec3};
-use sinew_physics::retarget::Retargeted;
+use sinew_physics::plan::PreparedRecording;
 
 /// The motion `name` with the figure turned by 120° about the vertical.
 fn turned_file(body: &Body, name: &str) -> File {
@@ -13,7 +13,7 @@ fn turned_file(body: &Body, name: &str) -> File {
 }
 
 /// The same postures from the same frame of the file on, within `most` m and 5 cm.
-fn same(plain: &Retargeted, other: &Retargeted, later: usize) {
+fn same(plain: &PreparedRecording, other: &PreparedRecording, later: usize) {
     for i in (0..other.clip.len()).step_by(7) {
         let (a, b) = (plain.clip.posture(i + later), other.clip.posture(i));
         let up = b.root_rotation.rotate(Vec3::Z).z;

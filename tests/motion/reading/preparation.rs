@@ -9,7 +9,7 @@ use sinew_physics::math::curve::smoothstep;
 use sinew_physics::math::vec3::vec3;
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::leg_ik::{forward, solve_leg};
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::reference::{Preparation, RetargetOptions};
 
 /// Stands, squats down until the pelvis is `height` m over the floor and leans by `lean` rad, and stands up again; the
 /// feet stay in place.

@@ -6,11 +6,12 @@ use sinew_physics::body::{Body, DOF_COUNT, Links, NV, State};
 use sinew_physics::contact::Tissue;
 use sinew_physics::dynamics::Terms;
 use sinew_physics::figure::StrengthScale;
-use sinew_physics::figure::torque_step::{
-    ExternalForces, MotorCommand, StepInput, Stepper, TickStart, TorqueRange, TorqueStepper,
+use sinew_physics::stepper::command::{
+    MotorCommand, StepForces, StepInput, Stepper, TickStart, TorqueRange,
 };
-use sinew_physics::figure::{Planning, TickContext};
+use sinew_physics::stepper::torque_step::TorqueStepper;
 use sinew_physics::strength::{MuscleScale, Strength};
+use sinew_physics::tick_context::{Planning, TickContext};
 use std::sync::Arc;
 
 /// Coefficient of its floor.
@@ -77,7 +78,7 @@ impl Bare {
             last_acceleration: &[0.0; NV],
             command: &command,
             tissue,
-            forces: ExternalForces {
+            forces: StepForces {
                 applied: &[],
                 bar: None,
                 assist: None,

@@ -11,7 +11,7 @@ use sinew_physics::collide::{Mobility, Shape};
 use sinew_physics::figure::{ControllerKind, FigureEvent, Perturbation};
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::{Clip, PlanarTransform};
-use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
+use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
 /// A participant of an encounter at the world's origin.
@@ -99,7 +99,10 @@ fn add(world: &mut World, (body, clip): &Person, comer: Comer, back: f64) -> Fig
             origin,
             ..ClipPlayback::new(Arc::clone(clip), 0.0)
         };
-        world.figure_mut(key).unwrap().set_drive(Drive::Clip(walk));
+        world
+            .figure_mut(key)
+            .unwrap()
+            .set_drive(MotionSource::Clip(walk));
     }
     key
 }

@@ -7,12 +7,12 @@ use crate::common::{Scene, authored, bent, figure, man, play, still, synthesised
 use sinew_physics::body::topology::{DOF_START, HEAD, L_FOOT, L_HAND, PELVIS, R_HAND};
 use sinew_physics::body::{Posture, SegmentId, State};
 use sinew_physics::dynamics::Terms;
-use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::motion::tasks::grip;
 use sinew_physics::figure::{
     Constrained, Constraint, ControllerKind, FigureOptions, Perturbation, StepperKind,
 };
 use sinew_physics::math::{Mat3, Quat, Vec3};
-use sinew_physics::world::{ClipPlayback, Drive, WorldError};
+use sinew_physics::world::{ClipPlayback, MotionSource, WorldError};
 use std::sync::Arc;
 
 const BOTH: [ControllerKind; 2] = [ControllerKind::Modern, ControllerKind::Paper];
@@ -160,7 +160,7 @@ fn a_hand_is_held_while_walking() {
             looped: true,
             ..ClipPlayback::new(Arc::clone(&walk), 0.0)
         };
-        scene.figure_mut().set_drive(Drive::Clip(playback));
+        scene.figure_mut().set_drive(MotionSource::Clip(playback));
         let (mut worst, mut nearest) = (0.0f64, f64::INFINITY);
         let (mut joints, mut ticks) = (0.0, 0.0);
         // Positions of the pelvis: its pace is that of the last cycle.

@@ -42,7 +42,7 @@ fn flight(substeps: u32, moving: bool) -> [f64; 4] {
         let other = authored(&body, "wave").sample(2.0).posture;
         scene
             .figure_mut()
-            .set_drive(sinew_physics::world::Drive::Hold(other));
+            .set_drive(sinew_physics::world::MotionSource::Hold(other));
     }
     let links = scene.figure().links().clone();
     let start = integrals(&links, &state);

@@ -7,7 +7,7 @@ use sinew_physics::body::{Body, Posture, Sex};
 use sinew_physics::figure::{ControllerKind, FigureEvent};
 use sinew_physics::math::vec3::vec3;
 use sinew_physics::math::{Quat, Vec3};
-use sinew_physics::world::{ClipPlayback, Drive};
+use sinew_physics::world::{ClipPlayback, MotionSource};
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ fn gets_up(body: &Arc<Body>, lying: Posture) -> Option<f64> {
     scene.run(1.0, |_| ());
     let start = scene.world.time() - LIES;
     let clip = ClipPlayback::new(synthesised(body, "lie-down.vrm"), start);
-    scene.figure_mut().set_drive(Drive::Clip(clip));
+    scene.figure_mut().set_drive(MotionSource::Clip(clip));
     let (mut begins, mut up) = (None, None);
     let end = scene.world.time() + PATIENCE;
     while scene.world.time() < up.map_or(end, |t| t + STANDS) {

@@ -4,16 +4,20 @@
 //! forces on both.
 
 use crate::common::man;
-use sinew_evaluate::experiments::Pair;
+use sinew_evaluate::experiments::ControlPair;
 use sinew_evaluate::experiments::touching::{
-    Against, Prop, Reach, Support, bump, hand_support, reach,
+    ArmReach, HandSupport, Prop, ReachObstacle, bump, hand_support, reach,
 };
 
-fn pairs() -> [Pair; 3] {
-    [Pair::modern(), Pair::paper_torque(), Pair::motors()]
+fn pairs() -> [ControlPair; 3] {
+    [
+        ControlPair::modern(),
+        ControlPair::paper_torque(),
+        ControlPair::motors(),
+    ]
 }
 
-fn say(what: &str, s: &Support) -> String {
+fn say(what: &str, s: &HandSupport) -> String {
     let text = format!(
         "{what}: {}; hand {:.0} {:.0} {:.0} N, {:.0} N into the face, floor {:.0} + {:.0} of {:.0} N, touching {:.2}, \
          cone {:.4}",
@@ -78,7 +82,7 @@ fn an_arm_that_is_too_weak_lets_go() {
 fn the_ratio_of_the_hand_rises_towards_its_side() {
     let body = man();
     for prop in [Prop::Table, Prop::Desk] {
-        let s = hand_support(&body, &Pair::paper_torque(), prop, 1.0, 0);
+        let s = hand_support(&body, &ControlPair::paper_torque(), prop, 1.0, 0);
         let [(far, low), (near, high)] = s.ratio;
         let text = say(&format!("{prop:?}, {low} at {far}, {high} at {near}"), &s);
         assert!(near > far && high > low && low > 0.01, "{text}");
@@ -89,9 +93,9 @@ fn the_ratio_of_the_hand_rises_towards_its_side() {
 #[test]
 fn an_arm_stays_where_it_touches_while_it_has_torque_and_parts_when_not() {
     let body = man();
-    for against in [Against::Wall, Against::Other] {
+    for against in [ReachObstacle::Wall, ReachObstacle::Other] {
         let [strong, weak] =
-            [1.0, 0.15].map(|arm| reach(&body, &Pair::paper_staged(), against, arm, 0));
+            [1.0, 0.15].map(|arm| reach(&body, &ControlPair::paper_staged(), against, arm, 0));
         for (r, what) in [(&strong, "strong"), (&weak, "weak")] {
             println!(
                 "{against:?}, {what}: {}, met {:?}, {:.1?} N, overlap {:.1} mm, torques {:.2}",
@@ -103,7 +107,7 @@ fn an_arm_stays_where_it_touches_while_it_has_torque_and_parts_when_not() {
             );
             assert!(r.overlap < 0.006 && r.unequal < 1e-9 && r.over_limit < 1e-9);
         }
-        let touching = |r: &Reach| r.met.map_or(0.0, |m| m.1);
+        let touching = |r: &ArmReach| r.met.map_or(0.0, |m| m.1);
         assert_eq!(strong.record.fell_s, None);
         assert_eq!(strong.handed_over, 0.0, "accelerations move it throughout");
         assert!(touching(&strong) > 0.9 && touching(&weak) < 0.3);

@@ -2,12 +2,14 @@
 //! go of a motion that it cannot hold. Streams and held postures follow one rule.
 
 use crate::common::{Scene, bent, corpus, figure, man, still};
-use sinew_evaluate::survey::{Conditions, Outcome, Reference, watched};
+use sinew_evaluate::survey::{SurveyOutcome, watched};
 use sinew_physics::body::topology::CHEST;
 use sinew_physics::figure::{ControllerKind, Figure, FigureOptions, Perturbation, StrengthScale};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::Bvh;
-use sinew_physics::retarget::{Preparation, RetargetOptions, retarget};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::rehearsal::{Conditions, TrackingReference};
 use sinew_physics::world::WorldParams;
 use std::sync::Arc;
 
@@ -17,14 +19,18 @@ const STATURE: f64 = 1.75;
 const MOST: f64 = 0.3;
 
 /// Streams a recording of the corpus to the average man through a window of a second.
-fn streamed(name: &str, max_help: f64, watch: impl FnMut(&Figure, f64)) -> Outcome {
+fn streamed(name: &str, max_help: f64, watch: impl FnMut(&Figure, f64)) -> SurveyOutcome {
     let body = man();
     let bvh = Bvh::parse(&corpus::read(name)).unwrap();
     let options = RetargetOptions {
         preparation: Preparation::NONE,
         ..RetargetOptions::default()
     };
-    let recorded = Arc::new(retarget(&bvh, &body, &options).unwrap().clip);
+    let recorded = Arc::new(
+        prepare_recording(&bvh.recording().unwrap(), &body, &options)
+            .unwrap()
+            .clip,
+    );
     let conditions = Conditions {
         body,
         world: WorldParams::default(),
@@ -37,7 +43,7 @@ fn streamed(name: &str, max_help: f64, watch: impl FnMut(&Figure, f64)) -> Outco
         live_window: Some(1.0),
         rehearsed: None,
     };
-    watched(&conditions, &Reference::authored(recorded), watch).unwrap()
+    watched(&conditions, &TrackingReference::authored(recorded), watch).unwrap()
 }
 
 #[test]

@@ -3,12 +3,12 @@
 //! of the motion still with 3 kg.
 
 use crate::common::{Scene, figure, man, play};
-use sinew_evaluate::experiments::Pair;
+use sinew_evaluate::experiments::ControlPair;
 use sinew_evaluate::experiments::lift::{is_arm, weak_arm};
-use sinew_evaluate::experiments::person::{Candidate, trial};
+use sinew_evaluate::experiments::person::{Lifter, trial};
 use sinew_physics::body::topology::{DOF_NAMES, R_HAND};
 use sinew_physics::body::{DOF_COUNT, Profile, Sex};
-use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::motion::tasks::grip;
 use sinew_physics::figure::{ControllerKind, Perturbation, StepperKind};
 use sinew_physics::motion::builtin::{LIFT_GRASP, LiftEnd, builtin};
 use sinew_physics::world::WorldParams;
@@ -202,7 +202,7 @@ fn modern_keeps_its_balance_under_every_load() {
 /// No arm is scaled here: the person is the one found by the search of `sinew paper`, with the strength of the tables.
 #[test]
 fn a_named_person_lifts_as_the_paper_shows() {
-    let candidate = Candidate {
+    let candidate = Lifter {
         profile: Profile::ordinary(Sex::Female, 18.0),
         percentile: 5.0,
         end: LiftEnd {
@@ -210,7 +210,7 @@ fn a_named_person_lifts_as_the_paper_shows() {
             reach: 0.45,
         },
     };
-    let t = trial(&candidate, &Pair::paper_kinematic(), 0).expect("worth a run");
+    let t = trial(&candidate, &ControlPair::paper_kinematic(), 0).expect("worth a run");
     for r in &t.results {
         println!(
             "{} kg: {}, {:.2}° rms, knees, hips, back {:.1?}°, bends {:.1}°, at the fall {:.0}°, jerk {:.1}",

@@ -5,7 +5,7 @@
 use super::{GRAVITY, vec3};
 use crate::common::{Scene, authored, figure, man, people, still};
 use sinew_evaluate::audit::audit;
-use sinew_evaluate::experiments::Pair;
+use sinew_evaluate::experiments::ControlPair;
 use sinew_evaluate::experiments::second_hand::{Rung, rung};
 use sinew_evaluate::pose::segment_poses;
 use sinew_physics::body::palm::load_point;
@@ -16,7 +16,7 @@ use sinew_physics::figure::{
 };
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::builtin::LIFT_GRASP;
-use sinew_physics::world::{Drive, WorldError};
+use sinew_physics::world::{MotionSource, WorldError};
 use std::sync::Arc;
 
 fn held(body: &Body, mass: f64, from: f64) -> HeldLoad {
@@ -71,8 +71,8 @@ fn the_other_hand_helps_who_is_too_weak_and_the_load_comes_up() {
     let (mut shared, mut alone) = (0, 0);
     for body in &everyone {
         for (pair, masses) in [
-            (Pair::modern(), &[1.0, 3.0, 5.0, 12.0][..]),
-            (Pair::paper_torque(), &[1.0, 3.0]),
+            (ControlPair::modern(), &[1.0, 3.0, 5.0, 12.0][..]),
+            (ControlPair::paper_torque(), &[1.0, 3.0]),
         ] {
             for mass in masses.iter().copied() {
                 let one = rung(body, &pair, mass, None, 0);
@@ -191,7 +191,7 @@ fn the_hand_lets_go_and_goes_back_when_one_arm_is_enough() {
     let clip = sinew_physics::motion::Clip::from_postures("down", 40.0, postures, planted).unwrap();
     let now = scene.world.time();
     let play = sinew_physics::world::ClipPlayback::new(Arc::new(clip), now);
-    scene.figure_mut().set_drive(Drive::Clip(play));
+    scene.figure_mut().set_drive(MotionSource::Clip(play));
     let mut gone = None;
     scene.run(5.0, |s| {
         if lets_go(s) {

@@ -4,9 +4,9 @@
 use crate::common::{Scene, bent, figure, man, still};
 use sinew_physics::body::topology::CHEST;
 use sinew_physics::collide::shape::BodyShape;
-use sinew_physics::figure::self_contact::distances;
 use sinew_physics::figure::{ControllerKind, Perturbation, StrengthScale};
 use sinew_physics::math::Vec3;
+use sinew_physics::stepper::self_contact::distances;
 
 /// Depth of the deepest pair of segments in three seconds after a push, m, and the states.
 fn knocked_down(self_contact: bool, push: Vec3, strength: f64) -> (f64, Vec<[f64; 3]>) {

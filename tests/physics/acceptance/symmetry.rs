@@ -11,11 +11,11 @@ use sinew_physics::body::topology::{
     CHEST, DOF_LEN, DOF_START, JOINT, Joint, R_HAND, SEGMENT_NAMES,
 };
 use sinew_physics::body::{DOF_COUNT, Posture, SEGMENT_COUNT, SegmentId, State};
-use sinew_physics::figure::tasks::grip;
+use sinew_physics::figure::motion::tasks::grip;
 use sinew_physics::figure::{ControllerKind, Perturbation, StepperKind};
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::{Clip, PlanarTransform};
-use sinew_physics::world::{ClipPlayback, Drive};
+use sinew_physics::world::{ClipPlayback, MotionSource};
 use std::sync::Arc;
 
 /// Largest difference relative to the scale of each quantity.
@@ -123,7 +123,7 @@ fn scene(
     setup.stepper = case.stepper;
     let mut scene = Scene::of(setup);
     let drive = match play(&clip) {
-        Drive::Clip(p) => Drive::Clip(ClipPlayback { origin, ..p }),
+        MotionSource::Clip(p) => MotionSource::Clip(ClipPlayback { origin, ..p }),
         other => other,
     };
     scene.figure_mut().set_drive(drive);

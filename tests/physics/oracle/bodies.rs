@@ -1,4 +1,4 @@
-//! Random bodies, states and loads, seeded; shared by the tests and by `examples/dump_dynamics.rs`.
+//! Random bodies, states and loads, seeded; shared by the tests and by `tools/dump_dynamics.rs`.
 //!
 //! The bodies share only the tree with humans: they have skew inertias, centres of mass off every axis, and joints
 //! anywhere. A result that holds for them holds for any body.

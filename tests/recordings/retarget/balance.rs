@@ -4,7 +4,7 @@ use super::{take, text};
 use crate::common::mocap;
 use sinew_physics::body::{Body, Posture};
 use sinew_physics::plan::feasibility::{Consistency, consistency};
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::reference::{Preparation, RetargetOptions};
 
 /// A recording fitted to the body, and prepared, judged on the feet that are planted according to its labels.
 fn before_and_after(body: &Body, name: &str) -> [Consistency; 2] {

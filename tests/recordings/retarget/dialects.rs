@@ -5,7 +5,7 @@ use super::{same, take};
 use sinew_physics::body::Body;
 use sinew_physics::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew_physics::motion::leg_ik::forward;
-use sinew_physics::retarget::{FileFacts, Preparation, RetargetOptions, UpAxis};
+use sinew_physics::reference::{FileFacts, Preparation, RetargetOptions, UpAxis};
 
 /// Names of the CMU skeleton's limbs in other dialects. CMU's `LeftHand` only twists the forearm; its `LeftFingerBase`
 /// is the wrist.

@@ -3,7 +3,8 @@
 use super::source::Source;
 use super::{same, take, text};
 use sinew_physics::body::Body;
-use sinew_physics::retarget::{FileFacts, RetargetError, RetargetOptions};
+use sinew_physics::motion::RecordingError;
+use sinew_physics::reference::{FileFacts, RetargetError, RetargetOptions};
 
 #[test]
 fn poses_before_the_motion_and_glitches_are_taken_out() {
@@ -131,7 +132,10 @@ fn errors_name_what_is_missing() {
     }
     let mut one = source.clone();
     one.rows.truncate(1);
-    assert!(matches!(go(&one, &auto), RetargetError::TooShort(1)));
+    assert!(matches!(
+        go(&one, &auto),
+        RetargetError::Recording(RecordingError::TooShort(1))
+    ));
     let stick = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nJOINT LeftArm\n{\n\
         OFFSET 0 1 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 2\n\
         Frame Time: 0.01\n0 0 0 0 0 0\n0 0 0 0 0 0\n";

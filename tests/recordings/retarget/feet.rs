@@ -7,7 +7,7 @@ use sinew_physics::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew_physics::body::{Body, Posture};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::leg_ik::forward;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::reference::{Preparation, RetargetOptions};
 
 /// Heel, toe joint and tip of the toes of both feet, and the lowest point of either sole.
 fn soles(body: &Body, posture: &Posture) -> [([Vec3; 3], f64); 2] {
@@ -78,7 +78,7 @@ fn planted_feet_neither_slide_nor_sink() {
                 }
             }
             assert!(
-                r.report.feet.slide.1 < 1e-3 && r.report.feet.penetration.1 < 1e-3,
+                r.report.feet.slide.prepared < 1e-3 && r.report.feet.penetration.prepared < 1e-3,
                 "{name}: {:?}",
                 r.report
             );

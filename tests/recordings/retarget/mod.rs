@@ -14,10 +14,12 @@ use sinew_physics::body::Body;
 use sinew_physics::body::angles::anatomical_angles;
 use sinew_physics::body::topology::{DOF_NAMES, L_FOOT, L_THIGH, R_FOOT, R_THIGH};
 use sinew_physics::math::Vec3;
-use sinew_physics::motion::Bvh;
 use sinew_physics::motion::leg_ik::forward;
-use sinew_physics::retarget::{Preparation, retarget};
-use sinew_physics::retarget::{RetargetError, RetargetOptions, Retargeted, UpAxis};
+use sinew_physics::motion::{Bvh, read};
+use sinew_physics::plan::PreparedRecording;
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::Preparation;
+use sinew_physics::reference::{RetargetError, RetargetOptions, UpAxis};
 
 fn text(name: &str) -> String {
     String::from_utf8(mocap::read(&format!("{name}.bvh"))).unwrap()
@@ -27,12 +29,16 @@ fn stats() -> serde_json::Value {
     serde_json::from_slice(&mocap::read("stats.json")).unwrap()
 }
 
-fn take(text: &str, body: &Body, options: &RetargetOptions) -> Result<Retargeted, RetargetError> {
-    retarget(&Bvh::parse(text.as_bytes()).unwrap(), body, options)
+fn take(
+    text: &str,
+    body: &Body,
+    options: &RetargetOptions,
+) -> Result<PreparedRecording, RetargetError> {
+    prepare_recording(&read(text.as_bytes())?, body, options)
 }
 
 /// Largest difference of two motions: pelvis (m) and joint angles (rad), first samples of the second left out.
-fn difference(a: &Retargeted, b: &Retargeted) -> (f64, f64) {
+fn difference(a: &PreparedRecording, b: &PreparedRecording) -> (f64, f64) {
     assert_eq!(a.clip.len(), b.clip.len());
     let mut worst = (0.0f64, 0.0f64);
     for i in 0..a.clip.len() {
@@ -46,7 +52,7 @@ fn difference(a: &Retargeted, b: &Retargeted) -> (f64, f64) {
 }
 
 #[track_caller]
-fn same(a: &Retargeted, b: &Retargeted, what: &str) {
+fn same(a: &PreparedRecording, b: &PreparedRecording, what: &str) {
     let d = difference(a, b);
     assert!(
         d.0 < 2e-3 && d.1 < 0.01,

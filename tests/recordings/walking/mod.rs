@@ -12,7 +12,7 @@ mod pieces;
 mod pushes;
 
 use crate::common::{figure, man, mocap, recorded, recorded_with};
-use sinew_evaluate::experiments::walk::{self as experiments, Walk, Walker};
+use sinew_evaluate::experiments::walk::{self as experiments, WalkTrial, Walker};
 use sinew_physics::body::topology::{CHEST, L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew_physics::body::{Body, Links, Posture, Profile, SegmentId, Sex};
 use sinew_physics::dynamics::{Kinematics, momentum};
@@ -21,9 +21,9 @@ use sinew_physics::math::Vec3;
 use sinew_physics::motion::leg_ik::forward;
 use sinew_physics::motion::{Bvh, Clip};
 use sinew_physics::plan::cycle;
-use sinew_physics::retarget::retarget;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
-use sinew_physics::world::{ClipPlayback, Drive, FigureKey, World, WorldParams};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
 const RATE: f64 = 60.0;
@@ -36,7 +36,7 @@ fn playing(body: &Arc<Body>, clip: Arc<Clip>, from: f64, looped: bool) -> (World
         .add_figure(figure(body, ControllerKind::Modern, start.state()))
         .unwrap();
     let figure = world.figure_mut(key).unwrap();
-    figure.set_drive(Drive::Clip(ClipPlayback {
+    figure.set_drive(MotionSource::Clip(ClipPlayback {
         looped,
         ..ClipPlayback::new(clip, -from)
     }));
@@ -105,7 +105,7 @@ fn walks_start_from_standing_and_stop() {
             let stands = posture.root_position.z > 0.8 && planted == [true; 2];
             assert!(way == 0.0 || stands, "{name}: {planted:?}, {posture:?}");
         }
-        let w = experiments::walk(&Walker::new(&body), &Walk::once(&clip));
+        let w = experiments::walk(&Walker::new(&body), &WalkTrial::once(&clip));
         let rms = w.report.tracking_joint_rms_deg;
         let text = format!(
             "{name}: {rms:.2} deg, capture point {:.0} mm, slides {:.1} mm, floor pushes {:.2} weights",
@@ -220,7 +220,10 @@ fn the_old_and_the_weak_walk_it_too() {
             strength,
             ..Walker::new(&body)
         };
-        let w = experiments::walk(&walker, &Walk::over_and_over(&Arc::new(walk_cycle), 20.0));
+        let w = experiments::walk(
+            &walker,
+            &WalkTrial::over_and_over(&Arc::new(walk_cycle), 20.0),
+        );
         let text = format!(
             "{age} years, {strength}: {:.2} deg, {:.3} m",
             w.report.tracking_joint_rms_deg, w.capture[1]
@@ -239,8 +242,13 @@ fn a_run_that_is_walked_comes_to_a_stand() {
     let mut runs = 0;
     for name in mocap::on_feet() {
         let bvh = Bvh::parse(&mocap::read(&format!("{name}.bvh"))).unwrap();
-        let plain = retarget(&bvh, &body, &RetargetOptions::default()).unwrap();
-        let asked = retarget(&bvh, &body, &walked()).unwrap();
+        let plain = prepare_recording(
+            &bvh.recording().unwrap(),
+            &body,
+            &RetargetOptions::default(),
+        )
+        .unwrap();
+        let asked = prepare_recording(&bvh.recording().unwrap(), &body, &walked()).unwrap();
         if plain.report.runs.speed.is_none() {
             // Motions that do not run are unchanged.
             assert!(plain.clip.samples().eq(asked.clip.samples()), "{name}");

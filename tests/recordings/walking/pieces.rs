@@ -2,10 +2,10 @@
 //! off are in `tests/corpus`.
 
 use crate::common::{man, mocap};
-use sinew_evaluate::experiments::walk::{self as experiments, Walk, Walker};
+use sinew_evaluate::experiments::walk::{self as experiments, WalkTrial, Walker};
 use sinew_physics::motion::Bvh;
-use sinew_physics::retarget::retarget;
-use sinew_physics::retarget::{Preparation, RetargetOptions};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::{Preparation, RetargetOptions};
 use std::sync::Arc;
 
 /// A recording with its frames replaced; `of` receives the frames and the duration of each, s.
@@ -33,8 +33,12 @@ fn recordings_are_followed_backwards_too() {
     let (mut all, mut followed) = (0, 0);
     for name in mocap::on_feet() {
         let bvh = with_frames(name, |frames, _| frames.into_iter().rev().collect());
-        let clip = Arc::new(retarget(&bvh, &body, &options).unwrap().clip);
-        let w = experiments::walk(&Walker::new(&body), &Walk::once(&clip));
+        let clip = Arc::new(
+            prepare_recording(&bvh.recording().unwrap(), &body, &options)
+                .unwrap()
+                .clip,
+        );
+        let w = experiments::walk(&Walker::new(&body), &WalkTrial::once(&clip));
         let rms = w.report.tracking_joint_rms_deg;
         let text = format!(
             "{name}, backwards: {rms:.2} deg, capture point {:.0} mm, fell {:?}",

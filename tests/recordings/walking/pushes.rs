@@ -3,7 +3,7 @@
 
 use super::{RATE, playing};
 use crate::common::{man, recorded};
-use sinew_evaluate::experiments::walk::{self as experiments, Walk, Walker};
+use sinew_evaluate::experiments::walk::{self as experiments, WalkTrial, Walker};
 use sinew_physics::body::topology::{
     CHEST, L_FOOT, L_SHANK, L_THIGH, L_TOES, R_FOOT, R_SHANK, R_THIGH, R_TOES,
 };
@@ -263,10 +263,10 @@ fn who_has_come_to_a_stand_steps_when_pushed() {
     for direction in 0..4 {
         let (y, x) = (2.0 * FRAC_PI_4 * f64::from(direction)).sin_cos();
         let impulse = Vec3 { x, y, z: 0.0 } * 38.0;
-        let pushed = Walk {
+        let pushed = WalkTrial {
             push: Some((over + 1.5, impulse)),
             seconds: over + 6.0,
-            ..Walk::once(&clip)
+            ..WalkTrial::once(&clip)
         };
         let w = experiments::walk(&Walker::new(&body), &pushed);
         assert!(w.stood(), "direction {direction}: fell at {:?} s", w.fell_s);

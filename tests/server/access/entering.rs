@@ -9,7 +9,8 @@ use sinew_physics::motion::Bvh;
 use sinew_physics::motion::builtin::builtin;
 use sinew_physics::motion::clip::PlanarTransform;
 use sinew_physics::plan::cycle;
-use sinew_physics::retarget::{RetargetOptions, retarget};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::RetargetOptions;
 use sinew_wire::pb;
 use std::sync::Arc;
 
@@ -109,9 +110,13 @@ async fn from_all_phases(motion: Motion, (from, within): (f64, f64), long: f64) 
 async fn a_figure_that_stands_comes_into_a_walk_whose_beginning_it_has_missed() {
     let body = Body::adult_man();
     let bvh = Bvh::parse(&corpus::piece("walk-normal.vrm", 1.8, 5.4)).unwrap();
-    let clip = retarget(&bvh, &body, &RetargetOptions::default())
-        .unwrap()
-        .clip;
+    let clip = prepare_recording(
+        &bvh.recording().unwrap(),
+        &body,
+        &RetargetOptions::default(),
+    )
+    .unwrap()
+    .clip;
     let walk = cycle(&body, &clip).unwrap();
     let round = walk.duration();
     let motion: Motion = Arc::new(move |t| walk.sample_looped(t).posture);

@@ -7,7 +7,8 @@ use sinew_physics::body::{Body, Posture};
 use sinew_physics::motion::Bvh;
 use sinew_physics::motion::clip::PlanarTransform;
 use sinew_physics::plan::cycle;
-use sinew_physics::retarget::{RetargetOptions, retarget};
+use sinew_physics::plan::prepare_recording;
+use sinew_physics::reference::RetargetOptions;
 use sinew_server::access::roles::Role;
 use sinew_wire::convert::motion::figure_motion;
 use sinew_wire::pb;
@@ -602,9 +603,13 @@ async fn hand_over(offered: f64, phase: f64) -> f64 {
     let (alice, bob) = (scene.someone("alice").await, scene.someone("bob").await);
     let body = Body::adult_man();
     let bvh = Bvh::parse(&corpus::piece("walk-normal.vrm", 1.8, 5.4)).unwrap();
-    let clip = retarget(&bvh, &body, &RetargetOptions::default())
-        .unwrap()
-        .clip;
+    let clip = prepare_recording(
+        &bvh.recording().unwrap(),
+        &body,
+        &RetargetOptions::default(),
+    )
+    .unwrap()
+    .clip;
     let walk = cycle(&body, &clip).unwrap();
     let posture = |t: f64| walk.sample_looped(t).posture;
     let ahead = |t: f64| posture(t + phase);

@@ -4,7 +4,7 @@ use rcgen::{BasicConstraints, CertificateParams, CertifiedIssuer, DnType, IsCa, 
 use sinew_client::{Client, ConnectError, Credentials};
 use sinew_server::access::roles::Role;
 use sinew_server::access::tokens::{NewToken, create_secret, read_secret, sign};
-use sinew_server::api::App;
+use sinew_server::app::App;
 use sinew_server::config::Config;
 use sinew_wire::pb;
 use std::net::SocketAddr;

@@ -5,8 +5,10 @@ use crate::fuzz::runner;
 use proptest::prelude::*;
 use sinew_physics::body::{Body, NV};
 use sinew_server::engine;
-use sinew_server::ingest::jitter_buffer::Frame;
-use sinew_server::tick::scene::{Done, Input, Reader, Record, Scene, Unreadable};
+use sinew_server::ingest::jitter_buffer::BufferedFrame;
+use sinew_server::tick::scene::{
+    InputResult, RecordReader, RoundRecord, Scene, SceneInput, Unreadable,
+};
 use sinew_wire::convert;
 use sinew_wire::pb;
 use sinew_wire::types::{Delay, DriveSettings, Playback};
@@ -15,23 +17,23 @@ use std::sync::Arc;
 use std::time::Instant;
 
 /// Records with items of every kind that a world produces.
-fn records() -> Vec<Record> {
+fn records() -> Vec<RoundRecord> {
     let settings = convert::world::settings(Some(pb::World::default())).unwrap();
     let mut scene = Scene::new(settings).unwrap();
     scene.keep_records();
     let body = Arc::new(Body::adult_man());
     let mut out = Vec::new();
-    let add = Input::AddFigure {
+    let add = SceneInput::AddFigure {
         id: "a".into(),
         settings: Box::new(convert::figure::settings("", Some(&pb::Figure::default())).unwrap()),
         body: Some(Arc::clone(&body)),
     };
-    let Ok(Done::Figure(figure)) = scene.apply(add) else {
+    let Ok(InputResult::Figure(figure)) = scene.apply(add) else {
         panic!("the figure is refused")
     };
     out.extend(scene.take_record());
     let walk = Arc::new(engine::builtin(&body, "walk").unwrap());
-    let play = Input::Play {
+    let play = SceneInput::Play {
         figure,
         name: "walk".into(),
         clip: walk,
@@ -46,7 +48,7 @@ fn records() -> Vec<Record> {
     };
     scene.apply(play).unwrap();
     out.extend(scene.take_record());
-    let follow = Input::Follow {
+    let follow = SceneInput::Follow {
         figure,
         settings: DriveSettings {
             rate_hz: 60.0,
@@ -60,13 +62,13 @@ fn records() -> Vec<Record> {
         window: 0.0,
         takeover: None,
     };
-    let Ok(Done::Player(player)) = scene.apply(follow) else {
+    let Ok(InputResult::Player(player)) = scene.apply(follow) else {
         panic!("the player is refused")
     };
     for i in 0..6 {
         let mut posture = engine::standing(&body, Default::default());
         posture.hinge[4] = 0.3 + 0.02 * i as f64;
-        let frame = Frame {
+        let frame = BufferedFrame {
             sequence: i,
             source_ns: i * 16_666_667,
             posture,
@@ -89,7 +91,7 @@ fn records_of_a_log_are_read_or_refused() {
     assert!(good.len() >= 6, "{}", good.len());
     let (read, refused) = (Cell::new(0u64), Cell::new(0u64));
     let done = runner(2000).run(&(0..good.len(), edits(4)), |(which, edits)| {
-        let mut reader = Reader::default();
+        let mut reader = RecordReader::default();
         for (i, record) in good.iter().enumerate().take(which + 2) {
             let mut bytes = record.bytes.to_vec();
             if i == which {

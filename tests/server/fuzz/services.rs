@@ -11,7 +11,8 @@ use proptest::prelude::*;
 use prost_reflect::MethodDescriptor;
 use sinew_server::access::caller::{Caller, Identity};
 use sinew_server::access::roles;
-use sinew_server::api::{self, App};
+use sinew_server::api;
+use sinew_server::app::App;
 use sinew_server::config::Config;
 use sinew_wire::pb;
 use std::cell::Cell;
@@ -189,7 +190,7 @@ fn calls_are_carried_out_or_refused_with_a_reason() {
     let pool = Pool {
         bytes: vec![
             b"HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n}\nMOTION\n".to_vec(),
-            std::fs::read("tests/corpus/wave.vrm.bvh").unwrap()[..4000].to_vec(),
+            include_bytes!("../../corpus/wave.vrm.bvh")[..4000].to_vec(),
         ],
         mild: false,
     };

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use sinew_server::durable::local::LocalStore;
 use sinew_server::durable::recovery::recover;
 use sinew_server::durable::store::{
-    CheckpointStore, ClipRecord, Durability, Entry, Item, WorldRecord,
+    CheckpointStore, ClipRecord, Durability, StoreEntry, StoreItem, WorldRecord,
 };
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -37,21 +37,21 @@ fn fill(dir: &Path) {
             settings: Bytes::from_static(b"settings of a world"),
         };
         store.put_world(&world).unwrap();
-        let entry = |tick, item| Entry {
+        let entry = |tick, item| StoreEntry {
             world: world.key,
             tick,
             item,
         };
-        let checkpoint = |n: u8| Item::Checkpoint {
+        let checkpoint = |n: u8| StoreItem::Checkpoint {
             bytes: vec![n; 300].into(),
             after_gap: false,
         };
         let entries = [
             entry(0, checkpoint(1)),
-            entry(1, Item::Input(Bytes::from_static(b"input"))),
-            entry(2, Item::Hash(7)),
+            entry(1, StoreItem::Input(Bytes::from_static(b"input"))),
+            entry(2, StoreItem::Hash(7)),
             entry(3, checkpoint(2)),
-            entry(4, Item::Input(Bytes::from_static(b"another"))),
+            entry(4, StoreItem::Input(Bytes::from_static(b"another"))),
         ];
         store.commit(&entries).unwrap();
     }

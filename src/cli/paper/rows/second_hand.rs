@@ -2,7 +2,7 @@
 
 use crate::page::Page;
 use anyhow::Result;
-use sinew_evaluate::experiments::Pair;
+use sinew_evaluate::experiments::ControlPair;
 use sinew_evaluate::experiments::second_hand::{LADDER, Rung, rung};
 use sinew_evaluate::strip::View;
 use sinew_physics::body::{Body, Profile, Sex};
@@ -41,7 +41,7 @@ pub fn write(page: &mut Page) -> Result<()> {
                 ("two", Some(SecondHand::Always)),
                 ("auto", Some(SecondHand::Auto)),
             ] {
-                let r = rung(&body, &Pair::modern(), mass, when, PANELS);
+                let r = rung(&body, &ControlPair::modern(), mass, when, PANELS);
                 rows.push(row(&profile.name(), mass, hands, &r));
                 if mass == drawn && hands != "two" {
                     let title = format!("{mass} kg, {}, {hands}", profile.name());

@@ -13,27 +13,18 @@ mod recorder;
 mod tests;
 mod writer;
 
-pub use queue::Ticket;
+pub use queue::{KeeperSizes, KeeperTicket};
 pub use recorder::Recorder;
 
-use super::store::{CheckpointStore, Retention, StoreError, WorldRecord};
-use queue::{Shared, WorldState, locked};
+use super::store::{CheckpointStore, StoreError, WorldRecord};
+use queue::{KeeperShared, WorldState, locked};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use tokio::sync::oneshot;
-use writer::Writer;
+use writer::StoreWriter;
 
 /// Requests that wait for the thread.
 const MAX_REQUESTS: usize = 1024;
-
-/// Limits of the queue and of the history.
-#[derive(Clone, Copy, Debug)]
-pub struct Sizes {
-    /// Bytes that wait to be written.
-    pub queue_bytes: usize,
-    /// Limits of the history.
-    pub retention: Retention,
-}
 
 /// A request that has its place in the order of all.
 #[derive(Debug)]
@@ -59,7 +50,7 @@ impl<T> HandedIn<T> {
 
 /// Hands entries to the writing thread.
 pub struct Keeper {
-    shared: Arc<Shared>,
+    shared: Arc<KeeperShared>,
     thread: Mutex<Option<JoinHandle<()>>>,
 }
 
@@ -68,13 +59,13 @@ impl Keeper {
     ///
     /// # Errors
     /// There is no thread for it.
-    pub fn start(store: Box<dyn CheckpointStore>, sizes: Sizes) -> Result<Self, StoreError> {
-        let shared = Arc::new(Shared::new(sizes));
+    pub fn start(store: Box<dyn CheckpointStore>, sizes: KeeperSizes) -> Result<Self, StoreError> {
+        let shared = Arc::new(KeeperShared::new(sizes));
         metrics::gauge!("sinew_store_degraded").set(0.0);
         let own = shared.clone();
         let thread = std::thread::Builder::new()
             .name("store".to_owned())
-            .spawn(move || Writer::new(own, store).run());
+            .spawn(move || StoreWriter::new(own, store).run());
         let thread = thread.map_err(|e| StoreError::Io(format!("no thread for the store: {e}")))?;
         Ok(Self {
             shared,

@@ -1,7 +1,8 @@
 //! Entries that wait to be written, and the progress of writing: shared by the worlds and the writing thread.
 
-use super::Sizes;
-use crate::durable::store::{CheckpointStore, Durability, Entry, Item, WorldKey, WorldRecord};
+use crate::durable::store::{
+    CheckpointStore, Durability, Retention, StoreEntry, StoreItem, WorldKey, WorldRecord,
+};
 use bytes::Bytes;
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -9,7 +10,16 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::Instant;
 use tokio::sync::watch;
 
-/// Number of losses of one world that are remembered for callers that still wait for their entries.
+/// Sizes of the queue and of the retained past.
+#[derive(Clone, Copy, Debug)]
+pub struct KeeperSizes {
+    /// Bytes that wait to be written.
+    pub queue_bytes: usize,
+    /// The retained past.
+    pub retention: Retention,
+}
+
+/// Times of losses of one world that are remembered for those who still wait to learn what was lost.
 const MAX_LOSSES: usize = 16;
 
 /// Reason for the loss of entries that were handed in at the end.
@@ -22,7 +32,7 @@ pub(super) type Later = (usize, Box<dyn FnOnce() -> Bytes + Send>);
 
 /// An entry that waits.
 pub(super) struct Queued {
-    pub entry: Entry,
+    pub entry: StoreEntry,
     pub world: Arc<WorldState>,
     /// Produces its content, if that happens when it is written.
     pub later: Option<Box<dyn FnOnce() -> Bytes + Send>>,
@@ -30,10 +40,10 @@ pub(super) struct Queued {
 
 impl Queued {
     /// The entry with its bytes. Slow, so call it on the writing thread.
-    pub fn ready(self) -> (Entry, Arc<WorldState>) {
+    pub fn ready(self) -> (StoreEntry, Arc<WorldState>) {
         let mut entry = self.entry;
         if let Some(later) = self.later {
-            entry.item = Item::Input(later());
+            entry.item = StoreItem::Input(later());
         }
         (entry, self.world)
     }
@@ -41,10 +51,10 @@ impl Queued {
 
 /// Place of an entry in the order of all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ticket(pub(super) u64);
+pub struct KeeperTicket(pub(super) u64);
 
 #[derive(Default)]
-pub(super) struct Queue {
+pub(super) struct KeeperQueue {
     pub entries: Vec<Queued>,
     pub bytes: usize,
     /// Arrival of the first of them.
@@ -64,7 +74,7 @@ pub(super) struct Queue {
     pub ended: bool,
 }
 
-impl Queue {
+impl KeeperQueue {
     /// Takes all entries out.
     pub fn take_entries(&mut self) -> Vec<Queued> {
         self.bytes = 0;
@@ -137,7 +147,7 @@ impl WorldState {
     }
 
     /// Whether an entry was left out.
-    pub fn has_lost(&self, ticket: Ticket) -> bool {
+    pub fn has_lost(&self, ticket: KeeperTicket) -> bool {
         let lost = locked(&self.lost);
         lost.iter()
             .any(|(first, last)| (*first..=*last).contains(&ticket.0))
@@ -149,19 +159,19 @@ pub(super) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-pub(super) struct Shared {
-    pub queue: Mutex<Queue>,
+pub(super) struct KeeperShared {
+    pub queue: Mutex<KeeperQueue>,
     pub filled: Condvar,
     /// Entries that are written or given up.
     pub done: watch::Sender<u64>,
     /// Reason why less is written than promised.
     pub degraded: watch::Sender<Option<String>>,
-    pub sizes: Sizes,
+    pub sizes: KeeperSizes,
 }
 
-impl Shared {
+impl KeeperShared {
     /// An empty queue.
-    pub fn new(sizes: Sizes) -> Self {
+    pub fn new(sizes: KeeperSizes) -> Self {
         Self {
             queue: Mutex::default(),
             filled: Condvar::new(),

@@ -1,7 +1,7 @@
 //! The entries that worlds hand in. Nothing here waits for the disk.
 
-use super::queue::{Later, Queued, Shared, TOO_LATE, Ticket, WorldState, locked};
-use crate::durable::store::{Durability, Entry, Item, StoreError, WorldKey};
+use super::queue::{KeeperShared, KeeperTicket, Later, Queued, TOO_LATE, WorldState, locked};
+use crate::durable::store::{Durability, StoreEntry, StoreError, StoreItem, WorldKey};
 use bytes::Bytes;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -10,7 +10,7 @@ use std::time::Instant;
 /// Writes one world. Its methods do not wait.
 #[derive(Clone)]
 pub struct Recorder {
-    pub(super) shared: Arc<Shared>,
+    pub(super) shared: Arc<KeeperShared>,
     pub(super) world: Arc<WorldState>,
 }
 
@@ -32,8 +32,8 @@ impl Recorder {
     }
 
     /// Hands in the changes to the world before a tick.
-    pub fn input(&self, tick: u64, bytes: Bytes) -> Ticket {
-        self.push(tick, Item::Input(bytes), None)
+    pub fn input(&self, tick: u64, bytes: Bytes) -> KeeperTicket {
+        self.push(tick, StoreItem::Input(bytes), None)
     }
 
     /// [`Self::input`] with bytes that the writing thread produces; `size`: their approximate number.
@@ -42,22 +42,22 @@ impl Recorder {
         tick: u64,
         size: usize,
         bytes: impl FnOnce() -> Bytes + Send + 'static,
-    ) -> Ticket {
+    ) -> KeeperTicket {
         self.push(
             tick,
-            Item::Input(Bytes::new()),
+            StoreItem::Input(Bytes::new()),
             Some((size, Box::new(bytes))),
         )
     }
 
     /// Hands in the hash of the state after a tick.
-    pub fn hash(&self, tick: u64, hash: u64) -> Ticket {
-        self.push(tick, Item::Hash(hash), None)
+    pub fn hash(&self, tick: u64, hash: u64) -> KeeperTicket {
+        self.push(tick, StoreItem::Hash(hash), None)
     }
 
     /// Hands in the state after a tick.
-    pub fn checkpoint(&self, tick: u64, bytes: Bytes) -> Ticket {
-        let item = Item::Checkpoint {
+    pub fn checkpoint(&self, tick: u64, bytes: Bytes) -> KeeperTicket {
+        let item = StoreItem::Checkpoint {
             bytes,
             after_gap: false,
         };
@@ -74,14 +74,14 @@ impl Recorder {
         room && queue.retry_at.is_none_or(|at| at <= Instant::now())
     }
 
-    fn push(&self, tick: u64, mut item: Item, later: Option<Later>) -> Ticket {
+    fn push(&self, tick: u64, mut item: StoreItem, later: Option<Later>) -> KeeperTicket {
         let world = &self.world;
         let mut queue = locked(&self.shared.queue);
         queue.sent += 1;
         let ticket = queue.sent;
-        let is_checkpoint = matches!(item, Item::Checkpoint { .. });
+        let is_checkpoint = matches!(item, StoreItem::Checkpoint { .. });
         if world.durability == Durability::None && !is_checkpoint {
-            return Ticket(ticket);
+            return KeeperTicket(ticket);
         }
         if queue.ended || world.gap.load(Ordering::Relaxed) && !is_checkpoint {
             let was_whole = world.lose(ticket, ticket);
@@ -91,12 +91,12 @@ impl Recorder {
                 world.tell_loss(TOO_LATE);
             }
             metrics::counter!("sinew_store_lost_entries_total").increment(1);
-            return Ticket(ticket);
+            return KeeperTicket(ticket);
         }
-        if let Item::Checkpoint { after_gap, .. } = &mut item {
+        if let StoreItem::Checkpoint { after_gap, .. } = &mut item {
             *after_gap = world.gap.load(Ordering::Relaxed);
         }
-        let entry = Entry {
+        let entry = StoreEntry {
             world: world.key,
             tick,
             item,
@@ -115,7 +115,7 @@ impl Recorder {
                 world.tell_loss(&why);
             }
             self.shared.degrade(&why);
-            return Ticket(ticket);
+            return KeeperTicket(ticket);
         }
         if is_checkpoint {
             world.gap.store(false, Ordering::Relaxed);
@@ -134,14 +134,14 @@ impl Recorder {
         if wake {
             self.shared.filled.notify_one();
         }
-        Ticket(ticket)
+        KeeperTicket(ticket)
     }
 
     /// Waits until something that was handed in is on disk.
     ///
     /// # Errors
     /// It was left out, or the store has ended.
-    pub async fn durable(&self, ticket: Ticket) -> Result<(), StoreError> {
+    pub async fn durable(&self, ticket: KeeperTicket) -> Result<(), StoreError> {
         let mut done = self.shared.done.subscribe();
         let waited = done.wait_for(|done| *done >= ticket.0).await.is_ok();
         if self.world.has_lost(ticket) {

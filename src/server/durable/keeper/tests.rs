@@ -4,8 +4,8 @@
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
 use super::*;
-use crate::durable::memory::{Disk, MemoryStore};
-use crate::durable::store::{Durability, WorldKey};
+use crate::durable::memory::{MemoryDisk, MemoryStore};
+use crate::durable::store::{Durability, Retention, WorldKey};
 use std::io::Write;
 use std::time::Duration;
 
@@ -25,8 +25,8 @@ impl Write for Told {
 
 /// The log for worlds without a guarantee that hand in checkpoints of the given sizes in bytes at the end of the
 /// server.
-fn told_at_the_end(disk: &Disk, bytes: &[usize]) -> Vec<String> {
-    let shared = Arc::new(Shared::new(Sizes {
+fn told_at_the_end(disk: &MemoryDisk, bytes: &[usize]) -> Vec<String> {
+    let shared = Arc::new(KeeperShared::new(KeeperSizes {
         queue_bytes: 1000,
         retention: Retention {
             age: Duration::from_secs(60),
@@ -61,7 +61,7 @@ fn told_at_the_end(disk: &Disk, bytes: &[usize]) -> Vec<String> {
         }
         drop(recorders); // worlds have ended by then
         locked(&shared.queue).closing = true;
-        Writer::new(shared, Box::new(MemoryStore(disk.clone()))).run();
+        StoreWriter::new(shared, Box::new(MemoryStore(disk.clone()))).run();
     });
     let told = String::from_utf8(told.0.lock().unwrap().clone()).unwrap();
     let of_worlds = told.lines().filter(|l| l.contains("world="));
@@ -70,7 +70,7 @@ fn told_at_the_end(disk: &Disk, bytes: &[usize]) -> Vec<String> {
 
 #[test]
 fn a_last_state_that_is_not_written_is_named() {
-    let disk = Disk::default();
+    let disk = MemoryDisk::default();
     assert_eq!(told_at_the_end(&disk, &[100, 100]), Vec::<String>::new());
     disk.fail(Some(StoreError::Full("disk".to_owned())));
     // The one in the middle had nothing to write.
@@ -88,7 +88,7 @@ fn a_last_state_that_is_not_written_is_named() {
 
 #[test]
 fn a_last_state_for_which_there_is_no_room_is_named() {
-    let told = told_at_the_end(&Disk::default(), &[100, 2000]);
+    let told = told_at_the_end(&MemoryDisk::default(), &[100, 2000]);
     assert_eq!(told.len(), 1, "{told:?}");
     assert!(
         told[0].contains("w1") && told[0].contains("too slow"),

@@ -1,8 +1,8 @@
 //! The writing thread: it takes groups out of the queue, commits them, and maintains the disk.
 
-use super::queue::{Queued, Request, Shared, TOO_LATE, WorldState, locked};
+use super::queue::{KeeperShared, Queued, Request, TOO_LATE, WorldState, locked};
 use crate::durable::store::{
-    CheckpointStore, Durability, Entry, Item, Remedy, StoreError, WorldKey,
+    CheckpointStore, Durability, Remedy, StoreEntry, StoreError, StoreItem, WorldKey,
 };
 use std::collections::HashSet;
 use std::sync::atomic::Ordering;
@@ -19,14 +19,14 @@ const UPKEEP_AGAIN: Duration = Duration::from_millis(50);
 const RETRY: Duration = Duration::from_secs(1);
 
 /// The thread that writes.
-pub(super) struct Writer {
-    shared: Arc<Shared>,
+pub(super) struct StoreWriter {
+    shared: Arc<KeeperShared>,
     store: Box<dyn CheckpointStore>,
     upkeep_at: Instant,
 }
 
 /// A group taken out of the queue.
-struct Taken {
+struct TakenRequests {
     entries: Vec<Queued>,
     requests: Vec<Request>,
     /// Tickets of the first entry and the last.
@@ -34,8 +34,8 @@ struct Taken {
     closing: bool,
 }
 
-impl Writer {
-    pub fn new(shared: Arc<Shared>, store: Box<dyn CheckpointStore>) -> Self {
+impl StoreWriter {
+    pub fn new(shared: Arc<KeeperShared>, store: Box<dyn CheckpointStore>) -> Self {
         Self {
             shared,
             store,
@@ -83,7 +83,7 @@ impl Writer {
     }
 
     /// Waits for a group, for requests, or for the time of the next upkeep.
-    fn take(&self) -> Taken {
+    fn take(&self) -> TakenRequests {
         let mut queue = locked(&self.shared.queue);
         loop {
             let now = Instant::now();
@@ -104,7 +104,7 @@ impl Writer {
         metrics::gauge!("sinew_store_queue_bytes").set(queue.bytes as f64);
         let first = queue.taken + 1;
         queue.taken = queue.sent;
-        Taken {
+        TakenRequests {
             entries: queue.take_entries(),
             requests: std::mem::take(&mut queue.requests),
             tickets: (first, queue.sent),
@@ -114,13 +114,13 @@ impl Writer {
 
     fn write(&mut self, entries: Vec<Queued>, first: u64) {
         let begun = Instant::now();
-        let (entries, states): (Vec<Entry>, Vec<Arc<WorldState>>) =
+        let (entries, states): (Vec<StoreEntry>, Vec<Arc<WorldState>>) =
             entries.into_iter().map(Queued::ready).unzip();
         let result = self.commit(&entries);
         metrics::histogram!("sinew_store_commit_seconds").record(begun.elapsed().as_secs_f64());
         match result {
             Ok(()) => {
-                let bytes: usize = entries.iter().map(Entry::size).sum();
+                let bytes: usize = entries.iter().map(StoreEntry::size).sum();
                 metrics::counter!("sinew_store_written_bytes_total").increment(bytes as u64);
                 self.written(&entries, &states);
             }
@@ -129,7 +129,7 @@ impl Writer {
     }
 
     /// Commits, with one more attempt if that may help.
-    fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {
+    fn commit(&mut self, entries: &[StoreEntry]) -> Result<(), StoreError> {
         let mut before = None;
         loop {
             let Err(fault) = self.store.commit(entries) else {
@@ -152,10 +152,10 @@ impl Writer {
         }
     }
 
-    fn written(&self, entries: &[Entry], states: &[Arc<WorldState>]) {
+    fn written(&self, entries: &[StoreEntry], states: &[Arc<WorldState>]) {
         for (entry, state) in entries.iter().zip(states) {
             let before = state.tick.swap(entry.tick, Ordering::Relaxed);
-            let is_checkpoint = matches!(entry.item, Item::Checkpoint { .. });
+            let is_checkpoint = matches!(entry.item, StoreItem::Checkpoint { .. });
             if is_checkpoint && state.lossy.swap(false, Ordering::Relaxed) {
                 let (world, tick) = (&*state.name, entry.tick);
                 tracing::warn!(world, after_tick = before, tick, "history is whole again");
@@ -216,7 +216,7 @@ impl Writer {
 }
 
 /// A panic of the thread loses the entries that it was about to write, and this reports it.
-impl Drop for Writer {
+impl Drop for StoreWriter {
     fn drop(&mut self) {
         if std::thread::panicking() {
             // Once it has ended, nothing is waiting that could be lost.

@@ -1,48 +1,16 @@
 //! The index in memory of each world in the log: the places of its checkpoints, and its next row.
 
-use super::row::{CHECKPOINT, Row};
+use super::row::{CHECKPOINT, LogRow};
+use super::track::CheckpointPlace;
 use super::{Log, now_ms};
 use crate::durable::store::{StoreError, WorldKey};
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::BTreeMap;
 
 /// Number above that of any row: a million a second for ten thousand years.
 const MAX_ID: i64 = 1 << 58;
 
-/// A checkpoint in the log.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
-    pub id: i64,
-    pub session: i64,
-    /// Number of the first group after it.
-    pub seq: i64,
-    pub tick: u64,
-    /// Time of writing, milliseconds since 1970.
-    pub time_ms: i64,
-    /// Bytes of this world before it.
-    pub bytes_before: u64,
-}
-
-/// Index of one world.
-#[derive(Debug, Default)]
-pub(super) struct Track {
-    /// From the oldest to the latest.
-    pub places: VecDeque<Place>,
-    /// Bytes ever written.
-    pub written: u64,
-    /// Number of the next group of this session; `None` until there is a checkpoint.
-    pub next: Option<i64>,
-}
-
-impl Track {
-    /// Bytes held, from its oldest checkpoint.
-    pub fn held(&self) -> u64 {
-        let first = self.places.front();
-        first.map_or(0, |p| self.written.saturating_sub(p.bytes_before))
-    }
-}
-
 /// Checkpoints by the number of their row.
-type Found = BTreeMap<i64, (WorldKey, Place)>;
+type FoundCheckpoints = BTreeMap<i64, (WorldKey, CheckpointPlace)>;
 
 impl Log {
     /// Reads the places of the checkpoints, and the free numbers.
@@ -51,7 +19,7 @@ impl Log {
     /// The log is damaged or cannot be read.
     pub(super) fn load(&mut self) -> Result<(), StoreError> {
         self.next_id = self.last_id()? + 1;
-        let mut found = Found::new();
+        let mut found = FoundCheckpoints::new();
         if self.list_checkpoints(&mut found).is_err() {
             self.find_checkpoints(&mut found)?;
         }
@@ -65,14 +33,14 @@ impl Log {
     /// # Errors
     /// The log is damaged or cannot be read.
     pub(super) fn find_again(&mut self, worlds: &[WorldKey]) -> Result<(), StoreError> {
-        let mut found = Found::new();
+        let mut found = FoundCheckpoints::new();
         self.find_checkpoints(&mut found)?;
         found.retain(|_, (world, _)| worlds.contains(world));
         self.take_places(found);
         Ok(())
     }
 
-    fn take_places(&mut self, found: Found) {
+    fn take_places(&mut self, found: FoundCheckpoints) {
         for (world, place) in found.into_values() {
             self.session = self.session.max(place.session.saturating_add(1));
             let track = self.tracks.entry(world).or_default();
@@ -98,11 +66,11 @@ impl Log {
     }
 
     /// Reads the table of checkpoints, as far as it can be read.
-    fn list_checkpoints(&self, found: &mut Found) -> rusqlite::Result<()> {
+    fn list_checkpoints(&self, found: &mut FoundCheckpoints) -> rusqlite::Result<()> {
         let mut all = self.db.prepare("SELECT * FROM checkpoints ORDER BY id")?;
         let mut rows = all.query([])?;
         while let Some(row) = rows.next()? {
-            let place = Place {
+            let place = CheckpointPlace {
                 id: row.get(0)?,
                 session: row.get(2)?,
                 seq: row.get(3)?,
@@ -117,12 +85,12 @@ impl Log {
 
     /// Finds checkpoints by reading all rows. Their time and the bytes before them are unknown, so they count as
     /// written at this start.
-    fn find_checkpoints(&self, found: &mut Found) -> Result<(), StoreError> {
-        self.scan(0, &mut |_, row: Option<&Row>| {
+    fn find_checkpoints(&self, found: &mut FoundCheckpoints) -> Result<(), StoreError> {
+        self.scan(0, &mut |_, row: Option<&LogRow>| {
             let Some(row) = row.filter(|r| r.kind == CHECKPOINT) else {
                 return;
             };
-            let place = Place {
+            let place = CheckpointPlace {
                 id: row.id,
                 session: row.session,
                 seq: row.seq,

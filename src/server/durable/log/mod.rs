@@ -17,17 +17,18 @@ mod repair;
 mod retention;
 mod row;
 mod schema;
+mod track;
 mod writer;
 
 pub(super) use repair::set_aside;
 
 use super::store::{StoreError, WorldKey};
-use index::Track;
 use rusqlite::Connection;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
+use track::WorldTrack;
 
 /// The log.
 pub(super) struct Log {
@@ -37,7 +38,7 @@ pub(super) struct Log {
     session: i64,
     /// Number of the next row.
     next_id: i64,
-    tracks: HashMap<WorldKey, Track>,
+    tracks: HashMap<WorldKey, WorldTrack>,
     /// Existing worlds. The last entries of deleted worlds may still be on their way.
     known: HashSet<WorldKey>,
     /// The last row of each world, as it should be.

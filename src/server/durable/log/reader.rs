@@ -2,9 +2,9 @@
 //! missing place.
 
 use super::Log;
-use super::index::Place;
-use super::row::{CHECKPOINT, GROUP, Row};
-use crate::durable::store::{History, Loss, Remedy, StoreError, WorldKey};
+use super::row::{CHECKPOINT, GROUP, LogRow};
+use super::track::CheckpointPlace;
+use crate::durable::store::{Loss, Remedy, StoreError, StoredHistory, WorldKey};
 use bytes::Bytes;
 use rusqlite::OptionalExtension;
 use std::collections::{HashMap, VecDeque};
@@ -21,7 +21,7 @@ struct Reading {
     at: Option<u64>,
     /// Session of the checkpoint and number of the next group; `None` until it is read.
     next: Option<(i64, i64)>,
-    history: History,
+    history: StoredHistory,
     ended: bool,
     /// Whether there is a damaged place after its last row. Nothing in a damaged row can be trusted, not even its
     /// world.
@@ -36,7 +36,7 @@ impl Reading {
             from,
             at,
             next: None,
-            history: History::default(),
+            history: StoredHistory::default(),
             ended: false,
             doubtful: false,
             last: 0,
@@ -44,7 +44,7 @@ impl Reading {
     }
 
     /// Takes an intact row of this world.
-    fn take(&mut self, row: &Row) {
+    fn take(&mut self, row: &LogRow) {
         if row.id < self.from {
             return;
         }
@@ -92,7 +92,7 @@ impl Reading {
     }
 
     /// `latest`: the latest checkpoint known; `end`: its last row, if noted.
-    fn end(mut self, latest: Place, end: Option<i64>) -> History {
+    fn end(mut self, latest: CheckpointPlace, end: Option<i64>) -> StoredHistory {
         let (session, next) = self.next.unwrap_or_default();
         let short = session < latest.session
             || session == latest.session && next < latest.seq
@@ -115,25 +115,25 @@ impl Reading {
 struct Asked {
     world: WorldKey,
     /// Its candidates for the starting checkpoint that were not tried yet, from the oldest to the latest.
-    candidates: VecDeque<Place>,
+    candidates: VecDeque<CheckpointPlace>,
     /// The latest of them.
-    latest: Option<Place>,
+    latest: Option<CheckpointPlace>,
     /// Its last row, if that is noted and valid.
     end: Option<i64>,
-    found: Option<History>,
+    found: Option<StoredHistory>,
 }
 
 impl Asked {
-    fn history(self) -> History {
+    fn history(self) -> StoredHistory {
         let missing = || Loss {
             after_tick: None,
             why: "no checkpoint of it is whole".to_owned(),
         };
         self.found.unwrap_or_else(|| {
             let was_there = self.latest.is_some() || self.end.is_some();
-            History {
+            StoredHistory {
                 losses: was_there.then(missing).into_iter().collect(),
-                ..History::default()
+                ..StoredHistory::default()
             }
         })
     }
@@ -145,7 +145,11 @@ impl Log {
     ///
     /// # Errors
     /// Nothing can be read, or another program holds the file exclusively.
-    pub fn read(&self, worlds: &[WorldKey], at: Option<u64>) -> Result<Vec<History>, StoreError> {
+    pub fn read(
+        &self,
+        worlds: &[WorldKey],
+        at: Option<u64>,
+    ) -> Result<Vec<StoredHistory>, StoreError> {
         let mut asked: Vec<Asked> = worlds.iter().map(|w| self.asked(*w, at)).collect();
         while self.read_candidates(&mut asked, at)? {}
         Ok(asked.into_iter().map(Asked::history).collect())
@@ -154,7 +158,7 @@ impl Log {
     fn asked(&self, world: WorldKey, at: Option<u64>) -> Asked {
         let places = self.tracks.get(&world).map(|t| &t.places);
         let places = places.into_iter().flatten().copied();
-        let candidates: VecDeque<Place> = places
+        let candidates: VecDeque<CheckpointPlace> = places
             .filter(|p| at.is_none_or(|at| p.tick <= at))
             .collect();
         Asked {
@@ -203,7 +207,7 @@ impl Log {
     pub(super) fn scan(
         &self,
         from: i64,
-        f: &mut dyn FnMut(i64, Option<&Row>),
+        f: &mut dyn FnMut(i64, Option<&LogRow>),
     ) -> Result<(), StoreError> {
         let (mut from, mut step, mut damaged) = (from, 1, 0);
         let mut before: Option<StoreError> = None;
@@ -238,13 +242,13 @@ impl Log {
     fn read_rows(
         &self,
         last: &mut i64,
-        f: &mut dyn FnMut(i64, Option<&Row>),
+        f: &mut dyn FnMut(i64, Option<&LogRow>),
     ) -> rusqlite::Result<()> {
         let sql = "SELECT * FROM log WHERE id > ?1 ORDER BY id";
         let mut all = self.db.prepare_cached(sql)?;
         let mut rows = all.query([*last])?;
         while let Some(row) = rows.next()? {
-            let (row, whole) = Row::read(row)?;
+            let (row, whole) = LogRow::read(row)?;
             // Rows out of order would be read again and again.
             if row.id <= *last {
                 return Err(rusqlite::Error::InvalidQuery);
@@ -264,7 +268,7 @@ impl Log {
             return Ok(None);
         };
         let sql = "SELECT * FROM log WHERE id = ?1";
-        let read = self.db.query_row(sql, [place.id], Row::read).optional();
+        let read = self.db.query_row(sql, [place.id], LogRow::read).optional();
         let (row, whole) = match read.map_err(|e| self.fault(&e))? {
             Some(read) => read,
             None => return Ok(None),
@@ -279,12 +283,12 @@ impl Log {
 mod tests {
     use super::super::row::{HASH, INPUT, frame};
     use super::*;
-    use crate::durable::store::{Entry, Item};
+    use crate::durable::store::{StoreEntry, StoreItem};
     use crate::testing::Temporary;
     use proptest::prelude::*;
 
-    fn row(id: i64, kind: u8, (session, seq): (i64, i64), bytes: Vec<u8>) -> Row {
-        Row {
+    fn row(id: i64, kind: u8, (session, seq): (i64, i64), bytes: Vec<u8>) -> LogRow {
+        LogRow {
             id,
             world: WorldKey(1),
             session,
@@ -346,10 +350,10 @@ mod tests {
         let dir = Temporary::new();
         let mut log = Log::open(&dir.0.join("log.sqlite")).unwrap();
         log.know(WorldKey(1));
-        let checkpoint = |tick| Entry {
+        let checkpoint = |tick| StoreEntry {
             world: WorldKey(1),
             tick,
-            item: Item::Checkpoint {
+            item: StoreItem::Checkpoint {
                 bytes: Bytes::from_static(&[0; 20_000]),
                 after_gap: false,
             },

@@ -1,16 +1,16 @@
 //! Removal of old history: whole checkpoints with the rows after them are cut off in memory, and the rows are deleted
 //! bit by bit, so that commits do not wait for long.
 
-use super::index::Track;
+use super::track::WorldTrack;
 use super::{Log, now_ms};
-use crate::durable::store::{Retention, StoreError, Usage, WorldKey};
+use crate::durable::store::{Retention, StoreError, StoreUsage, WorldKey};
 use rusqlite::params;
 use std::ops::Range;
 
 /// Number of rows checked in one call of [`Log::cut`], so that commits do not wait for long.
 const CUT_ROWS: usize = 20_000;
 
-impl Track {
+impl WorldTrack {
     /// Drops the oldest of two or more checkpoints. Returns the ids from it to the next; rows of this world among them
     /// are deleted.
     fn cut_first(&mut self) -> Option<Range<i64>> {
@@ -53,12 +53,12 @@ impl Log {
     ///
     /// # Errors
     /// It could not be done.
-    pub fn cut(&mut self, limits: &Retention) -> Result<Usage, StoreError> {
+    pub fn cut(&mut self, limits: &Retention) -> Result<StoreUsage, StoreError> {
         self.cut_each(limits);
         let history_bytes = self.cut_largest(limits.total_bytes);
         self.unswept = joined(std::mem::take(&mut self.unswept));
         self.unswept = self.sweep().map_err(|e| self.fault(&e))?;
-        Ok(Usage {
+        Ok(StoreUsage {
             history_bytes,
             checkpoints: self.tracks.values().map(|t| t.places.len()).sum(),
             unswept: !self.unswept.is_empty(),
@@ -81,7 +81,7 @@ impl Log {
 
     /// Cuts off history above the total limit, starting with the largest world. Returns the remaining bytes.
     fn cut_largest(&mut self, total_bytes: u64) -> u64 {
-        let mut total: u64 = self.tracks.values().map(Track::held).sum();
+        let mut total: u64 = self.tracks.values().map(WorldTrack::held).sum();
         while total > total_bytes {
             let largest = self.tracks.values_mut().filter(|t| t.places.len() > 1);
             let Some(track) = largest.max_by_key(|t| t.held()) else {
@@ -149,7 +149,7 @@ impl Log {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::durable::store::{Entry, Item};
+    use crate::durable::store::{StoreEntry, StoreItem};
     use crate::testing::Temporary;
     use bytes::Bytes;
     use std::time::Duration;
@@ -160,7 +160,7 @@ mod tests {
         const RESTING: u64 = 100;
         let dir = Temporary::new();
         let mut log = Log::open(&dir.0.join("log.sqlite")).unwrap();
-        let entry = |world, tick, item| Entry {
+        let entry = |world, tick, item| StoreEntry {
             world: WorldKey(world),
             tick,
             item,
@@ -170,7 +170,7 @@ mod tests {
             entry(
                 world,
                 tick,
-                Item::Checkpoint {
+                StoreItem::Checkpoint {
                     bytes,
                     after_gap: false,
                 },
@@ -178,17 +178,17 @@ mod tests {
         };
         (0..=RESTING).for_each(|world| log.know(WorldKey(world)));
         let mut rows = 0;
-        let mut commit = |log: &mut Log, entries: Vec<Entry>| {
+        let mut commit = |log: &mut Log, entries: Vec<StoreEntry>| {
             rows += entries.len();
             log.commit(&entries).unwrap();
         };
         commit(&mut log, (0..=RESTING).map(|w| checkpoint(w, 0)).collect());
         for tick in 1..=CUT_ROWS as u64 / RESTING {
-            let hashes = (0..RESTING).map(|w| entry(w, tick, Item::Hash(tick)));
+            let hashes = (0..RESTING).map(|w| entry(w, tick, StoreItem::Hash(tick)));
             commit(&mut log, hashes.collect());
         }
         for tick in 1..=20 {
-            let hash = entry(RESTING, tick, Item::Hash(tick));
+            let hash = entry(RESTING, tick, StoreItem::Hash(tick));
             commit(&mut log, vec![hash, checkpoint(RESTING, tick)]);
         }
         let limits = Retention {

@@ -5,7 +5,7 @@
 //!   group        frames one behind the other:  kind u8 │ tick u64 │ length u32 │ bytes
 //! ```
 
-use crate::durable::store::{Item, Logged, WorldKey};
+use crate::durable::store::{LoggedTick, StoreItem, WorldKey};
 use bytes::Bytes;
 
 /// Kind of a row: the state after a tick.
@@ -22,7 +22,7 @@ const FRAME_HEAD: usize = 1 + 8 + 4;
 
 /// One row, as it is on disk.
 #[derive(Debug)]
-pub(super) struct Row {
+pub(super) struct LogRow {
     pub id: i64,
     pub world: WorldKey,
     pub session: i64,
@@ -33,7 +33,7 @@ pub(super) struct Row {
     pub bytes: Bytes,
 }
 
-impl Row {
+impl LogRow {
     /// CRC-32 of everything in it.
     pub fn sum(&self) -> i64 {
         let mut sum = crc32fast::Hasher::new();
@@ -67,7 +67,7 @@ impl Row {
     }
 
     /// The content of a group; `None` if these bytes are not a group.
-    pub fn frames(&self) -> Option<Vec<Logged>> {
+    pub fn frames(&self) -> Option<Vec<LoggedTick>> {
         let mut rest = self.bytes.clone();
         let mut out = Vec::new();
         while !rest.is_empty() {
@@ -81,11 +81,11 @@ impl Row {
             }
             let bytes = rest.split_to(length);
             let item = match kind {
-                INPUT => Item::Input(bytes),
-                HASH => Item::Hash(u64::from_le_bytes(bytes[..].try_into().ok()?)),
+                INPUT => StoreItem::Input(bytes),
+                HASH => StoreItem::Hash(u64::from_le_bytes(bytes[..].try_into().ok()?)),
                 _ => return None,
             };
-            out.push(Logged { tick, item });
+            out.push(LoggedTick { tick, item });
         }
         Some(out)
     }

@@ -1,9 +1,9 @@
 //! Commits: the entries of all worlds become rows, and either all of them are on disk or none.
 
-use super::index::{Place, Track};
-use super::row::{CHECKPOINT, GROUP, HASH, INPUT, Row, frame};
+use super::row::{CHECKPOINT, GROUP, HASH, INPUT, LogRow, frame};
+use super::track::{CheckpointPlace, WorldTrack};
 use super::{Log, now_ms};
-use crate::durable::store::{Entry, Item, StoreError, WorldKey};
+use crate::durable::store::{StoreEntry, StoreError, StoreItem, WorldKey};
 use bytes::Bytes;
 use rusqlite::params;
 use std::collections::BTreeMap;
@@ -12,25 +12,25 @@ use std::collections::BTreeMap;
 struct Rows {
     next_id: i64,
     session: i64,
-    out: Vec<Row>,
+    out: Vec<LogRow>,
 }
 
 /// The part of one commit that belongs to one world.
-struct Part {
+struct CommitPart {
     world: WorldKey,
-    /// As in [`Track`], once this is on disk.
+    /// As in [`WorldTrack`], once this is on disk.
     written: u64,
     /// Likewise.
     next: Option<i64>,
     /// Checkpoints among its rows.
-    places: Vec<Place>,
+    places: Vec<CheckpointPlace>,
     /// Frames that are not in a row yet, and the tick of the first.
     group: Option<(u64, Vec<u8>)>,
 }
 
-impl Part {
+impl CommitPart {
     /// Continues after the indexed rows of the world.
-    fn behind(world: WorldKey, track: Option<&Track>) -> Self {
+    fn behind(world: WorldKey, track: Option<&WorldTrack>) -> Self {
         Self {
             world,
             written: track.map_or(0, |t| t.written),
@@ -42,7 +42,7 @@ impl Part {
 
     fn push(&mut self, rows: &mut Rows, kind: u8, tick: u64, bytes: Bytes) {
         self.written += bytes.len() as u64;
-        rows.out.push(Row {
+        rows.out.push(LogRow {
             id: rows.next_id,
             world: self.world,
             session: rows.session,
@@ -67,7 +67,7 @@ impl Part {
         self.end_group(rows);
         let seq = self.next.map_or(0, |n| n + i64::from(after_gap));
         self.next = Some(seq);
-        self.places.push(Place {
+        self.places.push(CheckpointPlace {
             id: rows.next_id,
             session: rows.session,
             seq,
@@ -98,7 +98,7 @@ impl Log {
     ///
     /// # Errors
     /// They could not be written.
-    pub fn commit(&mut self, entries: &[Entry]) -> Result<(), StoreError> {
+    pub fn commit(&mut self, entries: &[StoreEntry]) -> Result<(), StoreError> {
         let mut rows = Rows {
             next_id: self.next_id,
             session: self.session,
@@ -119,27 +119,31 @@ impl Log {
     }
 
     /// Makes rows of entries, by the order of entries and then of worlds.
-    fn parts(&self, entries: &[Entry], rows: &mut Rows) -> Result<Vec<Part>, StoreError> {
-        let mut parts: BTreeMap<WorldKey, Part> = BTreeMap::new();
+    fn parts(
+        &self,
+        entries: &[StoreEntry],
+        rows: &mut Rows,
+    ) -> Result<Vec<CommitPart>, StoreError> {
+        let mut parts: BTreeMap<WorldKey, CommitPart> = BTreeMap::new();
         for entry in entries.iter().filter(|e| self.known.contains(&e.world)) {
             let (world, tick) = (entry.world, entry.tick);
             let part = parts
                 .entry(world)
-                .or_insert_with(|| Part::behind(world, self.tracks.get(&world)));
+                .or_insert_with(|| CommitPart::behind(world, self.tracks.get(&world)));
             match &entry.item {
-                Item::Checkpoint { bytes, after_gap } => {
+                StoreItem::Checkpoint { bytes, after_gap } => {
                     part.checkpoint(rows, tick, bytes, *after_gap);
                 }
-                Item::Input(bytes) => part.frame(tick, INPUT, bytes)?,
-                Item::Hash(hash) => part.frame(tick, HASH, &hash.to_le_bytes())?,
+                StoreItem::Input(bytes) => part.frame(tick, INPUT, bytes)?,
+                StoreItem::Hash(hash) => part.frame(tick, HASH, &hash.to_le_bytes())?,
             }
         }
-        let mut parts: Vec<Part> = parts.into_values().collect();
+        let mut parts: Vec<CommitPart> = parts.into_values().collect();
         parts.iter_mut().for_each(|part| part.end_group(rows));
         Ok(parts)
     }
 
-    fn insert(&mut self, rows: &Rows, parts: &[Part]) -> rusqlite::Result<()> {
+    fn insert(&mut self, rows: &Rows, parts: &[CommitPart]) -> rusqlite::Result<()> {
         let tx = self.db.transaction()?;
         {
             let sql = "INSERT INTO log VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)";

@@ -7,10 +7,10 @@ use super::*;
 fn what_is_held_of_deleted_worlds_is_nothing() {
     let dir = Temporary::new();
     let mut store = LocalStore::open(&dir.0).unwrap();
-    let checkpoint = |world: WorldKey| Entry {
+    let checkpoint = |world: WorldKey| StoreEntry {
         world,
         tick: 1,
-        item: Item::Checkpoint {
+        item: StoreItem::Checkpoint {
             bytes: state(0, 1),
             after_gap: false,
         },
@@ -105,7 +105,7 @@ fn old_history_is_cut_off_and_the_latest_state_stays() {
     let worlds = fill(&mut store, 10);
     // The first world rests; the others continue.
     for tick in 11..=120 {
-        let entries: Vec<Entry> = worlds[1..]
+        let entries: Vec<StoreEntry> = worlds[1..]
             .iter()
             .zip(1..)
             .flat_map(|(w, n)| tick_entries(w, n, tick))
@@ -134,7 +134,7 @@ fn old_history_is_cut_off_and_the_latest_state_stays() {
     // Rows that were cut off no longer exist, and cause no other report.
     assert_eq!(
         store.history_at(worlds[1].key, 60).unwrap(),
-        History::default()
+        StoredHistory::default()
     );
     let hashes = store.hashes(worlds[1].key, 100..121).unwrap();
     assert_eq!(
@@ -156,7 +156,7 @@ fn a_deleted_world_is_gone_and_its_name_is_free() {
     assert!(found.damaged.is_empty(), "{:?}", found.damaged);
     assert_eq!(found.worlds.len(), WORLDS);
     let history = found.worlds.iter().find(|(w, _)| w.key == again.key);
-    assert_eq!(history.unwrap().1, History::default());
+    assert_eq!(history.unwrap().1, StoredHistory::default());
 }
 
 #[test]
@@ -170,10 +170,10 @@ fn a_kill_in_the_middle_of_a_deletion_is_no_damage() {
     store.delete_world(key).unwrap();
     // The thread of the world hands in a last state before it learns of the deletion.
     store
-        .commit(&[Entry {
+        .commit(&[StoreEntry {
             world: key,
             tick: 6,
-            item: Item::Checkpoint {
+            item: StoreItem::Checkpoint {
                 bytes: state(0, 6),
                 after_gap: false,
             },

@@ -9,10 +9,10 @@ fn a_full_disk_loses_the_group_and_nothing_before_it() {
     let mut store = LocalStore::open(&dir.0).unwrap();
     let worlds = fill(&mut store, 30);
     store.log().fill_disk();
-    let big = Entry {
+    let big = StoreEntry {
         world: worlds[0].key,
         tick: 31,
-        item: Item::Input(bytes_of(0, 31, 2, 4_000_000)),
+        item: StoreItem::Input(bytes_of(0, 31, 2, 4_000_000)),
     };
     let error = store.commit(&[big]).unwrap_err();
     assert!(matches!(error, StoreError::Full(_)), "{error}");

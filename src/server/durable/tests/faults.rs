@@ -212,7 +212,7 @@ fn only_known_damage_begins_a_new_log() {
 #[tokio::test]
 async fn a_fault_of_a_moment_costs_nothing() {
     for fault in [io(), damaged()] {
-        let disk = Disk::default();
+        let disk = MemoryDisk::default();
         let (keeper, recorder) = recorded(&disk, SIZES, Durability::Each);
         recorder.checkpoint(0, state(0, 0));
         for tick in 1..=3 {
@@ -229,7 +229,7 @@ async fn a_fault_of_a_moment_costs_nothing() {
 
 #[tokio::test]
 async fn a_fault_that_lasts_pauses_the_store_and_leaves_the_log() {
-    let disk = Disk::default();
+    let disk = MemoryDisk::default();
     let (keeper, recorder) = recorded(&disk, SIZES, Durability::Each);
     let ticket = recorder.checkpoint(0, state(0, 0));
     recorder.durable(ticket).await.unwrap();

@@ -5,7 +5,7 @@ use super::*;
 
 #[tokio::test]
 async fn inputs_are_written_in_groups_and_each_is_on_disk_when_that_is_promised() {
-    let disk = Disk::default();
+    let disk = MemoryDisk::default();
     let (keeper, recorder) = recorded(&disk, SIZES, Durability::Group);
     assert!(recorder.needs_checkpoint());
     recorder.checkpoint(0, state(0, 0));
@@ -22,7 +22,7 @@ async fn inputs_are_written_in_groups_and_each_is_on_disk_when_that_is_promised(
     keeper.close();
     assert!(disk.is_closed());
 
-    let disk = Disk::default();
+    let disk = MemoryDisk::default();
     let (keeper, recorder) = recorded(&disk, SIZES, Durability::Each);
     recorder.checkpoint(0, state(0, 0));
     for tick in 1..=20 {
@@ -37,7 +37,7 @@ async fn inputs_are_written_in_groups_and_each_is_on_disk_when_that_is_promised(
 
 #[tokio::test]
 async fn a_failing_disk_costs_what_it_fails_at_and_is_told() {
-    let disk = Disk::default();
+    let disk = MemoryDisk::default();
     let (keeper, recorder) = recorded(&disk, SIZES, Durability::Each);
     recorder.checkpoint(0, state(0, 0));
     let ticket = recorder.input(1, bytes_of(0, 1, 2, 10));
@@ -71,7 +71,7 @@ async fn a_failing_disk_costs_what_it_fails_at_and_is_told() {
 
 #[test]
 fn a_slow_disk_bounds_the_queue() {
-    let disk = Disk::default();
+    let disk = MemoryDisk::default();
     let (keeper, recorder) = recorded(&disk, SIZES, Durability::Group);
     recorder.checkpoint(0, state(0, 0));
     disk.slow_down(Duration::from_millis(300));
@@ -86,12 +86,12 @@ fn a_slow_disk_bounds_the_queue() {
     recorder.checkpoint(5000, state(0, 5000));
     wait("it is written", || recorder.durable_tick() == 5000);
     wait("the store is well", || keeper.degraded().is_none());
-    let written: usize = disk.log().iter().map(Entry::size).sum();
+    let written: usize = disk.log().iter().map(StoreEntry::size).sum();
     assert!(written < 3 * SIZES.queue_bytes, "{written}");
     let last = disk.log().pop().unwrap();
     assert!(matches!(
         last.item,
-        Item::Checkpoint {
+        StoreItem::Checkpoint {
             after_gap: true,
             ..
         }
@@ -100,7 +100,7 @@ fn a_slow_disk_bounds_the_queue() {
 
 #[tokio::test]
 async fn nobody_waits_for_a_thread_that_has_panicked() {
-    let disk = Disk::default();
+    let disk = MemoryDisk::default();
     let (keeper, recorder) = recorded(&disk, SIZES, Durability::Each);
     recorder.checkpoint(0, state(0, 0));
     let ticket = recorder.input(1, bytes_of(0, 1, 2, 10));
@@ -117,7 +117,7 @@ async fn nobody_waits_for_a_thread_that_has_panicked() {
 
 #[tokio::test]
 async fn who_asks_late_learns_what_was_lost() {
-    let disk = Disk::default();
+    let disk = MemoryDisk::default();
     let (_keeper, recorder) = recorded(&disk, SIZES, Durability::Each);
     recorder.checkpoint(0, state(0, 0));
     let mut lost = Vec::new();

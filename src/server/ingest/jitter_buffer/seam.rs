@@ -21,33 +21,33 @@ const MOMENTS: i64 = 1;
 
 /// How a stream goes on from another one in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Seam {
+pub enum StreamSeam {
     /// Not yet: what is more like it may still come.
     Later,
     /// Here.
-    Here(Entry),
+    Here(StreamStart),
     /// There is nothing like it.
     Nowhere,
 }
 
 /// Where a stream is taken up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Entry {
+pub struct StreamStart {
     /// How much later than what would be due, s.
     later: f64,
     /// Newest playout time that the window has, s, and its next sample: of the other stream, as this one counts.
     head: f64,
     next: i64,
-    /// What this one adds to its times, so that its grid is that of the other one, s.
+    /// Offset of its times, s, so that its grid is that of the other stream.
     renamed: f64,
 }
 
 impl JitterBuffer {
     /// Where this stream, of which playout time `p` (s) is due, goes on as `before` would, whose samples on a grid of
     /// `rate` per second a window holds.
-    pub fn seam(&self, p: f64, before: &Self, rate: f64) -> Seam {
+    pub fn seam(&self, p: f64, before: &Self, rate: f64) -> StreamSeam {
         let (Some(head), Some(newest)) = (before.grid.head, self.frames.back()) else {
-            return Seam::Nowhere;
+            return StreamSeam::Nowhere;
         };
         let next = before.grid.next;
         let last = [3, 2, 1].map(|k| before.at((next - k) as f64 / rate));
@@ -58,7 +58,7 @@ impl JitterBuffer {
             )
         };
         if !last.iter().all(|a| comes(a.supply)) {
-            return Seam::Nowhere;
+            return StreamSeam::Nowhere;
         }
         let last = last.map(|a| a.target.posture);
         // The next sample of the grid is so far ahead of what is due.
@@ -70,7 +70,11 @@ impl JitterBuffer {
         let ahead_of_delay = (MOST_NEWER * room).min(MOST_OLDER);
         let end = (ahead_of_delay / stride).floor() as i64;
         let waits = p < PATIENCE;
-        let otherwise = if waits { Seam::Later } else { Seam::Nowhere };
+        let otherwise = if waits {
+            StreamSeam::Later
+        } else {
+            StreamSeam::Nowhere
+        };
         let at = |k: i64| self.at(p + ahead + k as f64 * stride).target.posture;
         let postures: Vec<Posture> = (first - 3 * MOMENTS..=end - MOMENTS).map(at).collect();
         let hip = self.stand.root_position.z;
@@ -97,7 +101,7 @@ impl JitterBuffer {
                     0.0
                 }
             }
-            _ if waits => return Seam::Later,
+            _ if waits => return StreamSeam::Later,
             _ => 0.0,
         };
         let later = ((first + i as i64) as f64 + between) * stride;
@@ -105,7 +109,7 @@ impl JitterBuffer {
         // The grids have one phase after this.
         let samples = ((due - head - self.tick) * rate).round();
         let named = head + self.tick + samples / rate;
-        Seam::Here(Entry {
+        StreamSeam::Here(StreamStart {
             later,
             head: named - self.tick,
             next: next + samples as i64,
@@ -114,7 +118,7 @@ impl JitterBuffer {
     }
 
     /// Goes on from another stream at a seam of this tick.
-    pub fn enter(&mut self, entry: Entry) {
+    pub fn enter(&mut self, entry: StreamStart) {
         self.pace.shift(entry.later, entry.renamed, &self.settings);
         self.grid.head = Some(entry.head);
         self.grid.next = entry.next;
@@ -124,7 +128,7 @@ impl JitterBuffer {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Due, Frame, Now};
+    use super::super::{BufferedFrame, DueSample, Now};
     use super::*;
     use sinew_physics::body::Body;
     use sinew_physics::motion::Target;
@@ -164,7 +168,7 @@ mod tests {
     }
 
     /// A driver with a clock of his own, who began to send at `began` (s) and is `ahead` (s) in the motion.
-    struct Driver {
+    struct SeamDriver {
         buffer: JitterBuffer,
         began: f64,
         ahead: f64,
@@ -172,11 +176,11 @@ mod tests {
         sent: i64,
     }
 
-    impl Driver {
+    impl SeamDriver {
         fn send(&mut self, now: f64) {
             while self.began + self.sent as f64 / RATE <= now {
                 let t = self.began + self.sent as f64 / RATE;
-                let frame = Frame {
+                let frame = BufferedFrame {
                     sequence: self.sent,
                     source_ns: (t * 1e9) as i64 + 77_000_000_123,
                     posture: (self.motion)(t + self.ahead),
@@ -191,19 +195,19 @@ mod tests {
         }
     }
 
-    /// What a window holds: the time of the motion (s) of each sample, as its pelvis says, and how time runs there.
+    /// The samples of a window: the time of the motion (s) of each, as its pelvis says, and how time runs there.
     #[derive(Default)]
-    struct Held {
+    struct HeldSamples {
         samples: Vec<f64>,
         lead: Vec<f64>,
     }
 
-    impl Held {
+    impl HeldSamples {
         fn feed(&mut self, buffer: &mut JitterBuffer, time: f64) {
             let now = Now { time, lost: 0.0 };
             let samples = &mut self.samples;
             let fed = buffer.feed(now, (RATE, 0.5), |due| {
-                if let Due::Sample(p, _) = due {
+                if let DueSample::Sample(p, _) = due {
                     samples.push(p.root_position.x / 1.2);
                 }
             });
@@ -215,22 +219,22 @@ mod tests {
     }
 
     /// One goes over to the other; returns when, s after the second one began, and what the window held.
-    fn go_over(ahead: f64, delay: Delay, other: fn(f64) -> Posture) -> (Option<f64>, Held) {
-        let mut first = Driver {
+    fn go_over(ahead: f64, delay: Delay, other: fn(f64) -> Posture) -> (Option<f64>, HeldSamples) {
+        let mut first = SeamDriver {
             buffer: buffer(delay),
             began: 0.0,
             ahead: 0.0,
             motion,
             sent: 0,
         };
-        let mut second = Driver {
+        let mut second = SeamDriver {
             buffer: buffer(delay),
             began: 2.0071,
             ahead,
             motion: other,
             sent: 0,
         };
-        let mut held = Held::default();
+        let mut held = HeldSamples::default();
         let mut entered = None;
         for tick in 0..600 {
             let time = f64::from(tick) * TICK;
@@ -239,7 +243,7 @@ mod tests {
             let now = Now { time, lost: 0.0 };
             if entered.is_none()
                 && let Some(p) = second.buffer.due(now)
-                && let Seam::Here(entry) = second.buffer.seam(p, &first.buffer, RATE)
+                && let StreamSeam::Here(entry) = second.buffer.seam(p, &first.buffer, RATE)
             {
                 second.buffer.enter(entry);
                 entered = Some(time - second.began);

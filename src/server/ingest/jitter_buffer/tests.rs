@@ -29,14 +29,14 @@ fn angle(t: f64) -> f64 {
     0.8 + 0.5 * (3.0 * t).sin()
 }
 
-fn frame(i: i64, with_velocity: bool) -> Frame {
+fn frame(i: i64, with_velocity: bool) -> BufferedFrame {
     let t = i as f64 / RATE;
     let mut posture = Posture::default();
     posture.root_position.z = 0.9;
     posture.hinge[4] = angle(t);
     let mut v = Box::new([0.0; NV]);
     v[6 + 19] = 1.5 * (3.0 * t).cos();
-    Frame {
+    BufferedFrame {
         sequence: i,
         source_ns: (t * 1e9).round() as i64,
         posture,
@@ -232,8 +232,8 @@ fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
         let t = i as f64 * TICK;
         b.push(walking(i, i.min(30)), t);
         b.feed(at(t), (RATE, 0.3), |due| match due {
-            Due::Sample(posture, planted) => motion.push(posture, planted),
-            Due::Silence => panic!("it sends"),
+            DueSample::Sample(posture, planted) => motion.push(posture, planted),
+            DueSample::Silence => panic!("it sends"),
         });
         news.push(b.has_news());
         broken.push(motion.breaks_off());
@@ -312,11 +312,11 @@ fn a_stream_that_fell_behind_catches_up() {
 #[test]
 fn a_clock_that_starts_again_is_followed_within_a_second() {
     let hour = 3_600_000_000_000;
-    let later = |mut f: Frame, by: i64| {
+    let later = |mut f: BufferedFrame, by: i64| {
         f.source_ns += by;
         f
     };
-    let cases: [(&str, Box<dyn Fn(i64) -> Frame>); 4] = [
+    let cases: [(&str, Box<dyn Fn(i64) -> BufferedFrame>); 4] = [
         (
             "clock back",
             Box::new(move |i| later(frame(i, true), -hour)),
@@ -327,7 +327,7 @@ fn a_clock_that_starts_again_is_followed_within_a_second() {
         ),
         (
             "sequence",
-            Box::new(|i| Frame {
+            Box::new(|i| BufferedFrame {
                 sequence: i - 120,
                 ..frame(i, true)
             }),
@@ -397,7 +397,7 @@ fn lively(frames: i64) -> JitterBuffer {
 #[test]
 fn velocities_that_are_known_already_are_those_that_would_be_found() {
     let b = lively(40);
-    let bits = |a: &Answer| {
+    let bits = |a: &MotionAnswer| {
         let mut posture: Vec<u64> = a.target.posture.hinge.map(f64::to_bits).to_vec();
         let turns = a.target.posture.ball.iter().flat_map(|q| q.to_xyzw());
         posture.extend(turns.map(f64::to_bits));

@@ -5,9 +5,9 @@
 
 use super::*;
 use crate::engine::{self, Clip, FigureKey, ObstacleKey};
-use crate::ingest::jitter_buffer::Frame;
-use crate::tick::journal::{Journal, Room, Segment, Total, from_disk};
-use crate::tick::scene::{Done, Input, PlayerKey};
+use crate::ingest::jitter_buffer::BufferedFrame;
+use crate::tick::journal::{Journal, JournalSegment, Room, Total, from_disk};
+use crate::tick::scene::{InputResult, PlayerKey, SceneInput};
 use sinew_physics::body::Body;
 use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
 use sinew_physics::math::Vec3;
@@ -62,19 +62,19 @@ impl Script {
                 ..Default::default()
             }),
         );
-        let done = self.scene.apply(Input::AddFigure {
+        let done = self.scene.apply(SceneInput::AddFigure {
             id: id.into(),
             settings: Box::new(settings.unwrap()),
             body: Some(Arc::clone(&self.body)),
         });
-        let Ok(Done::Figure(key)) = done else {
+        let Ok(InputResult::Figure(key)) = done else {
             panic!("{done:?}")
         };
         self.keys.push(key);
     }
 
     fn play(&mut self, i: usize, reset: bool) {
-        let input = Input::Play {
+        let input = SceneInput::Play {
             figure: self.keys[i],
             name: "walk".into(),
             clip: Arc::clone(&self.walk),
@@ -100,13 +100,13 @@ impl Script {
             reset,
             window: Some(window),
         };
-        let done = self.scene.apply(Input::Follow {
+        let done = self.scene.apply(SceneInput::Follow {
             figure: self.keys[i],
             settings,
             window,
             takeover,
         });
-        let Ok(Done::Player(key)) = done else {
+        let Ok(InputResult::Player(key)) = done else {
             panic!("{done:?}")
         };
         self.players.push(key);
@@ -121,7 +121,7 @@ impl Script {
             engine::standing(&self.body, Default::default())
         };
         posture.hinge[4] = 0.5 + 0.3 * (4.0 * t).sin();
-        let frame = Frame {
+        let frame = BufferedFrame {
             sequence: i,
             source_ns: i * 16_666_667,
             posture,
@@ -159,7 +159,7 @@ impl Script {
             }
             30 => self
                 .scene
-                .apply(Input::Stop(self.keys[0]))
+                .apply(SceneInput::Stop(self.keys[0]))
                 .map(drop)
                 .unwrap(),
             50 => self.play(3, false),
@@ -177,20 +177,22 @@ impl Script {
                     },
                     ..obstacle()
                 };
-                let done = self.scene.apply(Input::AddObstacle {
+                let done = self.scene.apply(SceneInput::AddObstacle {
                     id: "ball".into(),
                     setup,
                 });
-                let Ok(Done::Obstacle(_, key)) = done else {
+                let Ok(InputResult::Obstacle(_, key)) = done else {
                     panic!("{done:?}")
                 };
                 self.obstacle = Some(key);
             }
             70 => {
                 let batch = vec![push("a", 90.0), push("d", -60.0)];
-                self.scene.apply(Input::Perturb(batch)).unwrap();
+                self.scene.apply(SceneInput::Perturb(batch)).unwrap();
                 // Refused, and refused again whenever it is done again.
-                let none = self.scene.apply(Input::Perturb(vec![push("nobody", 1.0)]));
+                let none = self
+                    .scene
+                    .apply(SceneInput::Perturb(vec![push("nobody", 1.0)]));
                 assert!(none.is_err());
             }
             90 => self.play(0, false),
@@ -201,23 +203,27 @@ impl Script {
                     fatigue_time_scale: Some(30.0),
                     ..FigureUpdate::default()
                 };
-                let update = Input::UpdateFigure(self.keys[3], Box::new(update));
+                let update = SceneInput::UpdateFigure(self.keys[3], Box::new(update));
                 self.scene.apply(update).unwrap();
             }
             150 => {
-                let input = Input::UpdateObstacle(self.obstacle.unwrap(), obstacle());
+                let input = SceneInput::UpdateObstacle(self.obstacle.unwrap(), obstacle());
                 self.scene.apply(input).unwrap();
             }
             200 => {
-                self.scene.apply(Input::Unfollow(self.players[0])).unwrap();
-                self.scene.apply(Input::Stop(self.keys[1])).unwrap();
-                self.scene.apply(Input::RemoveFigure(self.keys[3])).unwrap();
+                self.scene
+                    .apply(SceneInput::Unfollow(self.players[0]))
+                    .unwrap();
+                self.scene.apply(SceneInput::Stop(self.keys[1])).unwrap();
+                self.scene
+                    .apply(SceneInput::RemoveFigure(self.keys[3]))
+                    .unwrap();
             }
             230 => {
-                let input = Input::ResetFigure(self.keys[0], None);
+                let input = SceneInput::ResetFigure(self.keys[0], None);
                 self.scene.apply(input).unwrap();
                 self.scene
-                    .apply(Input::RemoveObstacle(self.obstacle.unwrap()))
+                    .apply(SceneInput::RemoveObstacle(self.obstacle.unwrap()))
                     .unwrap();
             }
             _ => {}
@@ -293,7 +299,11 @@ fn replays() -> usize {
     wanted.map_or(12, |n| n.parse().expect("SINEW_REPLAYS is a number"))
 }
 
-fn again(segments: &[Arc<Segment>], threads: usize, until: u64) -> Result<Replay, ReplayError> {
+fn again(
+    segments: &[Arc<JournalSegment>],
+    threads: usize,
+    until: u64,
+) -> Result<Replay, ReplayError> {
     let mut replay = Replay::new(segments[0].scene().unwrap());
     replay.scene.set_threads(threads);
     let entries = segments.iter().flat_map(|s| &s.entries);
@@ -366,11 +376,11 @@ fn what_differs_is_told_with_its_tick() {
     let at = first
         .entries
         .iter()
-        .position(|e| matches!(e, Logged::Hash(90, _)));
-    let Logged::Hash(tick, hash) = first.entries[at.unwrap()] else {
+        .position(|e| matches!(e, JournalItem::Hash(90, _)));
+    let JournalItem::Hash(tick, hash) = first.entries[at.unwrap()] else {
         unreachable!()
     };
-    first.entries[at.unwrap()] = Logged::Hash(tick, hash ^ 1);
+    first.entries[at.unwrap()] = JournalItem::Hash(tick, hash ^ 1);
     let differs = again(&past, 1, u64::MAX).unwrap_err();
     assert_eq!(
         differs,
@@ -386,7 +396,7 @@ fn what_differs_is_told_with_its_tick() {
     let at = first
         .entries
         .iter()
-        .position(|e| matches!(e, Logged::Record(_)));
+        .position(|e| matches!(e, JournalItem::Record(_)));
     first.entries.remove(at.unwrap());
     let missing = again(&past, 1, u64::MAX).unwrap_err();
     assert!(matches!(
@@ -404,12 +414,12 @@ fn a_record_with_its_clips_comes_back_from_the_disk() {
     let past = journal.past(0, TICKS).unwrap();
     let entries = past.iter().flat_map(|s| &s.entries);
     let mut clips = 0;
-    let stored: Vec<Logged> = entries
+    let stored: Vec<JournalItem> = entries
         .map(|e| match e {
-            Logged::Record(r) => {
+            JournalItem::Record(r) => {
                 clips += r.definitions.len();
                 let bytes = crate::tick::journal::on_disk(r);
-                Logged::Record(from_disk(r.tick, &bytes).unwrap())
+                JournalItem::Record(from_disk(r.tick, &bytes).unwrap())
             }
             hash => hash.clone(),
         })

@@ -11,7 +11,7 @@ use sinew_physics::body::Body;
 use sinew_physics::collide::ObstacleSetup;
 use sinew_physics::world::RehearsedMotion;
 use sinew_wire::types::{
-    DriveSettings, FigureDisturbance, FigureSettings, FigureUpdate, Pace, Place, Playback,
+    DriveSettings, FigureDisturbance, FigureSettings, FigureUpdate, Place, Playback, WorldPace,
 };
 use std::sync::Arc;
 
@@ -20,9 +20,9 @@ pub type PlayerKey = u64;
 
 /// A change of a world.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub enum Input {
+pub enum SceneInput {
     /// Name for people, speed and overrun policy.
-    Pace(Pace),
+    Pace(WorldPace),
     /// A new figure, standing at its place.
     AddFigure {
         /// Last part of its name.
@@ -61,7 +61,7 @@ pub enum Input {
     AddObstacle {
         /// Last part of its name.
         id: String,
-        /// What it is.
+        /// The obstacle.
         setup: ObstacleSetup,
     },
     /// Another obstacle in the place of one.
@@ -81,7 +81,7 @@ pub enum Input {
     },
     /// Live motion is no longer played to a figure, which goes on with what it does.
     Unfollow(PlayerKey),
-    /// What a figure was asked to play last it does as it was rehearsed, if it begins standing.
+    /// Plays the most recently requested clip from its rehearsal, provided that the clip starts from a stand.
     Rehearsed {
         /// Figure.
         figure: FigureKey,
@@ -91,9 +91,9 @@ pub enum Input {
     },
 }
 
-/// What an input has led to.
+/// The result of an input.
 #[derive(Clone, Debug)]
-pub enum Done {
+pub enum InputResult {
     /// Nothing that has to be told.
     Changed,
     /// A figure of this key.

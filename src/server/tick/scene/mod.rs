@@ -1,5 +1,5 @@
 //! A world as far as it is the same when it is done again: physics, figures and obstacles by name, what plays live
-//! motion to figures. Clocks, connections, leases and who may do what lie around it (`shard`).
+//! motion to figures. Clocks, connections, leases and permissions lie around it (`hosted_world`).
 //!
 //! A scene is changed by [`Scene::apply`], by frames that arrive ([`Scene::take_frame`]) and by ticks
 //! ([`Scene::sample`], [`Scene::step`]). Each notes what it did in a record. A scene of before that is put through the
@@ -12,18 +12,18 @@ mod record;
 mod saved;
 mod shown;
 
-pub use input::{Done, Input, PlayerKey};
-pub use player::{Player, Window};
-pub use record::{Item, Reader, Record, Unreadable};
+pub use input::{InputResult, PlayerKey, SceneInput};
+pub use player::{Player, PlayoutWindow};
+pub use record::{RecordItem, RecordReader, RoundRecord, Unreadable};
 pub use saved::SavedScene;
 
-use crate::engine::{self, Drive as Motion, FigureKey, ObstacleKey, Planning, World};
-use crate::ingest::jitter_buffer::{Frame, Now, Resync};
-use record::Writer;
+use crate::engine::{self, FigureKey, Motion, ObstacleKey, Planning, World};
+use crate::ingest::jitter_buffer::{BufferedFrame, Now, Resync};
+use record::RecordWriter;
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{Body, State};
-use sinew_physics::figure::loads::MAX_PERTURBATIONS;
 use sinew_physics::figure::{ControlParams, LatePlans, Perturbation};
+use sinew_physics::setup::MAX_PERTURBATIONS;
 use sinew_wire::status::Fault;
 use sinew_wire::types::{FigureDisturbance, FigureSettings, FigureUpdate, Place, WorldSettings};
 use std::sync::Arc;
@@ -55,7 +55,7 @@ pub struct Scene {
     next_index: i32,
     players: Vec<Player>,
     next_player: PlayerKey,
-    record: Writer,
+    record: RecordWriter,
 }
 
 impl Scene {
@@ -73,7 +73,7 @@ impl Scene {
             next_index: 0,
             players: Vec::new(),
             next_player: 1,
-            record: Writer::default(),
+            record: RecordWriter::default(),
         })
     }
 
@@ -102,7 +102,7 @@ impl Scene {
         self.next_index
     }
 
-    /// What plays live motion.
+    /// The player of live motion.
     pub fn player(&self, key: PlayerKey) -> Option<&Player> {
         self.players.iter().find(|p| p.key == key)
     }
@@ -132,8 +132,8 @@ impl Scene {
         self.record.turn_on();
     }
 
-    /// What has changed it since the last call.
-    pub fn take_record(&mut self) -> Option<Record> {
+    /// The changes since the last call.
+    pub fn take_record(&mut self) -> Option<RoundRecord> {
         self.record.take()
     }
 
@@ -155,12 +155,14 @@ impl Scene {
     /// Changes the world. The one place where that is done, whoever asks for it and whenever.
     ///
     /// # Errors
-    /// What the physics refuses, with the place of the input in the request.
-    pub fn apply(&mut self, input: Input) -> Result<Done, Fault> {
+    /// The physics refuses the input, whose place in the request is named.
+    pub fn apply(&mut self, input: SceneInput) -> Result<InputResult, Fault> {
         // These are checked before anything changes. Refusals of what costs nothing to ask for would fill the past.
         let checked = matches!(
             input,
-            Input::Perturb(_) | Input::AddObstacle { .. } | Input::UpdateObstacle(..)
+            SceneInput::Perturb(_)
+                | SceneInput::AddObstacle { .. }
+                | SceneInput::UpdateObstacle(..)
         );
         let mark = self.record.mark();
         self.record.input(self.world.tick(), &input);
@@ -171,67 +173,67 @@ impl Scene {
         done
     }
 
-    fn carry_out(&mut self, input: Input) -> Result<Done, Fault> {
+    fn carry_out(&mut self, input: SceneInput) -> Result<InputResult, Fault> {
         match input {
-            Input::Pace(pace) => {
+            SceneInput::Pace(pace) => {
                 self.settings.pace = pace;
-                Ok(Done::Changed)
+                Ok(InputResult::Changed)
             }
-            Input::AddFigure { id, settings, body } => self.add_figure(id, *settings, body),
-            Input::RemoveFigure(key) => {
+            SceneInput::AddFigure { id, settings, body } => self.add_figure(id, *settings, body),
+            SceneInput::RemoveFigure(key) => {
                 self.members.retain(|m| m.key != key);
                 self.players.retain(|p| p.figure != key);
                 self.world.remove_figure(key);
-                Ok(Done::Changed)
+                Ok(InputResult::Changed)
             }
-            Input::UpdateFigure(key, update) => self.update_figure(key, *update),
-            Input::ResetFigure(key, place) => self.reset_figure(key, place),
-            Input::Play {
+            SceneInput::UpdateFigure(key, update) => self.update_figure(key, *update),
+            SceneInput::ResetFigure(key, place) => self.reset_figure(key, place),
+            SceneInput::Play {
                 figure,
                 name,
                 clip,
                 playback,
             } => self.play(figure, name, clip, playback),
-            Input::Rehearsed { figure, motion } => {
+            SceneInput::Rehearsed { figure, motion } => {
                 self.figure_mut(figure)?.rehearse(motion);
-                Ok(Done::Changed)
+                Ok(InputResult::Changed)
             }
-            Input::Stop(key) => {
+            SceneInput::Stop(key) => {
                 self.member_mut(key)?.clip = None;
                 let time = self.world.time();
                 // It finishes its step and stands.
                 self.figure_mut(key)?.stop(time);
-                Ok(Done::Changed)
+                Ok(InputResult::Changed)
             }
-            Input::Perturb(batch) => self.perturb(&batch),
-            Input::ClearPerturbations(key) => {
+            SceneInput::Perturb(batch) => self.perturb(&batch),
+            SceneInput::ClearPerturbations(key) => {
                 self.figure_mut(key)?.clear_perturbations();
-                Ok(Done::Changed)
+                Ok(InputResult::Changed)
             }
-            Input::AddObstacle { id, setup } => {
+            SceneInput::AddObstacle { id, setup } => {
                 let key = engine::add_obstacle(&mut self.world, setup)?;
                 self.next_obstacle += 1;
                 self.obstacles.push((id.clone(), key));
-                Ok(Done::Obstacle(id, key))
+                Ok(InputResult::Obstacle(id, key))
             }
-            Input::UpdateObstacle(key, setup) => {
+            SceneInput::UpdateObstacle(key, setup) => {
                 engine::update_obstacle(&mut self.world, key, setup)?;
-                Ok(Done::Changed)
+                Ok(InputResult::Changed)
             }
-            Input::RemoveObstacle(key) => {
+            SceneInput::RemoveObstacle(key) => {
                 self.obstacles.retain(|(_, k)| *k != key);
                 self.world.remove_obstacle(key);
-                Ok(Done::Changed)
+                Ok(InputResult::Changed)
             }
-            Input::Follow {
+            SceneInput::Follow {
                 figure,
                 settings,
                 window,
                 takeover,
             } => self.follow(figure, settings, window, takeover),
-            Input::Unfollow(key) => {
+            SceneInput::Unfollow(key) => {
                 self.players.retain(|p| p.key != key);
-                Ok(Done::Changed)
+                Ok(InputResult::Changed)
             }
         }
     }
@@ -249,7 +251,7 @@ impl Scene {
         id: String,
         settings: FigureSettings,
         body: Option<Arc<Body>>,
-    ) -> Result<Done, Fault> {
+    ) -> Result<InputResult, Fault> {
         let same = |m: &&Member| m.settings.body == settings.body;
         let known = || self.members.iter().find(same).map(|m| m.key);
         let body = match body.or_else(|| Some(Arc::clone(self.figure(known()?).body()))) {
@@ -265,10 +267,10 @@ impl Scene {
             clip: None,
         });
         self.next_index += 1;
-        Ok(Done::Figure(key))
+        Ok(InputResult::Figure(key))
     }
 
-    fn update_figure(&mut self, key: FigureKey, u: FigureUpdate) -> Result<Done, Fault> {
+    fn update_figure(&mut self, key: FigureKey, u: FigureUpdate) -> Result<InputResult, Fault> {
         if let Some(all) = &u.constraints {
             engine::set_constraints(&mut self.world, key, all)?;
         }
@@ -297,10 +299,10 @@ impl Scene {
         if let Some(name) = u.display_name {
             m.settings.display_name = name;
         }
-        Ok(Done::Changed)
+        Ok(InputResult::Changed)
     }
 
-    fn reset_figure(&mut self, key: FigureKey, place: Option<Place>) -> Result<Done, Fault> {
+    fn reset_figure(&mut self, key: FigureKey, place: Option<Place>) -> Result<InputResult, Fault> {
         let place = place.unwrap_or(self.member_mut(key)?.settings.place);
         let f = self.figure_mut(key)?;
         let posture = engine::standing(f.body(), place);
@@ -309,10 +311,10 @@ impl Scene {
         f.set_drive(Motion::Hold(posture));
         engine::reset(&mut self.world, key, State::at_rest(posture))?;
         self.member_mut(key)?.clip = None;
-        Ok(Done::Changed)
+        Ok(InputResult::Changed)
     }
 
-    /// What a batch comes to.
+    /// The result of a batch.
     ///
     /// # Errors
     /// It is refused.
@@ -366,17 +368,17 @@ impl Scene {
     }
 
     /// Applies a batch, all or nothing.
-    fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<Done, Fault> {
+    fn perturb(&mut self, batch: &[FigureDisturbance]) -> Result<InputResult, Fault> {
         for (key, p) in self.would_perturb(batch)? {
             engine::perturb(&mut self.world, key, p)?;
         }
-        Ok(Done::Changed)
+        Ok(InputResult::Changed)
     }
 
     // ── live motion and ticks ──
 
-    /// Takes a frame for a player that arrived at scheduled time `at`, s. True if its stream begins anew with it.
-    pub fn take_frame(&mut self, key: PlayerKey, frame: Frame, at: f64) -> bool {
+    /// Takes a frame for a player that arrived at scheduled time `at`, s. Whether its stream restarts with it.
+    pub fn take_frame(&mut self, key: PlayerKey, frame: BufferedFrame, at: f64) -> bool {
         self.record.frame(self.world.tick(), key, &frame, at);
         let player = self.players.iter_mut().find(|p| p.key == key);
         player.is_some_and(|p| p.buffer.push(frame, at))

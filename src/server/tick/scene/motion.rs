@@ -1,9 +1,9 @@
-//! What figures are asked to do: clips, and live motion.
+//! Motion that figures are asked for: clips, and live motion.
 
-use super::player::{Player, Window};
-use super::{Done, PlayerKey, Scene};
-use crate::engine::{self, Clip, Drive as Motion, FigureKey};
-use crate::ingest::jitter_buffer::{JitterBuffer, Now, Seam};
+use super::player::{Player, PlayoutWindow};
+use super::{InputResult, PlayerKey, Scene};
+use crate::engine::{self, Clip, FigureKey, Motion};
+use crate::ingest::jitter_buffer::{JitterBuffer, Now, StreamSeam};
 use sinew_wire::status::Fault;
 use sinew_wire::types::{DriveSettings, Place, Playback};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ impl Scene {
         name: String,
         clip: Arc<Clip>,
         p: Playback,
-    ) -> Result<Done, Fault> {
+    ) -> Result<InputResult, Fault> {
         let now = self.world.time();
         let begin = p.start.unwrap_or(now);
         let f = self.figure_mut(key)?;
@@ -35,7 +35,7 @@ impl Scene {
             start = f.play(playback, p.place.is_some(), now);
         }
         self.member_mut(key)?.clip = Some(name);
-        Ok(Done::Begins(start))
+        Ok(InputResult::Begins(start))
     }
 
     pub(super) fn follow(
@@ -44,8 +44,8 @@ impl Scene {
         settings: DriveSettings,
         length: f64,
         takeover: Option<f64>,
-    ) -> Result<Done, Fault> {
-        // What it does goes on until there is motion to go over to.
+    ) -> Result<InputResult, Fault> {
+        // The present motion continues until there is motion to switch to.
         let (dt, time, key) = (self.world.dt(), self.world.time(), self.next_player);
         if takeover.is_none() {
             self.member_mut(figure)?.clip = None;
@@ -55,9 +55,9 @@ impl Scene {
         // Who takes over decides when its motion is there.
         let window = (length > 0.0).then(|| {
             if settings.reset || takeover.is_some() {
-                Window::new(f.body(), length)
+                PlayoutWindow::new(f.body(), length)
             } else {
-                Window::after_stop(f.body(), length, time)
+                PlayoutWindow::after_stop(f.body(), length, time)
             }
         });
         let stand = engine::standing(f.body(), Place::default());
@@ -77,7 +77,7 @@ impl Scene {
         };
         self.next_player += 1;
         self.players.push(player);
-        Ok(Done::Player(key))
+        Ok(InputResult::Player(key))
     }
 
     /// Lets figures go over to the motion of those who took them over, where it is there. Returns those before.
@@ -114,7 +114,7 @@ impl Scene {
     }
 
     /// How the `i`-th player takes its figure over in the tick that begins `now`, over so many seconds, if it does.
-    fn seam(&mut self, i: usize, now: Now) -> Option<(f64, Seam)> {
+    fn seam(&mut self, i: usize, now: Now) -> Option<(f64, StreamSeam)> {
         let blend = self.players[i].takeover?;
         let key = self.players[i].figure;
         let plays = |p: &Player| p.figure == key && p.takeover.is_none();
@@ -126,7 +126,7 @@ impl Scene {
                 player.seam(figure, Some(before), now)
             }
         };
-        seam.filter(|s| *s != Seam::Later).map(|s| (blend, s))
+        seam.filter(|s| *s != StreamSeam::Later).map(|s| (blend, s))
     }
 
     pub(super) fn play_live(&mut self, now: Now) {
@@ -154,7 +154,7 @@ impl Scene {
                 f.set_drive(Motion::External(pair));
             }
             if let Some(state) = first {
-                // What came over the wire was checked there, so there is nothing left to refuse.
+                // Input from the wire was checked there, so there is nothing left to refuse.
                 let _ = engine::reset(&mut self.world, key, state);
             }
         }

@@ -1,11 +1,11 @@
-//! What plays live motion to a figure: its jitter buffer and, if it is prepared, its window.
+//! The player of live motion for a figure: its jitter buffer and, if the motion is prepared, its window.
 //!
 //! A player is part of the world: what it does in a tick depends on the frames that came and on the clock that ticks
 //! were counted by, both of which are recorded. Who may send it frames is a matter of drives (`drives`).
 
 use super::input::PlayerKey;
 use crate::engine::{self, Figure, FigureKey, LivePlayback};
-use crate::ingest::jitter_buffer::{Due, JitterBuffer, Now, Seam};
+use crate::ingest::jitter_buffer::{DueSample, JitterBuffer, Now, StreamSeam};
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{Body, Posture, State};
 use sinew_physics::motion::TargetPair;
@@ -22,7 +22,7 @@ const MOST_STOPPING: f64 = 5.0;
 /// Samples from one look for a moment at which to catch up to the next.
 const CATCH_UP_STRIDE: i64 = 10;
 
-/// What plays live motion to one figure.
+/// The player of live motion for one figure.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Player {
     /// Its number.
@@ -32,7 +32,7 @@ pub struct Player {
     /// Its desired motion.
     pub buffer: JitterBuffer,
     /// The window that prepares its motion, if there is one.
-    pub window: Option<Window>,
+    pub window: Option<PlayoutWindow>,
     /// It takes the figure over from another player, over so many seconds, once its own motion is there.
     pub takeover: Option<f64>,
     /// Its figure is put into its first desired posture.
@@ -41,7 +41,7 @@ pub struct Player {
 
 /// A window between the buffer and its figure.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Window {
+pub struct PlayoutWindow {
     /// Its length, s.
     pub length: f64,
     /// The stream until its figure begins to follow it.
@@ -51,26 +51,26 @@ pub struct Window {
     /// It comes to a stand before that; from this world time on it is not waited for any more, s.
     stands: Option<f64>,
     /// How far the figure is behind the window, because it was led into a stream that began in motion.
-    late: Late,
+    late: WindowLag,
 }
 
 /// How far a figure is behind the window of its stream.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
-pub struct Late {
+pub struct WindowLag {
     /// So much, s.
     by: f64,
     /// Sample from which on it follows the stream itself.
     from: i64,
 }
 
-impl Late {
-    /// False if it cannot be what was written into a checkpoint.
+impl WindowLag {
+    /// Whether this value is one that a checkpoint could hold.
     fn is_valid(self) -> bool {
         (0.0..=60.0).contains(&self.by) && self.from.unsigned_abs() < 1 << 41
     }
 }
 
-impl Window {
+impl PlayoutWindow {
     /// A window of `length` seconds for a figure with this body.
     pub fn new(body: &Arc<Body>, length: f64) -> Self {
         let motion = StreamPlan::new(Arc::clone(body), length);
@@ -82,7 +82,7 @@ impl Window {
             })),
             begun: false,
             stands: None,
-            late: Late::default(),
+            late: WindowLag::default(),
         }
     }
 
@@ -92,7 +92,7 @@ impl Window {
     }
 
     /// The same, for one that takes its figure over.
-    pub fn late(&self) -> Late {
+    pub fn late(&self) -> WindowLag {
         self.late
     }
 
@@ -126,12 +126,12 @@ impl Window {
         };
         if let Some(found) = figure.take_stream_entry() {
             let Some(way) = found else {
-                // What comes later may be within its reach.
+                // Later samples may be within its reach.
                 *self = Self::after_stop(figure.body(), self.length, time);
                 return false;
             };
             live.motion = live.motion.led_in(LEAD_IN, &way);
-            self.late = Late {
+            self.late = WindowLag {
                 by: head - self.length + (live.motion.fed() - next) as f64 / RATE,
                 from: (LEAD_IN + way.samples.len()) as i64,
             };
@@ -180,10 +180,15 @@ impl Player {
 
     /// How it takes its figure over from the one that plays to it now, if it can in the tick that begins `now`; `None`
     /// while there is no motion.
-    pub fn seam(&mut self, figure: &mut Figure, before: Option<&Self>, now: Now) -> Option<Seam> {
+    pub fn seam(
+        &mut self,
+        figure: &mut Figure,
+        before: Option<&Self>,
+        now: Now,
+    ) -> Option<StreamSeam> {
         let p = self.buffer.due(now)?;
         let Some(window) = &self.window else {
-            return Some(Seam::Nowhere);
+            return Some(StreamSeam::Nowhere);
         };
         // The stream that the figure follows goes on with another motion: its window stays.
         let length = window.length;
@@ -192,20 +197,27 @@ impl Player {
             Some(before) if figure.stream_mut().is_some() => {
                 self.buffer.seam(p, &before.buffer, RATE)
             }
-            _ => Seam::Nowhere,
+            _ => StreamSeam::Nowhere,
         })
     }
 
     /// Takes a figure over from another player, in the middle of what it does, over `blend` seconds.
     ///
     /// * `late`: how far the figure is behind the window of that one.
-    pub fn join(&mut self, figure: &mut Figure, now: Now, blend: f64, seam: Seam, late: Late) {
+    pub fn join(
+        &mut self,
+        figure: &mut Figure,
+        now: Now,
+        blend: f64,
+        seam: StreamSeam,
+        late: WindowLag,
+    ) {
         self.buffer.begin_from(figure.target().next.clone(), blend);
         let Some(window) = &mut self.window else {
             return; // the buffer goes over by itself
         };
         match (seam, figure.stream_mut()) {
-            (Seam::Here(entry), Some(live)) => {
+            (StreamSeam::Here(entry), Some(live)) => {
                 self.buffer.enter(entry);
                 live.motion.join(blend);
                 window.waiting = None;
@@ -215,7 +227,7 @@ impl Player {
             _ => {
                 // It finishes its step, and is led in from a stand.
                 figure.stop(now.time);
-                *window = Window::after_stop(figure.body(), window.length, now.time);
+                *window = PlayoutWindow::after_stop(figure.body(), window.length, now.time);
             }
         }
     }
@@ -228,13 +240,13 @@ impl Player {
         let length = window.length;
         let time = now.time;
         if self.buffer.take_break() {
-            // What the window holds has no continuation.
+            // The samples of the window have no continuation.
             if window.waiting.is_none() {
                 figure.stop(time);
             } else if window.begun {
-                *window = Window::after_stop(figure.body(), length, time);
+                *window = PlayoutWindow::after_stop(figure.body(), length, time);
             } else {
-                *window = Window::new(figure.body(), length);
+                *window = PlayoutWindow::new(figure.body(), length);
             }
             return None;
         }
@@ -244,7 +256,7 @@ impl Player {
                 self.buffer.feed(now, (RATE, length), |_| ());
                 return None;
             }
-            *window = Window::after_stop(figure.body(), length, time);
+            *window = PlayoutWindow::after_stop(figure.body(), length, time);
         }
         if window.waits_for_stand(figure, time) {
             self.buffer.feed(now, (RATE, length), |_| ());
@@ -260,17 +272,17 @@ impl Player {
         let tick = self.buffer.tick();
         let all = length + window.late.by;
         let (head, next) = self.buffer.feed(now, (RATE, all), |due| match due {
-            Due::Sample(posture, planted) => {
+            DueSample::Sample(posture, planted) => {
                 motion.push(posture, planted);
                 given += 1;
             }
-            Due::Silence => silent = true,
+            DueSample::Silence => silent = true,
         })?;
         if silent {
             if waits {
                 return None;
             }
-            // What has come before still plays.
+            // Earlier samples are still being played.
             window.late.by -= tick;
             if window.late.by <= 0.0 {
                 // It finishes its step and stands.
@@ -291,7 +303,7 @@ impl Player {
         let mut live = window.waiting.take_if(|_| begins)?;
         live.motion.advance(live.stream_time(time) + 1.0 / RATE);
         let first = live.motion.sample(live.stream_time(time));
-        figure.set_drive(engine::Drive::Live(live));
+        figure.set_drive(engine::Motion::Live(live));
         (reset && !window.begun).then_some(first.state())
     }
 

@@ -1,4 +1,4 @@
-//! What is written of the changes of a world: bytes of one round of its clock, and back.
+//! The changes of a world in one round of its clock, as bytes and back.
 //!
 //! ```text
 //!   record: seq u64 │ fresh u8 │ items
@@ -12,9 +12,9 @@
 //! frames before, without the bytes that are zero; not a bit is lost. A `fresh` record forgets what came before it: the
 //! first one behind each checkpoint is, so that reading can begin there.
 
-use super::input::{Input, PlayerKey};
+use super::input::{PlayerKey, SceneInput};
 use crate::engine::FigureKey;
-use crate::ingest::jitter_buffer::Frame;
+use crate::ingest::jitter_buffer::BufferedFrame;
 use bytes::Bytes;
 use sinew_physics::body::topology::{BALL_COUNT, HINGE_COUNT};
 use sinew_physics::body::{NV, Posture};
@@ -36,9 +36,9 @@ const FRAME: u8 = 2;
 const TICK: u8 = 3;
 const LATE: u8 = 4;
 
-/// What has changed a world in one round.
+/// The changes of a world in one round.
 #[derive(Clone)]
-pub struct Record {
+pub struct RoundRecord {
     /// Its number: they grow by one.
     pub seq: u64,
     /// Tick before which it was.
@@ -49,7 +49,7 @@ pub struct Record {
     pub definitions: Vec<Definition>,
 }
 
-impl std::fmt::Debug for Record {
+impl std::fmt::Debug for RoundRecord {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "record {} of {} bytes", self.seq, self.bytes.len())
     }
@@ -57,11 +57,11 @@ impl std::fmt::Debug for Record {
 
 /// An item of a record.
 #[derive(Debug)]
-pub enum Item {
+pub enum RecordItem {
     /// A change.
-    Input(Box<Input>),
+    Input(Box<SceneInput>),
     /// A frame of live motion, and when it arrived (scheduled time, s).
-    Frame(PlayerKey, Box<Frame>, f64),
+    Frame(PlayerKey, Box<BufferedFrame>, f64),
     /// A tick samples live motion; the clock has left out so much world time, s.
     Tick(f64),
     /// Plans of a figure that were late in it.
@@ -75,7 +75,7 @@ pub struct Unreadable(pub &'static str);
 
 /// The last frames of one player, from which the next is guessed.
 #[derive(Clone, Debug)]
-struct Past {
+struct FramePast {
     player: PlayerKey,
     times: [i64; 2],
     sequence: i64,
@@ -83,7 +83,7 @@ struct Past {
     slope: Box<[f64; NUMBERS]>,
 }
 
-impl Past {
+impl FramePast {
     fn new(player: PlayerKey) -> Self {
         Self {
             player,
@@ -120,19 +120,19 @@ impl Past {
     }
 }
 
-/// What was written, or read, before.
+/// The state of writing or reading: earlier definitions and frames.
 #[derive(Clone, Debug, Default)]
-struct Pasts(Vec<Past>);
+struct Pasts(Vec<FramePast>);
 
 impl Pasts {
-    fn of(&mut self, player: PlayerKey) -> &mut Past {
+    fn of(&mut self, player: PlayerKey) -> &mut FramePast {
         let i = match self.0.iter().position(|p| p.player == player) {
             Some(i) => i,
             None => {
                 if self.0.len() == MAX_PASTS {
                     self.0.remove(0);
                 }
-                self.0.push(Past::new(player));
+                self.0.push(FramePast::new(player));
                 self.0.len() - 1
             }
         };
@@ -189,10 +189,10 @@ fn put_words(out: &mut Vec<u8>, words: &[u64]) {
 
 /// Writes records. Buffers are kept.
 #[derive(Debug, Default)]
-pub struct Writer {
+pub struct RecordWriter {
     on: bool,
     bytes: Vec<u8>,
-    definitions: Vec<Shared>,
+    definitions: Vec<SharedDefinition>,
     tick: u64,
     /// Records so far.
     seq: u64,
@@ -204,22 +204,22 @@ pub struct Writer {
 
 /// How far a record had been written.
 #[derive(Clone, Copy, Debug)]
-pub struct Mark {
+pub struct RecordMark {
     bytes: usize,
     definitions: usize,
     fresh: bool,
 }
 
 /// A definition in something that can be shown.
-struct Shared(Definition);
+struct SharedDefinition(Definition);
 
-impl std::fmt::Debug for Shared {
+impl std::fmt::Debug for SharedDefinition {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("definition")
     }
 }
 
-impl Writer {
+impl RecordWriter {
     /// A writer after `seq` records, that writes nothing until it is turned on.
     pub fn after(seq: u64) -> Self {
         Self {
@@ -261,8 +261,8 @@ impl Writer {
     }
 
     /// How far it has written.
-    pub fn mark(&self) -> Mark {
-        Mark {
+    pub fn mark(&self) -> RecordMark {
+        RecordMark {
             bytes: self.bytes.len(),
             definitions: self.definitions.len(),
             fresh: self.fresh,
@@ -270,14 +270,14 @@ impl Writer {
     }
 
     /// Takes changes back that were written since, and have not taken place.
-    pub fn retract(&mut self, mark: Mark) {
+    pub fn retract(&mut self, mark: RecordMark) {
         self.bytes.truncate(mark.bytes);
         self.definitions.truncate(mark.definitions);
         self.fresh = mark.fresh;
     }
 
     /// A change before a tick.
-    pub fn input(&mut self, tick: u64, input: &Input) {
+    pub fn input(&mut self, tick: u64, input: &SceneInput) {
         if !self.begin(tick) {
             return;
         }
@@ -290,11 +290,12 @@ impl Writer {
         put(&mut self.bytes, definitions.len() as u64);
         put(&mut self.bytes, written.len() as u64);
         self.bytes.extend_from_slice(&written);
-        self.definitions.extend(definitions.into_iter().map(Shared));
+        self.definitions
+            .extend(definitions.into_iter().map(SharedDefinition));
     }
 
     /// A frame that arrived at scheduled time `at`, s.
-    pub fn frame(&mut self, tick: u64, player: PlayerKey, frame: &Frame, at: f64) {
+    pub fn frame(&mut self, tick: u64, player: PlayerKey, frame: &BufferedFrame, at: f64) {
         if !self.begin(tick) {
             return;
         }
@@ -346,15 +347,15 @@ impl Writer {
         }
     }
 
-    /// What was written since the last call, if anything was.
-    pub fn take(&mut self) -> Option<Record> {
+    /// The bytes since the last call, if there are any.
+    pub fn take(&mut self) -> Option<RoundRecord> {
         if self.bytes.is_empty() {
             return None;
         }
         self.seq += 1;
         let bytes = Bytes::copy_from_slice(&self.bytes);
         self.bytes.clear();
-        Some(Record {
+        Some(RoundRecord {
             seq: self.seq,
             tick: self.tick,
             bytes,
@@ -367,7 +368,7 @@ impl Writer {
         if !self.bytes.is_empty() {
             self.bytes.clear();
             self.definitions.clear();
-            // What a frame was guessed from is not in what is read.
+            // The bytes lack the frame that this one was guessed from.
             self.forget();
         }
     }
@@ -375,14 +376,14 @@ impl Writer {
 
 /// Reads records one after the other.
 #[derive(Debug, Default)]
-pub struct Reader {
+pub struct RecordReader {
     pasts: Pasts,
 }
 
 /// Bytes that are being read.
-struct Rest<'a>(&'a [u8]);
+struct RemainingBytes<'a>(&'a [u8]);
 
-impl<'a> Rest<'a> {
+impl<'a> RemainingBytes<'a> {
     fn take(&mut self, n: usize) -> Result<&'a [u8], Unreadable> {
         let (head, rest) = self.0.split_at_checked(n).ok_or(Unreadable("it ends"))?;
         self.0 = rest;
@@ -437,26 +438,26 @@ impl<'a> Rest<'a> {
     }
 }
 
-impl Reader {
+impl RecordReader {
     /// Number of a record.
     ///
     /// # Errors
     /// It is no record.
     pub fn seq(bytes: &[u8]) -> Result<u64, Unreadable> {
-        Rest(bytes).number()
+        RemainingBytes(bytes).number()
     }
 
     /// Hands the items of a record, in order, to `each`, as far as it wants them.
     ///
     /// # Errors
-    /// What cannot have been written, or what `each` returns.
+    /// Bytes that cannot have been written, or the error that `each` returns.
     pub fn read<E: From<Unreadable>>(
         &mut self,
         record: &[u8],
         definitions: &[Definition],
-        mut each: impl FnMut(Item) -> Result<(), E>,
+        mut each: impl FnMut(RecordItem) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut rest = Rest(record);
+        let mut rest = RemainingBytes(record);
         rest.number()?;
         if rest.byte()? != 0 {
             self.pasts.0.clear();
@@ -465,7 +466,7 @@ impl Reader {
             let item = match rest.byte()? {
                 INPUT => Self::input(&mut rest, definitions)?,
                 FRAME => self.frame(&mut rest)?,
-                TICK => Item::Tick(rest.float()?),
+                TICK => RecordItem::Tick(rest.float()?),
                 LATE => {
                     let figure = FigureKey(rest.number()?);
                     let late = rest.byte()?;
@@ -473,7 +474,7 @@ impl Reader {
                         exit: late & 1 != 0,
                         entry: late & 2 != 0,
                     };
-                    Item::Late(figure, late)
+                    RecordItem::Late(figure, late)
                 }
                 _ => return Err(Unreadable("an item of an unknown kind").into()),
             };
@@ -482,7 +483,10 @@ impl Reader {
         Ok(())
     }
 
-    fn input(rest: &mut Rest<'_>, definitions: &[Definition]) -> Result<Item, Unreadable> {
+    fn input(
+        rest: &mut RemainingBytes<'_>,
+        definitions: &[Definition],
+    ) -> Result<RecordItem, Unreadable> {
         let (first, count) = (rest.number()?, rest.number()?);
         let length = usize::try_from(rest.number()?).unwrap_or(usize::MAX);
         let bytes = rest.take(length)?;
@@ -495,12 +499,12 @@ impl Reader {
             .ok_or(Unreadable("a clip is missing"))?;
         let read = saved::with_definitions(own.to_vec(), || postcard::take_from_bytes(bytes));
         match read {
-            Ok((input, [])) => Ok(Item::Input(Box::new(input))),
+            Ok((input, [])) => Ok(RecordItem::Input(Box::new(input))),
             _ => Err(Unreadable("a change of an unknown kind")),
         }
     }
 
-    fn frame(&mut self, rest: &mut Rest<'_>) -> Result<Item, Unreadable> {
+    fn frame(&mut self, rest: &mut RemainingBytes<'_>) -> Result<RecordItem, Unreadable> {
         let player = rest.number()?;
         let past = self.pasts.of(player);
         let sequence = past.sequence.wrapping_add(rest.signed()?);
@@ -525,7 +529,7 @@ impl Reader {
             v.copy_from_slice(&x[POSTURE..]);
             v
         });
-        let frame = Frame {
+        let frame = BufferedFrame {
             sequence,
             source_ns,
             posture: posture(&x),
@@ -534,7 +538,7 @@ impl Reader {
             guess: Cell::default(),
             arrival: Instant::now(),
         };
-        Ok(Item::Frame(player, Box::new(frame), at))
+        Ok(RecordItem::Frame(player, Box::new(frame), at))
     }
 }
 
@@ -542,7 +546,7 @@ impl Reader {
 mod tests {
     use super::*;
 
-    fn frame(i: i64) -> Frame {
+    fn frame(i: i64) -> BufferedFrame {
         let t = i as f64 / 60.0;
         let mut posture = Posture::default();
         posture.root_position.z = 0.93 + 0.01 * (6.0 * t).sin();
@@ -556,7 +560,7 @@ mod tests {
         }
         let velocity =
             (i % 3 == 0).then(|| Box::new(std::array::from_fn(|k| (k as f64 * t).sin())));
-        Frame {
+        BufferedFrame {
             sequence: 7 + i,
             source_ns: 16_666_667 * i - i % 2,
             posture,
@@ -567,7 +571,7 @@ mod tests {
         }
     }
 
-    fn items(reader: &mut Reader, record: &Record) -> Vec<Item> {
+    fn items(reader: &mut RecordReader, record: &RoundRecord) -> Vec<RecordItem> {
         let mut out = Vec::new();
         reader
             .read::<Unreadable>(&record.bytes, &record.definitions, |item| {
@@ -580,9 +584,9 @@ mod tests {
 
     #[test]
     fn what_is_read_is_what_was_written_bit_for_bit() {
-        let mut writer = Writer::after(4);
+        let mut writer = RecordWriter::after(4);
         writer.turn_on();
-        let mut reader = Reader::default();
+        let mut reader = RecordReader::default();
         for i in 0..40 {
             for player in [3, 9] {
                 writer.frame(i as u64, player, &frame(i + player as i64), 0.1 * i as f64);
@@ -601,17 +605,17 @@ mod tests {
             }
             let record = writer.take().unwrap();
             assert_eq!((record.tick, record.seq), (i as u64, 5 + i as u64));
-            assert_eq!(Reader::seq(&record.bytes), Ok(record.seq));
+            assert_eq!(RecordReader::seq(&record.bytes), Ok(record.seq));
             if i == 21 {
-                reader = Reader::default();
+                reader = RecordReader::default();
             }
             let items = items(&mut reader, &record);
             for (player, item) in [3, 9].iter().zip(&items) {
-                let Item::Frame(key, read, at) = item else {
+                let RecordItem::Frame(key, read, at) = item else {
                     panic!("{item:?}")
                 };
                 assert_eq!((key, *at), (player, 0.1 * i as f64));
-                let wrote = Frame {
+                let wrote = BufferedFrame {
                     arrival: read.arrival,
                     ..frame(i + *player as i64)
                 };
@@ -619,9 +623,9 @@ mod tests {
             }
             let late = items
                 .iter()
-                .filter(|i| matches!(i, Item::Late(FigureKey(300), l) if l.exit));
+                .filter(|i| matches!(i, RecordItem::Late(FigureKey(300), l) if l.exit));
             assert_eq!(late.count(), usize::from(i == 20));
-            let ticks = items.iter().filter(|i| matches!(i, Item::Tick(0.5)));
+            let ticks = items.iter().filter(|i| matches!(i, RecordItem::Tick(0.5)));
             assert_eq!(ticks.count(), usize::from(i == 0 || i == 21));
         }
         assert!(writer.take().is_none());
@@ -629,11 +633,11 @@ mod tests {
 
     #[test]
     fn frames_are_small() {
-        let mut writer = Writer::after(0);
+        let mut writer = RecordWriter::after(0);
         writer.turn_on();
         let (mut moving, mut still) = (0, 0);
         for i in 0..60 {
-            let plain = |i| Frame {
+            let plain = |i| BufferedFrame {
                 velocity: None,
                 ..frame(i)
             };
@@ -642,7 +646,7 @@ mod tests {
             writer.frame(
                 0,
                 2,
-                &Frame {
+                &BufferedFrame {
                     sequence: i,
                     source_ns: i,
                     ..plain(0)
@@ -658,7 +662,7 @@ mod tests {
     fn any_bytes_are_read_or_refused() {
         use proptest::prelude::*;
         proptest!(|(bytes in proptest::collection::vec(any::<u8>(), 0..600))| {
-            let _ = Reader::default().read::<Unreadable>(&bytes, &[], |_| Ok(()));
+            let _ = RecordReader::default().read::<Unreadable>(&bytes, &[], |_| Ok(()));
         });
     }
 }

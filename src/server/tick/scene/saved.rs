@@ -1,8 +1,8 @@
 //! A scene as it is written into a checkpoint, and made again from one.
 
-use super::record::Writer;
+use super::record::RecordWriter;
 use super::{Member, Player, PlayerKey, Scene};
-use crate::engine::{Drive as Motion, Figure, ObstacleKey, World};
+use crate::engine::{Figure, Motion, ObstacleKey, World};
 use serde::{Deserialize, Serialize};
 use sinew_physics::figure::constraints::MAX_CONSTRAINTS;
 use sinew_physics::world::checkpoint::Capture;
@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 /// Most players of a scene that is read: each figure has one or two.
 const MAX_PLAYERS: usize = 200_000;
 
-/// What a scene has besides its physics.
+/// The parts of a scene besides its physics.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct SavedScene<'a> {
     settings: Cow<'a, WorldSettings>,
@@ -50,7 +50,7 @@ impl<'de> Deserialize<'de> for Players<'_> {
     }
 }
 
-/// True if what is told of a figure could have come in requests.
+/// Whether the description of a figure could have come in requests.
 fn is_member(m: &Member) -> bool {
     display_name("", &m.settings.display_name).is_ok()
         && m.settings.constraints.len() <= MAX_CONSTRAINTS
@@ -158,7 +158,7 @@ impl Scene {
             next_index,
             players,
             next_player,
-            record: Writer::after(seq),
+            record: RecordWriter::after(seq),
         })
     }
 

@@ -1,4 +1,4 @@
-//! What a scene looks like.
+//! The view of a scene.
 
 use super::{Player, Scene};
 use crate::engine::{self, FigureKey, ObstacleKey};
@@ -7,7 +7,7 @@ use sinew_wire::types::{FigureSnapshot, ObstacleInfo, RosterEntry, Snapshot};
 use std::sync::Arc;
 
 impl Scene {
-    /// What a figure touches, as it is called outside; empty for something that has gone.
+    /// The name of the thing that a figure touches; empty if it has gone.
     pub fn name_of(&self, other: Other) -> String {
         match other {
             Other::Figure(key, _) => {

@@ -4,14 +4,16 @@
 use super::*;
 use crate::engine::Planning;
 use sinew_physics::body::topology::DOF_COUNT;
-use sinew_physics::figure::rehearsed::{Hold, JointOffset, MotorLaw, RootStep, Stage};
+use sinew_physics::figure::motion::rehearsed::{JointOffset, RehearsalWorld};
 use sinew_physics::figure::{Flags, FollowMode, RehearsedMotion};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::{Clip, Target, TargetPair};
+use sinew_physics::stepper::motor_law::MotorLaw;
+use sinew_physics::stepper::pelvis_wrench::{PelvisHold, RootStep};
 use sinew_wire::convert;
 use sinew_wire::frame::figure_frame;
 use sinew_wire::pb;
-use sinew_wire::types::{Disturbance, Fields, Follows, NumberFormat, Playback};
+use sinew_wire::types::{Disturbance, FieldSet, Follows, NumberFormat, Playback};
 
 /// Ticks of the motion that is rehearsed.
 const TICKS: usize = 30;
@@ -22,12 +24,12 @@ const HELP: f64 = 20.0;
 fn scene() -> (Scene, FigureKey) {
     let settings = convert::world::settings(Some(pb::World::default())).unwrap();
     let mut scene = Scene::new(settings).unwrap();
-    let done = scene.apply(Input::AddFigure {
+    let done = scene.apply(SceneInput::AddFigure {
         id: "anna".into(),
         settings: Box::new(convert::figure::settings("", None).unwrap()),
         body: Some(Arc::new(Body::adult_man())),
     });
-    let Ok(Done::Figure(key)) = done else {
+    let Ok(InputResult::Figure(key)) = done else {
         panic!("{done:?}")
     };
     (scene, key)
@@ -36,7 +38,7 @@ fn scene() -> (Scene, FigureKey) {
 /// A stand that was rehearsed, with or without help.
 fn stand(scene: &Scene, key: FigureKey, force: f64) -> Arc<RehearsedMotion> {
     let p = scene.world.params();
-    let stage = Stage {
+    let stage = RehearsalWorld {
         dt: 1.0 / p.rate_hz,
         substeps: p.substeps,
         gravity: p.gravity,
@@ -52,7 +54,7 @@ fn stand(scene: &Scene, key: FigureKey, force: f64) -> Arc<RehearsedMotion> {
     let motion = RehearsedMotion {
         stage,
         motors: MotorLaw::STIFF,
-        hold: Hold {
+        hold: PelvisHold {
             frequency: 8.0,
             inertia: [80.0, 40.0],
             most: [0.0; 2],
@@ -79,7 +81,7 @@ fn still(scene: &Scene, key: FigureKey) -> Clip {
 }
 
 fn play(scene: &mut Scene, key: FigureKey, clip: Clip, max_help: f64) {
-    let done = scene.apply(Input::Play {
+    let done = scene.apply(SceneInput::Play {
         figure: key,
         name: "clip".into(),
         clip: Arc::new(clip),
@@ -99,7 +101,7 @@ fn play(scene: &mut Scene, key: FigureKey, clip: Clip, max_help: f64) {
 fn told(scene: &mut Scene, ticks: usize) -> Follows {
     (0..ticks).for_each(|_| scene.step(Planning::InTick));
     let figure = &scene.figures()[0];
-    let frame = figure_frame(0, figure, 9.81, Fields::DEFAULT, NumberFormat::Double);
+    let frame = figure_frame(0, figure, 9.81, FieldSet::DEFAULT, NumberFormat::Double);
     let status = frame.status.unwrap();
     let follows = figure.follows;
     let way = match follows.so_far.mode {
@@ -119,7 +121,7 @@ fn what_is_refused_is_not_recorded() {
     let (mut scene, _) = scene();
     scene.keep_records();
     let push = |tick| {
-        Input::Perturb(vec![FigureDisturbance {
+        SceneInput::Perturb(vec![FigureDisturbance {
             figure: "anna".into(),
             tick,
             what: Disturbance::Force {
@@ -164,7 +166,9 @@ fn what_a_rehearsal_needs_is_told_also_after_a_checkpoint() {
         let clip = still(&scene, key);
         play(&mut scene, key, clip, 0.25);
         let figure = key;
-        scene.apply(Input::Rehearsed { figure, motion }).unwrap();
+        scene
+            .apply(SceneInput::Rehearsed { figure, motion })
+            .unwrap();
         let mode = [FollowMode::Rehearsed, FollowMode::Helped][usize::from(force > 0.0)];
         let dt = scene.world.dt();
         let first = told(&mut scene, 10);
@@ -197,7 +201,10 @@ fn shows_finite_numbers(scene: &Scene) {
         NumberFormat::Fixed16,
     ] {
         for figure in scene.figures() {
-            let frame = format!("{:?}", figure_frame(0, &figure, 9.81, Fields::ALL, format));
+            let frame = format!(
+                "{:?}",
+                figure_frame(0, &figure, 9.81, FieldSet::ALL, format)
+            );
             assert!(frame.contains("audit: Some"), "there was a tick");
             let broken = ["NaN", "inf"].map(|word| frame.contains(word));
             assert_eq!(broken, [false; 2], "{format:?}");
@@ -228,7 +235,7 @@ fn no_number_that_is_not_finite_is_shown_or_stored() {
                 ..Default::default()
             };
             let update = convert::figure::update(&figure, None).unwrap();
-            let update = Input::UpdateFigure(key, Box::new(update));
+            let update = SceneInput::UpdateFigure(key, Box::new(update));
             scene.apply(update).unwrap();
             told(&mut scene, 2);
             let mut target = Target::still(scene.figure(key).state().posture);

@@ -1,4 +1,4 @@
-//! What a worker has yet to tell the network: which worlds have a new frame.
+//! Frames that a worker has yet to tell the network about.
 //!
 //! Telling wakes a thread, which costs both sides more than a frame does. A worker that has more ticks to run at once
 //! tells of several of them together: one wake-up serves all.
@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// tick that takes longer holds up what waits.
 const PATIENCE: Duration = Duration::from_millis(1);
 
-/// Worlds whose latest frame nobody was told of.
+/// Worlds whose latest frame has not been announced.
 #[derive(Debug, Default)]
 pub(super) struct News {
     outlets: Vec<Arc<Outlet>>,

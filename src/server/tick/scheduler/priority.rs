@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-/// What a thread has been given, the most urgent first.
+/// Priority of a thread, the most urgent first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Priority {
+pub enum WorkerPriority {
     /// First in, first out, before all threads that have no real-time priority.
     Fifo,
     /// A larger part of the processor, and sooner.
@@ -13,7 +13,7 @@ pub enum Priority {
     Plain,
 }
 
-impl Priority {
+impl WorkerPriority {
     /// By the name that the setting `tick_priority` gives it.
     pub fn by_name(name: &str) -> Option<Self> {
         [Self::Fifo, Self::Nice, Self::Plain]
@@ -22,7 +22,7 @@ impl Priority {
     }
 }
 
-impl fmt::Display for Priority {
+impl fmt::Display for WorkerPriority {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Fifo => "fifo",
@@ -32,7 +32,7 @@ impl fmt::Display for Priority {
     }
 }
 
-/// What a thread of this module does.
+/// The duty of a thread of this module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Duty {
     /// Watches over the others.
@@ -46,7 +46,7 @@ pub(super) enum Duty {
 
 #[cfg(target_os = "linux")]
 mod linux {
-    use super::{Duty, Priority};
+    use super::{Duty, WorkerPriority};
     use std::num::NonZeroU64;
     use thread_priority::{
         NormalThreadSchedulePolicy, RealtimeThreadSchedulePolicy, ThreadPriority,
@@ -88,13 +88,13 @@ mod linux {
     }
 
     /// Makes this thread as urgent as it may be, but no more than `most`. Returns what it has become.
-    pub(in super::super) fn raise(duty: Duty, most: Priority) -> Priority {
+    pub(in super::super) fn raise(duty: Duty, most: WorkerPriority) -> WorkerPriority {
         // Waits end when they should, not up to 50 µs later.
         if let Err(e) = rustix::thread::set_current_timer_slack(NonZeroU64::new(1)) {
             tracing::debug!("the timers of a thread stay coarse: {e}");
         }
-        if most == Priority::Fifo && fifo(duty) {
-            return Priority::Fifo;
+        if most == WorkerPriority::Fifo && fifo(duty) {
+            return WorkerPriority::Fifo;
         }
         let own = Some(rustix::thread::gettid());
         // Threads inherit from the one that starts them.
@@ -105,18 +105,19 @@ mod linux {
             let _ = rustix::process::setpriority_process(own, 0); // less urgent is always allowed
         }
         let level = if duty == Duty::Long { -5 } else { -10 };
-        if most <= Priority::Nice && rustix::process::setpriority_process(own, level).is_ok() {
-            return Priority::Nice;
+        if most <= WorkerPriority::Nice && rustix::process::setpriority_process(own, level).is_ok()
+        {
+            return WorkerPriority::Nice;
         }
-        Priority::Plain
+        WorkerPriority::Plain
     }
 
     /// Makes a thread that still lives the least urgent of all: it does not end its work and must not keep others from
     /// theirs.
-    pub(in super::super) fn lower(id: Id, had: Priority) {
+    pub(in super::super) fn lower(id: Id, had: WorkerPriority) {
         const IDLE: ThreadSchedulePolicy =
             ThreadSchedulePolicy::Normal(NormalThreadSchedulePolicy::Idle);
-        if had == Priority::Fifo
+        if had == WorkerPriority::Fifo
             && let Err(e) = set_thread_priority_and_policy(id.posix, ThreadPriority::Min, IDLE)
         {
             tracing::debug!("a thread that hangs keeps its priority: {e:?}");
@@ -132,7 +133,7 @@ pub(super) use linux::{Id, lower, raise};
 
 #[cfg(not(target_os = "linux"))]
 mod other {
-    use super::{Duty, Priority};
+    use super::{Duty, WorkerPriority};
 
     /// A thread.
     #[derive(Clone, Copy, Debug)]
@@ -146,12 +147,12 @@ mod other {
     }
 
     /// Threads stay as they are.
-    pub(in super::super) fn raise(_: Duty, _: Priority) -> Priority {
-        Priority::Plain
+    pub(in super::super) fn raise(_: Duty, _: WorkerPriority) -> WorkerPriority {
+        WorkerPriority::Plain
     }
 
     /// Threads stay as they are.
-    pub(in super::super) fn lower(_: Id, _: Priority) {}
+    pub(in super::super) fn lower(_: Id, _: WorkerPriority) {}
 }
 
 #[cfg(not(target_os = "linux"))]

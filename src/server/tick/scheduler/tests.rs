@@ -1,9 +1,14 @@
 //! Many worlds on few threads: each gets its ticks, whatever the others do.
 
+use super::priority::Duty;
 use super::*;
-use crate::tick::command::{Command, Origin};
+use crate::tick::command::{CommandOrigin, WorldCommand};
 use crate::tick::tests::{Running, workers};
+use sinew_wire::status::Fault;
+use sinew_wire::types::{EventKind, WorldCondition};
 use std::sync::mpsc::sync_channel;
+use std::thread;
+use std::time::Duration;
 
 fn rounds(scheduler: &Scheduler) -> u64 {
     let seats = scheduler.0.seats.iter();
@@ -87,18 +92,18 @@ fn worlds_that_need_little_do_not_wait_for_those_that_need_much() {
     let large: Vec<_> = (0..4).map(|_| Running::start(&scheduler, 20.0)).collect();
     let over = Arc::new(AtomicBool::new(false));
     /// A command that takes 10 ms and leaves another one for the next round.
-    fn again(over: Arc<AtomicBool>, queue: Arc<Queue>) -> Command {
-        let origin = Origin {
+    fn again(over: Arc<AtomicBool>, queue: Arc<CommandQueue>) -> WorldCommand {
+        let origin = CommandOrigin {
             client: "c".into(),
             sequence: 0,
         };
-        let action = Box::new(move |_: &mut Shard| {
+        let action = Box::new(move |_: &mut HostedWorld| {
             spin(Duration::from_millis(10));
             if !over.load(Ordering::Relaxed) {
                 let _ = queue.clone().push(again(over, queue));
             }
         });
-        Command { origin, action }
+        WorldCommand { origin, action }
     }
     for world in &large {
         let queue = world.commands();
@@ -122,7 +127,7 @@ fn a_world_whose_clock_stands_still_costs_nothing_and_wakes_at_once() {
     let scheduler = Scheduler::start(workers(1)).unwrap();
     let world = Running::start(&scheduler, 100.0);
     world.ask(|s| s.pause().unwrap());
-    let idle = || lock(&world.added.ticket.slot.place).state == State::Idle;
+    let idle = || lock(&world.added.ticket.slot.place).state == SlotState::Idle;
     until(idle);
     let before = rounds(&scheduler);
     pause(Duration::from_millis(200));
@@ -137,7 +142,7 @@ fn a_world_whose_clock_stands_still_costs_nothing_and_wakes_at_once() {
 
 #[test]
 fn a_round_that_does_not_end_keeps_its_world_and_no_other() {
-    let scheduler = Scheduler::start(Plan {
+    let scheduler = Scheduler::start(SchedulerPlan {
         slow: Duration::from_millis(20),
         stuck: Duration::from_millis(200),
         ..workers(1)
@@ -205,12 +210,12 @@ fn a_world_that_has_ended_takes_no_commands_and_holds_none() {
     let (queue, late) = (world.commands().clone(), held.clone());
     world.send(move |s| {
         s.close(Fault::Draining, None);
-        let origin = Origin {
+        let origin = CommandOrigin {
             client: "c".into(),
             sequence: 0,
         };
-        let action = Box::new(move |_: &mut Shard| drop(late));
-        queue.push(Command { origin, action }).unwrap();
+        let action = Box::new(move |_: &mut HostedWorld| drop(late));
+        queue.push(WorldCommand { origin, action }).unwrap();
     });
     until(|| world.added.closed.has_changed().is_err());
     assert_eq!(
@@ -223,7 +228,11 @@ fn a_world_that_has_ended_takes_no_commands_and_holds_none() {
 
 #[test]
 fn what_a_thread_is_given_is_what_the_system_says() {
-    for most in [Priority::Fifo, Priority::Nice, Priority::Plain] {
+    for most in [
+        WorkerPriority::Fifo,
+        WorkerPriority::Nice,
+        WorkerPriority::Plain,
+    ] {
         let done = thread::spawn(move || priority::raise(Duty::Short, most))
             .join()
             .unwrap();
@@ -251,10 +260,10 @@ fn what_a_thread_is_given_is_what_the_system_says() {
             })
             .join()
             .unwrap();
-            assert_eq!(real, done == Priority::Fifo);
-            assert_eq!(nice < 0, done == Priority::Nice, "{nice}");
+            assert_eq!(real, done == WorkerPriority::Fifo);
+            assert_eq!(nice < 0, done == WorkerPriority::Nice, "{nice}");
         }
     }
-    assert_eq!(Priority::by_name("fifo"), Some(Priority::Fifo));
-    assert_eq!(Priority::by_name("FIFO"), None);
+    assert_eq!(WorkerPriority::by_name("fifo"), Some(WorkerPriority::Fifo));
+    assert_eq!(WorkerPriority::by_name("FIFO"), None);
 }

@@ -1,10 +1,11 @@
 //! Looks after rounds that do not end: reports them, then gives their worlds up, and lets a fresh thread go on with the
 //! others.
 //!
-//! Time counts while this thread runs: after a pause of the whole process nobody is taken for stuck.
+//! Time counts while this thread runs: after a pause of the whole process no world counts as stuck.
 
-use super::priority::{self, Duty, Priority};
-use super::{Shared, lock};
+use super::priority::{self, Duty, WorkerPriority};
+use super::slot::lock;
+use super::workers::Workers;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Weak};
 use std::thread;
@@ -15,9 +16,9 @@ const LOOKS: u32 = 8;
 /// Least and most time between two looks.
 const EVERY: (Duration, Duration) = (Duration::from_millis(1), Duration::from_millis(250));
 
-/// What it saw of one seat.
+/// The round that it saw on one seat.
 #[derive(Clone, Copy, Debug, Default)]
-struct Seen {
+struct SeatWatch {
     round: u64,
     /// For how long it has seen this round.
     time: Duration,
@@ -25,7 +26,7 @@ struct Seen {
 }
 
 /// Starts it. It ends with the scheduler.
-pub(super) fn start(shared: &Arc<Shared>) -> std::io::Result<()> {
+pub(super) fn start(shared: &Arc<Workers>) -> std::io::Result<()> {
     let (slow, stuck) = (shared.plan.slow, shared.plan.stuck);
     let every = (slow.min(stuck) / LOOKS).clamp(EVERY.0, EVERY.1);
     let most = shared.plan.priority;
@@ -43,8 +44,8 @@ pub(super) fn start(shared: &Arc<Shared>) -> std::io::Result<()> {
     clippy::disallowed_methods,
     reason = "it looks at regular times, and nobody waits for it"
 )]
-fn watch(shared: &Weak<Shared>, every: Duration) {
-    let mut seen: Vec<Seen> = Vec::new();
+fn watch(shared: &Weak<Workers>, every: Duration) {
+    let mut seen: Vec<SeatWatch> = Vec::new();
     loop {
         thread::sleep(every);
         let Some(shared) = shared.upgrade() else {
@@ -53,23 +54,23 @@ fn watch(shared: &Weak<Shared>, every: Duration) {
         if shared.ending.load(Ordering::SeqCst) {
             return;
         }
-        seen.resize(shared.seats.len(), Seen::default());
+        seen.resize(shared.seats.len(), SeatWatch::default());
         for (seat, seen) in seen.iter_mut().enumerate() {
             look(&shared, seat, seen, every);
         }
     }
 }
 
-fn look(shared: &Arc<Shared>, seat: usize, seen: &mut Seen, every: Duration) {
+fn look(shared: &Arc<Workers>, seat: usize, seen: &mut SeatWatch, every: Duration) {
     let mut queue = lock(&shared.seats[seat].queue);
     let Some(slot) = queue.running.clone() else {
-        *seen = Seen::default();
+        *seen = SeatWatch::default();
         return;
     };
     if queue.rounds != seen.round {
-        *seen = Seen {
+        *seen = SeatWatch {
             round: queue.rounds,
-            ..Seen::default()
+            ..SeatWatch::default()
         };
         return;
     }
@@ -100,11 +101,11 @@ fn look(shared: &Arc<Shared>, seat: usize, seen: &mut Seen, every: Duration) {
         if let Err(error) = shared.clone().spawn(seat) {
             tracing::error!(%error, "no thread in place of one that does not come back");
         }
-        *seen = Seen::default();
+        *seen = SeatWatch::default();
     } else if seen.time >= shared.plan.slow && !seen.reported {
         seen.reported = true;
         if let Some((thread, had)) = queue.thread
-            && had != Priority::Plain
+            && had != WorkerPriority::Plain
         {
             // It has the seat, so it lives. In real time it could keep all others from theirs. A plain thread might not
             // be allowed to come back.

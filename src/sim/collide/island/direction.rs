@@ -1,6 +1,8 @@
 //! Newton's matrix of an island and the resulting direction.
 
-use super::{Articulated, Block, Column, Contact, Island, Kind, Parts, dot};
+use super::{
+    Articulated, ArticulatedParts, Block, BlockKind, Contact, CouplingColumn, Island, dot,
+};
 use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::contact::SparseSystem;
 use crate::contact::cone::squared;
@@ -48,7 +50,7 @@ impl Island {
     fn block_matrices<F: Articulated>(&mut self, figures: &mut [F], inside: bool) {
         for (k, b) in self.blocks.iter_mut().enumerate() {
             match b.kind {
-                Kind::Figure(i) => {
+                BlockKind::Figure(i) => {
                     let mut p = figures[i].parts();
                     own_matrix(&mut p, b, inside);
                     for c in &self.contacts {
@@ -64,7 +66,7 @@ impl Island {
                         }
                     }
                 }
-                Kind::Free(_) => {
+                BlockKind::Free(_) => {
                     b.l = b.a;
                     for c in &self.contacts {
                         let Some(side) = one_sided(c, k) else {
@@ -98,7 +100,7 @@ impl Island {
             };
             let (e, n) = root(c);
             for e in e.iter().take(n) {
-                let mut column = Column {
+                let mut column = CouplingColumn {
                     block: [a, b],
                     v: [[0.0; NV]; 2],
                     y: [[0.0; NV]; 2],
@@ -167,7 +169,7 @@ impl Island {
             self.first.push(first);
             self.rhs.extend(b.grad[..b.len()].iter().map(|g| -g));
             match b.kind {
-                Kind::Figure(k) => {
+                BlockKind::Figure(k) => {
                     let hessian = &figures[k].parts().hessian;
                     for i in 0..NV {
                         for (depth, j) in CHAIN[i].iter().enumerate().take(DEPTH[i] + 1) {
@@ -175,7 +177,7 @@ impl Island {
                         }
                     }
                 }
-                Kind::Free(_) => {
+                BlockKind::Free(_) => {
                     for i in 0..6 {
                         for j in 0..=i {
                             self.matrix[(first + j) * n + first + i] = b.l[i][j];
@@ -289,7 +291,7 @@ fn root(c: &Contact) -> ([[f64; 3]; 3], usize) {
 }
 
 /// Writes the matrix of one figure's own problem into its storage, as in [`crate::contact::minimise`].
-fn own_matrix(p: &mut Parts<'_>, b: &Block, inside: bool) {
+fn own_matrix(p: &mut ArticulatedParts<'_>, b: &Block, inside: bool) {
     type S<'a> = SparseSystem<'a>;
     SparseSystem(p.m).load(p.hessian);
     for j in 0..DOF_COUNT {
@@ -297,7 +299,7 @@ fn own_matrix(p: &mut Parts<'_>, b: &Block, inside: bool) {
     }
     for (k, row) in p.limits.rows.iter().enumerate() {
         let slope = if inside {
-            p.newton.interior.walls[k].slope
+            p.interior.walls[k].slope
         } else {
             row.stiffness
         };
@@ -315,7 +317,7 @@ fn own_matrix(p: &mut Parts<'_>, b: &Block, inside: bool) {
     for (k, point) in p.contacts.points.iter().enumerate() {
         let region = p.newton.region[k];
         if inside {
-            let d = &p.newton.interior.stiffness[k];
+            let d = &p.interior.stiffness[k];
             add_point_stiffness(&mut stiffness[point.slot], point.r, d);
             touching[point.slot] = true;
         } else if region != Region::Open {
@@ -342,15 +344,15 @@ fn own_matrix(p: &mut Parts<'_>, b: &Block, inside: bool) {
 
 fn factor_block<F: Articulated>(b: &mut Block, figures: &mut [F]) {
     match b.kind {
-        Kind::Figure(i) => factor(figures[i].parts().hessian),
-        Kind::Free(_) => factor_rows(&mut b.l, 6),
+        BlockKind::Figure(i) => factor(figures[i].parts().hessian),
+        BlockKind::Free(_) => factor_rows(&mut b.l, 6),
     }
 }
 
 fn solve_block<F: Articulated>(b: &Block, figures: &mut [F], x: &mut [f64; NV]) {
     match b.kind {
-        Kind::Figure(i) => solve(figures[i].parts().hessian, x),
-        Kind::Free(_) => solve_rows(&b.l, 6, x),
+        BlockKind::Figure(i) => solve(figures[i].parts().hessian, x),
+        BlockKind::Free(_) => solve_rows(&b.l, 6, x),
     }
 }
 

@@ -6,7 +6,7 @@
 //! (`direction`) builds and solves it. The number of iterations does not depend on the number of corners along the
 //! path.
 
-use super::{Articulated, Island, Kind, Parts, relative};
+use super::{Articulated, ArticulatedParts, BlockKind, Island, relative};
 use crate::body::topology::{DOF_COUNT, NV};
 use crate::contact::cone::{Cone, squared};
 use crate::contact::interior::{Inner, TO_BOUNDARY, Wall, aim, to_cone, to_world};
@@ -100,7 +100,7 @@ impl Island {
         let (mut force, mut fastest) = (most, 1e-9f64);
         for b in &self.blocks {
             fastest = b.x.iter().fold(fastest, |m, x| m.max(x.abs()));
-            if let Kind::Figure(i) = b.kind {
+            if let BlockKind::Figure(i) = b.kind {
                 let p = figures[i].parts();
                 force = p.b.iter().fold(force, |m, b| m.max(b.abs()));
                 let forces = &p.newton.force[..p.contacts.points.len()];
@@ -113,9 +113,11 @@ impl Island {
         let force = FIRST_FORCE * if force > 0.0 { force } else { 1.0 };
         let size = fastest;
         for b in &self.blocks {
-            let Kind::Figure(i) = b.kind else { continue };
+            let BlockKind::Figure(i) = b.kind else {
+                continue;
+            };
             let p = figures[i].parts();
-            let inner = &mut p.newton.interior;
+            let inner = &mut *p.interior;
             for (j, m) in inner.motors.iter_mut().enumerate() {
                 *m = if is_fixed(p.motors, j, most) {
                     Inner::default()
@@ -143,9 +145,11 @@ impl Island {
         let most = self.most(figures);
         let mut gap = Gap::default();
         for b in &self.blocks {
-            let Kind::Figure(i) = b.kind else { continue };
+            let BlockKind::Figure(i) = b.kind else {
+                continue;
+            };
             let p = figures[i].parts();
-            let inner = &p.newton.interior;
+            let inner = &*p.interior;
             for (j, m) in inner.motors.iter().enumerate() {
                 if !is_fixed(p.motors, j, most) {
                     gap.add(m.gap(), 2.0);
@@ -167,8 +171,8 @@ impl Island {
     /// Half-range of the widest motor, N·m·s.
     fn most<F: Articulated>(&self, figures: &mut [F]) -> f64 {
         self.blocks.iter().fold(0.0f64, |m, b| match b.kind {
-            Kind::Figure(i) => m.max(widest(figures[i].parts().motors)),
-            Kind::Free(_) => m,
+            BlockKind::Figure(i) => m.max(widest(figures[i].parts().motors)),
+            BlockKind::Free(_) => m,
         })
     }
 
@@ -177,14 +181,14 @@ impl Island {
         let most = self.most(figures);
         for b in &mut self.blocks {
             match b.kind {
-                Kind::Figure(i) => {
+                BlockKind::Figure(i) => {
                     let mut p = figures[i].parts();
                     for k in 0..NV {
                         b.grad[k] = b.ax[k] - p.b[k];
                     }
                     linearise_figure(&mut p, &b.x, most, aim, &mut b.slope, &mut b.grad);
                 }
-                Kind::Free(_) => {
+                BlockKind::Free(_) => {
                     // Clear all entries: values that an interior point outside its cone wrote behind the sixth entry
                     // would stay there.
                     b.grad = [0.0; NV];
@@ -216,10 +220,12 @@ impl Island {
         let most = self.most(figures);
         let mut step = 1.0 / TO_BOUNDARY;
         for b in &self.blocks {
-            let Kind::Figure(i) = b.kind else { continue };
+            let BlockKind::Figure(i) = b.kind else {
+                continue;
+            };
             let p = figures[i].parts();
             p.contacts.velocities(&b.d, &mut p.newton.direction);
-            let inner = &mut p.newton.interior;
+            let inner = &mut *p.interior;
             for (j, m) in inner.motors.iter_mut().enumerate() {
                 if !is_fixed(p.motors, j, most) {
                     step = m.direct((b.slope[j], b.d[6 + j]), aim, step);
@@ -246,13 +252,13 @@ impl Island {
     fn walk<F: Articulated>(&mut self, figures: &mut [F], step: f64) {
         for b in &mut self.blocks {
             match b.kind {
-                Kind::Figure(i) => {
+                BlockKind::Figure(i) => {
                     let p = figures[i].parts();
                     p.m.mul(&b.d, &mut b.ad);
                     for k in 0..p.contacts.points.len() {
                         p.newton.velocity[k] += p.newton.direction[k] * step;
                     }
-                    let inner = &mut p.newton.interior;
+                    let inner = &mut *p.interior;
                     // Fixed motors take no steps.
                     inner.motors.iter_mut().for_each(|m| m.advance(step));
                     let limits = &mut inner.walls[..p.limits.rows.len()];
@@ -260,7 +266,7 @@ impl Island {
                     let cones = &mut inner.cones[..p.contacts.points.len()];
                     cones.iter_mut().for_each(|c| c.advance(step));
                 }
-                Kind::Free(_) => {
+                BlockKind::Free(_) => {
                     b.ad = [0.0; NV];
                     for i in 0..6 {
                         b.ad[i] = (0..6).map(|j| b.a[i][j] * b.d[j]).sum();
@@ -281,14 +287,14 @@ impl Island {
 
 /// One figure's motors, limits and contacts with the ground: slopes, and their part of the residual.
 fn linearise_figure(
-    p: &mut Parts<'_>,
+    p: &mut ArticulatedParts<'_>,
     x: &[f64; NV],
     most: f64,
     aim: f64,
     slope: &mut [f64; DOF_COUNT],
     grad: &mut [f64; NV],
 ) {
-    let inner = &mut p.newton.interior;
+    let inner = &mut *p.interior;
     for (j, m) in inner.motors.iter_mut().enumerate() {
         let value = if is_fixed(p.motors, j, most) {
             slope[j] = 0.0;

@@ -18,13 +18,13 @@ use crate::body::topology::{DOF_COUNT, NV};
 use crate::collide::narrow::Near;
 use crate::contact::cone::Cone;
 use crate::contact::projection::{Region, project};
-use crate::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
+use crate::contact::{ContactRows, Interior, LimitRows, Motors, NewtonWorkspace};
 use crate::dynamics::mass_matrix::MassMatrix;
 use crate::math::Vec3;
 
 /// The parts of a figure's substep that the island needs.
 #[derive(Debug)]
-pub struct Parts<'a> {
+pub struct ArticulatedParts<'a> {
     /// Inertia.
     pub m: &'a MassMatrix<f64>,
     /// Storage for Newton's matrix and its factor.
@@ -39,6 +39,8 @@ pub struct Parts<'a> {
     pub contacts: &'a ContactRows,
     /// Forces of the last iterate.
     pub newton: &'a mut NewtonWorkspace,
+    /// Buffers of the interior-point method.
+    pub interior: &'a mut Interior,
     /// Velocity: the first guess, then the solution.
     pub x: &'a mut [f64; NV],
 }
@@ -46,12 +48,12 @@ pub struct Parts<'a> {
 /// An articulated body that takes part in an island.
 pub trait Articulated {
     /// Its parts in the present substep.
-    fn parts(&mut self) -> Parts<'_>;
+    fn parts(&mut self) -> ArticulatedParts<'_>;
 }
 
 /// The body of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum BlockKind {
     /// Index into the slice of figures.
     Figure(usize),
     /// The caller's index of the free body.
@@ -60,7 +62,7 @@ enum Kind {
 
 #[derive(Clone, Debug)]
 struct Block {
-    kind: Kind,
+    kind: BlockKind,
     /// Velocity; free bodies use the first six (angular, linear).
     x: [f64; NV],
     ax: [f64; NV],
@@ -78,8 +80,8 @@ impl Block {
     /// Number of velocity components.
     fn len(&self) -> usize {
         match self.kind {
-            Kind::Figure(_) => NV,
-            Kind::Free(_) => 6,
+            BlockKind::Figure(_) => NV,
+            BlockKind::Free(_) => 6,
         }
     }
 }
@@ -159,7 +161,7 @@ pub fn tangents(n: Vec3) -> [Vec3; 2] {
 
 /// A column of the low-rank part: `Gᵀ E` on up to two blocks, and the same multiplied by the inverse block matrices.
 #[derive(Clone, Debug)]
-struct Column {
+struct CouplingColumn {
     block: [usize; 2],
     v: [[f64; NV]; 2],
     y: [[f64; NV]; 2],
@@ -170,7 +172,7 @@ struct Column {
 pub struct Island {
     blocks: Vec<Block>,
     contacts: Vec<Contact>,
-    columns: Vec<Column>,
+    columns: Vec<CouplingColumn>,
     matrix: Vec<f64>,
     rhs: Vec<f64>,
     first: Vec<usize>,
@@ -194,7 +196,7 @@ impl Island {
         self.contacts.clear();
     }
 
-    fn add_block(&mut self, kind: Kind) -> usize {
+    fn add_block(&mut self, kind: BlockKind) -> usize {
         let z = [0.0; NV];
         self.blocks.push(Block {
             kind,
@@ -213,7 +215,7 @@ impl Island {
 
     /// Adds a figure, by its index in the slice given to [`Self::solve`].
     pub fn add_figure(&mut self, index: usize) -> usize {
-        self.add_block(Kind::Figure(index))
+        self.add_block(BlockKind::Figure(index))
     }
 
     /// Adds a free body: mass, columns of the inertia about its centre, momentum (moment, then linear) at the end of
@@ -226,7 +228,7 @@ impl Island {
         momentum: [Vec3; 2],
         velocity: [Vec3; 2],
     ) -> usize {
-        let k = self.add_block(Kind::Free(index));
+        let k = self.add_block(BlockKind::Free(index));
         let block = &mut self.blocks[k];
         for i in 0..3 {
             let column = inertia[i].to_array();
@@ -306,7 +308,7 @@ impl Island {
     /// bodies solve the island.
     pub fn is_active<F: Articulated>(&mut self, figures: &mut [F]) -> bool {
         for b in &mut self.blocks {
-            if let Kind::Figure(i) = b.kind {
+            if let BlockKind::Figure(i) = b.kind {
                 b.x = *figures[i].parts().x;
             }
         }
@@ -341,7 +343,7 @@ impl Island {
         let k = self
             .blocks
             .iter()
-            .position(|b| b.kind == Kind::Figure(index))?;
+            .position(|b| b.kind == BlockKind::Figure(index))?;
         let mut x = [0.0; NV];
         self.add_impulses(k, &mut x);
         Some(x)
@@ -353,7 +355,7 @@ impl Island {
         let k = self
             .blocks
             .iter()
-            .position(|b| b.kind == Kind::Free(index))?;
+            .position(|b| b.kind == BlockKind::Free(index))?;
         let mut x = [0.0; NV];
         self.add_impulses(k, &mut x);
         Some((

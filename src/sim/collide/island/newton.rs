@@ -1,8 +1,8 @@
 //! Newton's method for an island: gradients, line search and when to stop.
 
-use super::{Articulated, Block, Island, Kind, dot, relative};
+use super::{Articulated, Block, BlockKind, Island, dot, relative};
 use crate::body::topology::{DOF_COUNT, NV};
-use crate::contact::Outcome;
+use crate::contact::SolveOutcome;
 use crate::contact::newton::{LineSearch, largest};
 use crate::contact::projection::Region;
 
@@ -22,9 +22,9 @@ const MOST_ROUNDED: f64 = 1e-3;
 
 impl Island {
     /// Solves from the velocities that the figures hold and leaves the solution there. Bounded work.
-    pub fn solve<F: Articulated>(&mut self, figures: &mut [F]) -> Outcome {
+    pub fn solve<F: Articulated>(&mut self, figures: &mut [F]) -> SolveOutcome {
         self.start(figures);
-        let mut out = Outcome::default();
+        let mut out = SolveOutcome::default();
         loop {
             (out.residual, out.converged) = self.judge(figures);
             if out.converged || out.iterations >= MAX_ITERATIONS || !out.residual.is_finite() {
@@ -41,7 +41,7 @@ impl Island {
             self.line_search(figures);
         }
         for b in &self.blocks {
-            if let Kind::Figure(i) = b.kind {
+            if let BlockKind::Figure(i) = b.kind {
                 *figures[i].parts().x = b.x;
             }
         }
@@ -52,13 +52,13 @@ impl Island {
     pub(super) fn start<F: Articulated>(&mut self, figures: &mut [F]) {
         for b in &mut self.blocks {
             match b.kind {
-                Kind::Figure(i) => {
+                BlockKind::Figure(i) => {
                     let p = figures[i].parts();
                     b.x = *p.x;
                     p.m.mul(&b.x, &mut b.ax);
                     p.contacts.velocities(&b.x, &mut p.newton.velocity);
                 }
-                Kind::Free(_) => {
+                BlockKind::Free(_) => {
                     b.ax = [0.0; NV];
                     for i in 0..6 {
                         b.ax[i] = (0..6).map(|j| b.a[i][j] * b.x[j]).sum();
@@ -87,7 +87,9 @@ impl Island {
         let mut sum = 0.0;
         for b in &self.blocks {
             sum += largest(&b.ax);
-            let Kind::Figure(i) = b.kind else { continue };
+            let BlockKind::Figure(i) = b.kind else {
+                continue;
+            };
             let p = figures[i].parts();
             let within = (0..DOF_COUNT).filter(|j| b.slope[*j] > 0.0);
             sum += within
@@ -116,7 +118,7 @@ impl Island {
     pub(super) fn gradients<F: Articulated>(&mut self, figures: &mut [F]) {
         for b in &mut self.blocks {
             match b.kind {
-                Kind::Figure(i) => {
+                BlockKind::Figure(i) => {
                     let p = figures[i].parts();
                     for k in 0..NV {
                         b.grad[k] = b.ax[k] - p.b[k];
@@ -146,7 +148,7 @@ impl Island {
                     p.contacts
                         .add_transposed(&p.newton.force, -1.0, &mut b.grad);
                 }
-                Kind::Free(_) => {
+                BlockKind::Free(_) => {
                     // Clear all entries: values that an interior point outside its cone wrote behind the sixth entry
                     // would stay there.
                     b.grad = [0.0; NV];
@@ -178,7 +180,7 @@ impl Island {
         let (mut q0, mut q1, mut slope0) = (0.0, 0.0, 0.0);
         for b in &mut self.blocks {
             match b.kind {
-                Kind::Figure(i) => {
+                BlockKind::Figure(i) => {
                     let p = figures[i].parts();
                     p.m.mul(&b.d, &mut b.ad);
                     p.newton.aim(p.limits, p.contacts, [&b.x, &b.d]);
@@ -186,7 +188,7 @@ impl Island {
                         q0 += b.d[k] * (b.ax[k] - p.b[k]);
                     }
                 }
-                Kind::Free(_) => {
+                BlockKind::Free(_) => {
                     b.ad = [0.0; NV];
                     for k in 0..6 {
                         b.ad[k] = (0..6).map(|j| b.a[k][j] * b.d[j]).sum();
@@ -205,7 +207,7 @@ impl Island {
         let mut slope = |a: f64| {
             let mut z = q0 + a * q1;
             for b in blocks {
-                if let Kind::Figure(i) = b.kind {
+                if let BlockKind::Figure(i) = b.kind {
                     let p = figures[i].parts();
                     let along = [&b.x, &b.d];
                     z = p
@@ -226,7 +228,7 @@ impl Island {
                 b.x[k] += a * b.d[k];
                 b.ax[k] += a * b.ad[k];
             }
-            if let Kind::Figure(i) = b.kind {
+            if let BlockKind::Figure(i) = b.kind {
                 let p = figures[i].parts();
                 for k in 0..p.contacts.points.len() {
                     p.newton.velocity[k] += p.newton.direction[k] * a;

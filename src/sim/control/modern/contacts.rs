@@ -1,7 +1,7 @@
 //! What the plan may push against: the points of planted feet, of a body that works on the floor, and of what rests on
 //! seats and tables, each with the acceleration that keeps it where it is.
 
-use super::{Hold, MEANT_FADE, Modern, POINTS, blend, weight};
+use super::{HoldStiffness, MEANT_FADE, Modern, POINTS, blend, weight};
 use crate::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
 use crate::contact::rows::PointRow;
 use crate::control::ControlInput;
@@ -183,7 +183,7 @@ fn ease(s: usize, foot: bool) -> f64 {
 }
 
 /// Weights along a surface and across it.
-fn hold(along: f64, across: f64, normal: Vec3) -> Hold {
+fn hold(along: f64, across: f64, normal: Vec3) -> HoldStiffness {
     let n = normal.to_array();
     std::array::from_fn(|i| {
         std::array::from_fn(|j| {

@@ -4,7 +4,7 @@
 use super::{Modern, POINTS};
 use crate::body::Body;
 use crate::body::topology::{DOF_START, JOINT, Joint, L_FOOT, L_TOES, R_FOOT, R_TOES};
-use crate::control::{ContactPhase, ControlInput};
+use crate::control::{ControlInput, StancePhase};
 use crate::math::curve::fall;
 use crate::math::{Quat, Vec3};
 use crate::motion::Target;
@@ -130,7 +130,7 @@ impl Roll {
             let gives_way = self.free * (1.0 - stays(z - before));
             return (1.0 - gives_way).min(fall(z, PLANNED_FADE));
         }
-        if input.contacts.phase == ContactPhase::LiftOff {
+        if input.contacts.phase == StancePhase::LiftOff {
             // At lift-off a foot rolls over the tip of its toes.
             return fall(z, TIP_FADE);
         }

@@ -1,13 +1,14 @@
 //! What the body is to do with its mass, its hands and its feet, and how much that counts.
 
+use super::pendulum::pendulum_time;
 use super::{
-    Law, MEANT_FADE, Modern, POINTS, ROTATION_FEEDBACK, Seat, TaskRow, danger, gives_way,
+    Law, MEANT_FADE, Modern, POINTS, ROTATION_FEEDBACK, SeatLoad, TaskRow, danger, gives_way,
     law_feedback, rotation_error, weight,
 };
 use crate::body::SegmentId;
 use crate::body::topology::{L_FOOT, L_THIGH, L_TOES, PELVIS, R_FOOT, R_THIGH, R_TOES};
-use crate::control::goals::{MAX_GOALS, Pace};
-use crate::control::{ContactPhase, ControlInput, FootTarget, Goal, PointTarget, com_law};
+use crate::control::goals::{GoalPace, MAX_GOALS};
+use crate::control::{ConstraintGoal, ControlInput, FootTarget, PointTarget, StancePhase, com_law};
 use crate::dynamics::Terms;
 use crate::dynamics::terms::WIDTH;
 use crate::math::Vec3;
@@ -15,7 +16,7 @@ use crate::math::curve::fall;
 use crate::report::MAX_CONTACTS;
 
 /// How constraints from outside are approached.
-const GOAL_PACE: Pace = Pace {
+const GOAL_PACE: GoalPace = GoalPace {
     horizon: 1.0 / 30.0,
     most: 8.0,
     most_trunk: 2.0,
@@ -57,7 +58,7 @@ impl Modern {
             let urgency = self.urgency(input);
             let a = a - t.com_bias;
             let mut com = weight::COM;
-            if input.contacts.phase == ContactPhase::LiftOff {
+            if input.contacts.phase == StancePhase::LiftOff {
                 com[2] = weight::COM_LIFT_OFF;
             }
             for (k, value) in [a.x, a.y, a.z].into_iter().enumerate() {
@@ -169,19 +170,19 @@ impl Modern {
     }
 
     /// What seats carry, and whether the motion needs them.
-    pub(super) fn sit(&mut self, input: &ControlInput<'_>) -> Seat {
+    pub(super) fn sit(&mut self, input: &ControlInput<'_>) -> SeatLoad {
         let mg = input.terms.mass * input.gravity.max(1.0);
         let level = input.support.rests().iter().filter(|r| r.is_level());
         let seats = level.filter(|r| SEATED_ON.contains(&r.segment));
         let carries = seats.map(|r| r.force.z).sum::<f64>() / mg;
         if carries <= 0.0 {
-            return Seat::default();
+            return SeatLoad::default();
         }
         let capture =
             input.centroidal.com.now + input.centroidal.com.now_velocity * pendulum_time(input);
         let margin = self.margin_on_feet(input, [capture.x, capture.y]);
         let needed = fall(margin, NEEDS_SEAT);
-        Seat { carries, needed }
+        SeatLoad { carries, needed }
     }
 
     /// Signed distance of a point on the ground inside the soles of the planted feet, m.
@@ -206,7 +207,7 @@ impl Modern {
     /// A constraint from outside. Its weight grows with the cube of how far it is in force: that spreads the passage
     /// from the posture's hold to its own over the time in which it comes or goes. Several share what one may pull
     /// with, or together they would pull a figure off its feet.
-    fn goal_task(&mut self, t: &Terms, goal: &Goal, share: f64) {
+    fn goal_task(&mut self, t: &Terms, goal: &ConstraintGoal, share: f64) {
         let s = goal.segment.index();
         let level = share * goal.weight * goal.weight * goal.weight;
         let mut push = |jacobian: &[[f64; WIDTH]], a: Vec3, weight: [f64; 3]| {
@@ -261,9 +262,4 @@ fn is_clear(heights: &[f64; MAX_CONTACTS], segment: SegmentId) -> bool {
     heights[first..first + POINTS]
         .iter()
         .all(|z| *z > MEANT_FADE.0)
-}
-
-/// √(height of the centre of mass / gravity), s.
-pub(super) fn pendulum_time(input: &ControlInput<'_>) -> f64 {
-    (input.terms.com.z.max(0.1) / input.gravity.max(1.0)).sqrt()
 }

@@ -4,7 +4,7 @@
 
 use super::contacts::FORCE_MEMORY;
 use super::*;
-use crate::control::Goal;
+use crate::control::ConstraintGoal;
 use crate::control::testing::{DT, Scene};
 use crate::math::vec3::vec3;
 use crate::support::testing::{
@@ -386,7 +386,7 @@ fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
             for _ in 0..4 {
                 let segment = crate::body::SegmentId::new(rng.between(1.0, 10.0) as usize);
                 let axis = vec3(rng.unit(), rng.unit(), rng.unit());
-                s.goals.push(Goal {
+                s.goals.push(ConstraintGoal {
                     segment: segment.unwrap(),
                     point: vec3(0.0, 0.02, -0.05),
                     position: Some(vec3(rng.unit(), rng.unit(), 1.0 + rng.unit())),

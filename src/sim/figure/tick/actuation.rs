@@ -1,27 +1,38 @@
 //! Stages 4 and 5: what the muscles can give, what the motion asks for, and the controller's answer.
 
-use super::state::StageResults;
-use super::workspace::Workspace;
-use super::{Figure, StepDemand, TickContext};
 use crate::body::topology::DOF_COUNT;
-use crate::control::{
-    CentroidalTarget, ContactPhase, ContactTargets, ControlInput, Controller, Law, MomentumTarget,
-    tracking,
-};
-use crate::figure::assist::Assist;
-use crate::figure::bracing;
-use crate::figure::drive::Drive;
-use crate::figure::params::{bracing::HORIZON, fall, motors};
-use crate::figure::tasks::TaskPoints;
-use crate::figure::torque_step::MotorCommand;
+use crate::control::{CentroidalTarget, ContactTargets, ControlInput, MomentumTarget, StancePhase};
+use crate::figure::balance::bracing;
+use crate::figure::motion::source::MotionSource;
+use crate::figure::motion::tasks::TaskPoints;
+use crate::figure::params::bracing::HORIZON;
+use crate::figure::params::fall;
+use crate::figure::state::controllers::mode;
+use crate::figure::state::figure::Figure;
+use crate::figure::state::parts::StageResults;
+use crate::figure::state::workspace::Workspace;
+use crate::figure::tick::StepDemand;
 use crate::motion::{Target, TargetPair};
-use crate::setup::{ControlParams, ControllerKind, StrengthScale};
+use crate::setup::{ControlParams, StrengthScale};
+use crate::stepper::command::MotorCommand;
+use crate::stepper::pelvis_wrench::Assist;
 use crate::strength::MuscleScale;
+use crate::tick_context::TickContext;
+
+/// The law of motors without a controller.
+struct UnledMotors {
+    /// Parameters with the horizon of the law.
+    params: ControlParams,
+    /// Target that braces a fall, in place of the motion's.
+    braced: Option<TargetPair>,
+    /// Rate error at which a motor gives all it has, rad/s, if not that of the mode.
+    saturation_speed: Option<f64>,
+}
 
 impl Figure {
     /// Desired motion of the tick: getting up, or the source of the motion, at the pace of its steps.
-    pub(super) fn sample_motion(&mut self, time: f64, dt: f64) -> TargetPair {
-        if let Drive::Live(live) = self.motion.source_mut() {
+    pub(in crate::figure) fn sample_motion(&mut self, time: f64, dt: f64) -> TargetPair {
+        if let MotionSource::Live(live) = self.motion.source_mut() {
             live.motion.advance(live.stream_time(time + dt));
             self.desired.tracker.follow_stream(&live.motion);
         }
@@ -37,8 +48,8 @@ impl Figure {
         let carried = self.is_carried();
         let drive = self.motion.source();
         let clip_time = |t: f64| match drive {
-            Drive::Clip(play) => play.clip_time(t),
-            Drive::Live(live) => live.stream_time(t),
+            MotionSource::Clip(play) => play.clip_time(t),
+            MotionSource::Live(live) => live.stream_time(t),
             _ => t,
         };
         let (tracker, terms) = (&mut self.desired.tracker, &self.workspace.terms);
@@ -46,27 +57,29 @@ impl Figure {
         tracker.targets(time, dt, terms, clip_time, pair, carried)
     }
 
-    /// True if steps follow events: the modern controller, and a figure that is up. Full assist pins the pelvis to its
-    /// path, so the motion keeps its clock and its place there.
-    pub(super) fn steps(&self) -> bool {
+    /// Whether steps follow events: a mode that makes steps, and a figure that is up. Full assist pins the pelvis to
+    /// its path, so the motion keeps its clock and its place there.
+    pub(in crate::figure) fn steps(&self) -> bool {
         !self.motion.has_fallen()
             && !self.surroundings.balance.lost()
             && self.motion.rehearsed().is_none()
-            && self.setup.controller == ControllerKind::Modern
+            && self.mode().makes_steps()
             && self.setup.options.assist < 1.0
     }
 
     /// Angular momentum that the motion has in its next flight, to be reached at lift-off; `None` if no flight begins
     /// soon, or if its momentum is not known.
-    pub(super) fn lift_off_momentum(&mut self) -> Option<MomentumTarget> {
+    pub(in crate::figure) fn lift_off_momentum(&mut self) -> Option<MomentumTarget> {
         let flight = self.desired.tracker.next_flight()?;
         let spin = match self.motion.source() {
-            Drive::Clip(play) => self
+            MotionSource::Clip(play) => self
                 .workspace
                 .tasks
                 .spin(&self.physical.links, &play.sample(flight.middle)),
-            Drive::Live(live) => live.motion.spin_at(live.stream_time(flight.middle))?,
-            Drive::Hold(_) | Drive::External(_) | Drive::Rehearsed(_) => return None,
+            MotionSource::Live(live) => live.motion.spin_at(live.stream_time(flight.middle))?,
+            MotionSource::Hold(_) | MotionSource::External(_) | MotionSource::Rehearsed(_) => {
+                return None;
+            }
         };
         Some(MomentumTarget {
             value: self.desired.tracker.turned(spin),
@@ -75,7 +88,7 @@ impl Figure {
     }
 
     /// Factors on the muscles: a fallen figure relaxes, a tired one has less.
-    pub(super) fn available_strength(&self) -> MuscleScale {
+    pub(in crate::figure) fn available_strength(&self) -> MuscleScale {
         let fallen = if self.motion.is_limp() && !self.braces() {
             fall::STRENGTH
         } else {
@@ -92,7 +105,7 @@ impl Figure {
     }
 
     /// Fatigue of a tick of `dt` seconds: loads are torques over what the rested person could give at full effort.
-    pub(super) fn update_fatigue(&mut self, dt: f64) {
+    pub(in crate::figure) fn update_fatigue(&mut self, dt: f64) {
         let Some(fatigue) = &mut self.physical.fatigue else {
             return;
         };
@@ -105,17 +118,14 @@ impl Figure {
         self.constants
             .strength
             .range(angles, rates, &rested.muscles(1.0), &mut lower, &mut upper);
-        let torque = if self.stepping.prescribed {
-            &self.workspace.steppers.kinematic.forces.torque
-        } else {
-            &self.workspace.steppers.torque.forces.torque
-        };
-        fatigue.step(torque, &lower, &upper, dt);
+        let steppers = &self.workspace.steppers;
+        let forces = steppers.result(self.stepping.is_prescribed()).forces;
+        fatigue.step(&forces.torque, &lower, &upper, dt);
         self.outcome.report.joints.remaining = fatigue.remaining();
     }
 
     /// Runs the controller in charge and turns its command into work for the motors.
-    pub(super) fn control(
+    pub(in crate::figure) fn control(
         &mut self,
         world: &TickContext,
         tasks: &TaskPoints,
@@ -130,8 +140,10 @@ impl Figure {
             hands[free] = hand;
             free += 1;
         }
-        let active = self.active_controller();
-        let braces = active == ControllerKind::Motors && self.braces();
+        let kind = self.controller_in_charge();
+        let mode = mode(kind);
+        let unled = (!mode.decides()).then(|| self.unled(world.gravity));
+        let unled = unled.as_ref();
         let Workspace {
             terms, controllers, ..
         } = &mut *self.workspace;
@@ -140,7 +152,9 @@ impl Figure {
             terms,
             body: &self.setup.body,
             support: &self.surroundings.support,
-            target: &self.desired.target,
+            target: unled
+                .and_then(|u| u.braced.as_ref())
+                .unwrap_or(&self.desired.target),
             centroidal: CentroidalTarget {
                 com: &tasks.com,
                 acceleration: steps.acceleration,
@@ -150,7 +164,7 @@ impl Figure {
                 feet: &tasks.feet,
                 phase: steps
                     .momentum
-                    .map_or(ContactPhase::Stance, |_| ContactPhase::LiftOff),
+                    .map_or(StancePhase::Stance, |_| StancePhase::LiftOff),
                 places_known: self.desired.tracker.has_planned_footholds(),
                 floor: self
                     .motion
@@ -161,63 +175,17 @@ impl Figure {
             goals: self.desired.constraints.goals(),
             lower: &self.scratch.results.available.lower,
             upper: &self.scratch.results.available.upper,
-            params: &self.setup.params,
+            params: unled.map_or(&self.setup.params, |u| &u.params),
             gravity: world.gravity,
             dt: world.dt,
             assist: Assist::new(&self.setup.body, self.setup.options.assist)
                 .map_or([0.0; 2], |a| a.planned()),
-            kinematic: self.stepping.prescribed,
+            kinematic: self.stepping.is_prescribed(),
         };
-        let (command, saturation_speed) = match active {
-            ControllerKind::Paper => (
-                controllers.paper.control(&input),
-                motors::FEED_FORWARD_SPEED,
-            ),
-            ControllerKind::Modern => (controllers.modern.control(&input), motors::MODERN_SPEED),
-            ControllerKind::Motors => {
-                let limp = self.motion.is_limp() && !braces;
-                let braced = braces.then(|| {
-                    let body = &self.setup.body;
-                    let desired = &self.desired.target.next.posture;
-                    let held = bracing::posture(body, terms, desired, world.gravity);
-                    TargetPair {
-                        now: Target::still(held),
-                        next: Target::still(held),
-                    }
-                });
-                let horizon = if limp {
-                    Some(fall::HORIZON)
-                } else if braces {
-                    Some(HORIZON)
-                } else {
-                    self.setup.params.horizon
-                };
-                let params = ControlParams {
-                    horizon,
-                    ..self.setup.params.clone()
-                };
-                let law = Law::new(&params, world.dt);
-                let demand = tracking::initial_acceleration(
-                    &self.setup.body,
-                    &self.physical.state,
-                    braced.as_ref().unwrap_or(&self.desired.target),
-                    &law,
-                );
-                self.workspace
-                    .controllers
-                    .motors
-                    .joint_acceleration
-                    .copy_from_slice(&demand[..DOF_COUNT]);
-                (
-                    &self.workspace.controllers.motors,
-                    if limp {
-                        fall::SATURATION_SPEED
-                    } else {
-                        motors::ALONE_SPEED
-                    },
-                )
-            }
-        };
+        let command = controllers.get_mut(kind).control(&input);
+        let saturation_speed = unled
+            .and_then(|u| u.saturation_speed)
+            .unwrap_or(mode.saturation_speed());
         let out = MotorCommand {
             acceleration: command.joint_acceleration,
             torque: command.torque,
@@ -227,7 +195,37 @@ impl Figure {
         self.outcome.report.joints.saturated_secondary = command.saturated_secondary;
         self.outcome.report.control_iterations = command.iterations;
         self.outcome.report.flags = command.flags;
-        self.stepping.tips = command.pivot.is_some();
+        self.stepping.note_tipping(command.pivot.is_some());
         out
+    }
+
+    /// What motors without a controller follow: a fallen figure is limp, and one that falls braces itself.
+    fn unled(&self, gravity: f64) -> UnledMotors {
+        let braces = self.braces();
+        let limp = self.motion.is_limp() && !braces;
+        let braced = braces.then(|| {
+            let body = &self.setup.body;
+            let desired = &self.desired.target.next.posture;
+            let held = bracing::posture(body, &self.workspace.terms, desired, gravity);
+            TargetPair {
+                now: Target::still(held),
+                next: Target::still(held),
+            }
+        });
+        let horizon = if limp {
+            Some(fall::HORIZON)
+        } else if braces {
+            Some(HORIZON)
+        } else {
+            self.setup.params.horizon
+        };
+        UnledMotors {
+            params: ControlParams {
+                horizon,
+                ..self.setup.params.clone()
+            },
+            braced,
+            saturation_speed: limp.then_some(fall::SATURATION_SPEED),
+        }
     }
 }

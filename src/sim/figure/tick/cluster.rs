@@ -1,20 +1,22 @@
 //! Stage 6 of figures that are near something: the world solves substep by substep for all of them together
 //! (`world::collisions`).
 
-use super::workspace::Workspace;
-use super::{Figure, Integration, TickContext};
 use crate::body::SegmentId;
 use crate::body::topology::{L_FOOT, NV, R_FOOT};
-use crate::collide::island::{Articulated, Parts};
-use crate::contact::Outcome;
-use crate::figure::FigureKey;
+use crate::collide::island::{Articulated, ArticulatedParts};
+use crate::contact::SolveOutcome;
+use crate::figure::state::figure::Figure;
+use crate::figure::state::figure::FigureKey;
+use crate::figure::state::workspace::Workspace;
+use crate::figure::tick::Integration;
 use crate::figure::touches::Contacting;
 use crate::math::Vec3;
 use crate::report::Flags;
-use crate::setup::{ControllerKind, StepperKind};
+use crate::setup::StepperKind;
+use crate::tick_context::TickContext;
 
 impl Articulated for (FigureKey, Box<Figure>) {
-    fn parts(&mut self) -> Parts<'_> {
+    fn parts(&mut self) -> ArticulatedParts<'_> {
         self.1.workspace.steppers.torque.parts()
     }
 }
@@ -22,11 +24,11 @@ impl Articulated for (FigureKey, Box<Figure>) {
 impl Figure {
     /// True if accelerations move it in this tick, whatever it meets.
     pub(crate) fn is_prescribed(&self) -> bool {
-        self.stepping.prescribed
+        self.stepping.is_prescribed()
     }
     /// True if what it meets in this tick is met in the two stages of §3 of the paper.
     pub(crate) fn meets_in_stages(&self) -> bool {
-        self.stepping.prescribed && self.setup.stepper == StepperKind::Staged
+        self.stepping.is_prescribed() && self.setup.stepper == StepperKind::Staged
     }
     /// Moves on as if it were alone; [`Self::moved_alone`] says so until the end of the tick.
     pub(crate) fn integrate_alone(&mut self, world: &TickContext) {
@@ -51,10 +53,8 @@ impl Figure {
     /// about which the support tips.
     pub(crate) fn held_still(&self) -> [Option<(SegmentId, Option<Vec3>)>; 2] {
         let support = &self.surroundings.support;
-        let command = match self.setup.controller {
-            ControllerKind::Paper => self.workspace.controllers.paper.command(),
-            _ => self.workspace.controllers.modern.command(),
-        };
+        let controller = self.workspace.controllers.get(self.setup.controller);
+        let command = controller.command();
         let Some(main) = support.main().filter(|_| !command.flags.has(Flags::FLIGHT)) else {
             return [None; 2];
         };
@@ -93,8 +93,7 @@ impl Figure {
 
     /// Something will be met, and contact acts by forces: torques take over before the tick begins.
     pub(crate) fn hand_over(&mut self) {
-        self.stepping.prescribed = false;
-        self.stepping.handed_over = Some(0.0);
+        self.stepping.take_over();
     }
     /// Shows where the segments are before it is known which stepper moves them.
     pub(crate) fn show(&mut self) {
@@ -121,7 +120,7 @@ impl Figure {
         torque.open_substep(&input, state, i);
     }
     /// Takes the impulse of an island in velocity components.
-    pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: Outcome) {
+    pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: SolveOutcome) {
         self.workspace.steppers.torque.touch(impulse, outcome);
     }
     /// One contact of the substep, with its impulse on this figure.

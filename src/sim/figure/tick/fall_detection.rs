@@ -1,45 +1,42 @@
 //! Detection of lost balance and of falls, the choice of the stepper, and containment of states that are not finite.
 
-use super::state::rested;
-use super::{Figure, TickContext};
 use crate::body::SegmentId;
 use crate::body::topology::{HEAD, L_FOOT, L_TOES, NV, R_FOOT, R_TOES};
+use crate::control::Mode;
 use crate::control::PointTarget;
-use crate::figure::balance_loss::{Observation, Reach};
+use crate::figure::balance::live_help::LiveHelp;
+use crate::figure::balance::loss::Observation;
 use crate::figure::constraints::MAX_CONSTRAINTS;
-use crate::figure::drive::Drive;
 use crate::figure::events::FigureEvent;
-use crate::figure::help::Help;
-use crate::figure::kinematic_step::other_part_arrives;
-use crate::figure::loads::MAX_APPLIED;
+use crate::figure::motion::source::MotionSource;
 use crate::figure::params::balance::PAPER_REACH;
 use crate::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
 use crate::figure::params::get_up::STILL_SPEED;
-use crate::figure::params::kinematic::{CALM_TIME, SPEED_CAP};
+use crate::figure::state::controllers::mode;
+use crate::figure::state::figure::Figure;
+use crate::figure::state::parts::rested;
 use crate::motion::{Target, TargetPair};
-use crate::report::{Flags, TickReport};
+use crate::paper::hand_over::HandOverView;
+use crate::report::TickReport;
 use crate::setup::ControllerKind;
+use crate::stepper::forces::MAX_APPLIED;
+use crate::tick_context::TickContext;
 
 /// Parts that a figure stands on.
-pub(super) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
+pub(in crate::figure) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 
 impl Figure {
     /// Is balance lost? Full assist holds the pelvis, so there is none to lose; and prescribed accelerations fall by
     /// themselves.
-    pub(super) fn watch_balance(&mut self, world: &TickContext) {
+    pub(in crate::figure) fn watch_balance(&mut self, world: &TickContext) {
         let s = &self.setup;
-        let falls = s.stepper.prescribes() && self.stepping.handed_over.is_none();
-        let motors = s.controller == ControllerKind::Motors;
+        let falls = self.may_prescribe();
         let knows = self.motion.gets_up() || self.motion.rehearsed().is_some() || self.is_carried();
-        if knows || falls || motors || !s.params.hand_over || s.options.assist > 0.0 {
+        let watched = !(knows || falls || !s.params.hand_over || s.options.assist > 0.0);
+        let reach = self.mode().balance_reach(&s.params);
+        let Some(reach) = reach.filter(|_| watched) else {
             self.surroundings.balance.reset();
             return;
-        }
-        let modern = s.controller == ControllerKind::Modern;
-        let reach = match s.params.protective_steps {
-            true if modern => Reach::Step,
-            false if modern => Reach::Body,
-            _ => Reach::Paper,
         };
         let height = self.workspace.terms.com.z / self.constants.standing_com_height;
         let before = self.surroundings.balance.lost();
@@ -60,13 +57,28 @@ impl Figure {
     }
 
     /// Controllers and steps forget what they knew of a figure that has fallen or stumbled since.
-    pub(super) fn start_afresh(&mut self) {
+    pub(in crate::figure) fn start_afresh(&mut self) {
         self.workspace.reset_controllers();
         self.desired.tracker.reset();
     }
 
+    /// The mode that is set.
+    pub(in crate::figure) fn mode(&self) -> &'static dyn Mode {
+        mode(self.setup.controller)
+    }
+
+    /// The mode in charge.
+    pub(in crate::figure) fn mode_in_charge(&self) -> &'static dyn Mode {
+        mode(self.controller_in_charge())
+    }
+
+    /// Whether accelerations are to move the figure, and torques have not taken over.
+    fn may_prescribe(&self) -> bool {
+        self.setup.stepper.prescribes() && !self.stepping.is_handed_over()
+    }
+
     /// The chosen controller, or motors alone once balance is lost or the figure lies on the ground.
-    pub(super) fn active_controller(&self) -> ControllerKind {
+    pub(in crate::figure) fn controller_in_charge(&self) -> ControllerKind {
         let motors =
             self.motion.is_limp() || self.motion.rehearsed().is_some() || self.is_carried();
         if motors || self.surroundings.balance.lost() {
@@ -76,13 +88,13 @@ impl Figure {
         }
     }
 
-    /// True while it falls as a person does ([`bracing`](crate::figure::bracing)): from the loss of balance until
-    /// neither body nor head go down any more. Not where its motion goes to the floor by itself, or has lost balance as
-    /// the figure has, as one that sits down on a seat; nor with the paper's controller, whose falls are those of the
-    /// paper, nor where feet have to stay.
-    pub(super) fn braces(&self) -> bool {
+    /// True while it falls as a person does ([`bracing`](crate::figure::balance::bracing)): from the loss of balance
+    /// until neither body nor head go down any more. Not where its motion goes to the floor by itself, or has lost
+    /// balance as the figure has, as one that sits down on a seat; nor with the paper's controller, whose falls are
+    /// those of the paper, nor where feet have to stay.
+    pub(in crate::figure) fn braces(&self) -> bool {
         let s = &self.setup;
-        let person = s.controller == ControllerKind::Modern && s.params.protective_steps;
+        let person = self.mode().braces_falls(&s.params);
         let terms = &self.workspace.terms;
         let wanted = self.desired.com.now;
         let falls = if self.motion.is_limp() {
@@ -98,49 +110,34 @@ impl Figure {
 
     /// True if accelerations are to be applied as they are. A load held in two hands and the assist act by forces,
     /// which need torques.
-    pub(super) fn prescribes(&self) -> bool {
-        self.setup.stepper.prescribes()
+    pub(in crate::figure) fn prescribes(&self) -> bool {
+        self.may_prescribe()
             && self.setup.options.assist == 0.0
             && !self.surroundings.help.acts()
             && self.surroundings.disturbances.bar().is_none()
-            && self.active_controller() != ControllerKind::Motors
-            && self.stepping.handed_over.is_none()
+            && self.mode_in_charge().decides()
             && !self.motion.gets_up()
     }
 
-    /// Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts
-    /// other than feet: there torques take over, until the figure has stood calmly for a while. The
-    /// state is the same for both.
-    pub(super) fn update_hand_over(&mut self, dt: f64) {
-        let r = &self.outcome.report;
-        if self.stepping.prescribed && self.setup.params.hand_over {
-            let saturated = (r.joints.saturated | r.joints.saturated_secondary) != 0;
-            let arrives = other_part_arrives(&self.setup.body, &self.workspace.terms, dt);
-            let fast = self.physical.state.velocity[6..]
-                .iter()
-                .any(|v| v.abs() > SPEED_CAP);
-            if arrives || fast || (self.stepping.tips && saturated) || r.flags.has(Flags::OVERLOAD)
-            {
-                self.stepping.prescribed = false;
-                self.stepping.handed_over = Some(0.0);
-            }
-        } else if let Some(calm) = self.stepping.handed_over {
-            let points = self.surroundings.support.points();
-            let flat = points.len() >= 3 && points.iter().all(|p| FEET.contains(&p.segment));
-            let upright = !self.motion.has_fallen() && !self.surroundings.balance.lost();
-            let alone = self.surroundings.touches.list().next().is_none();
-            let stands = flat && upright && alone && !self.stepping.tips && r.joints.saturated == 0;
-            self.stepping.handed_over = match calm + dt {
-                t if !stands && t > 0.0 => Some(0.0),
-                t if t > CALM_TIME => None,
-                t => Some(t),
-            };
-        }
+    /// Lets torques take over from prescribed accelerations, or give back.
+    pub(in crate::figure) fn update_hand_over(&mut self, dt: f64) {
+        let upright = !self.motion.has_fallen() && !self.surroundings.balance.lost();
+        let seen = HandOverView {
+            allowed: self.setup.params.hand_over,
+            body: &self.setup.body,
+            terms: &self.workspace.terms,
+            state: &self.physical.state,
+            support: &self.surroundings.support,
+            report: &self.outcome.report,
+            upright,
+            alone: self.surroundings.touches.list().next().is_none(),
+        };
+        self.stepping.update(&seen, dt);
     }
 
     /// Freezes a figure whose state or desired motion is not finite, or for which no finite decision was found, at its
     /// last good state; the world goes on.
-    pub(super) fn contain(&mut self) -> bool {
+    pub(in crate::figure) fn contain(&mut self) -> bool {
         let asked = [&self.desired.target.now, &self.desired.target.next];
         let good = self.physical.state.is_finite()
             && !self.scratch.results.undecided
@@ -159,11 +156,11 @@ impl Figure {
 
     /// Forgets what a frozen figure remembers of its last ticks: numbers that are not finite could not be read back
     /// from a checkpoint, and would freeze it again when it is reset.
-    pub(super) fn forget_numbers(&mut self) {
+    pub(in crate::figure) fn forget_numbers(&mut self) {
         self.forget();
         self.desired.tracker.reset_clock();
         self.workspace.forget_bar();
-        self.surroundings.help = Help::default();
+        self.surroundings.help = LiveHelp::default();
         if self
             .physical
             .fatigue
@@ -187,7 +184,7 @@ impl Figure {
         };
         self.desired.com = PointTarget::still(self.outcome.report.balance.com);
         if !self.motion.is_valid() {
-            self.set_drive(Drive::Hold(posture));
+            self.set_drive(MotionSource::Hold(posture));
         }
     }
 
@@ -205,7 +202,7 @@ impl Figure {
     }
 
     /// Falls and rises.
-    pub(super) fn detect_fall(&mut self) {
+    pub(in crate::figure) fn detect_fall(&mut self) {
         let height = self.workspace.terms.com.z / self.constants.standing_com_height;
         let on_other = self
             .outcome

@@ -1,13 +1,15 @@
 //! Help within the tick: when it begins and ends, and what stiff motors do meanwhile.
 
-use super::fall_detection::FEET;
-use super::{Figure, TickContext};
-use crate::figure::drive::Drive;
-use crate::figure::help::{Forecast, Situation, pull};
+use crate::figure::balance::live_help::{LossForecast, Situation};
+use crate::figure::motion::source::MotionSource;
 use crate::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
-use crate::figure::rehearsed::{Hold, MotorLaw};
-use crate::figure::torque_step::MotorCommand;
-use crate::setup::ControllerKind;
+use crate::figure::state::figure::Figure;
+use crate::figure::tick::fall_detection::FEET;
+use crate::stepper::command::MotorCommand;
+use crate::stepper::motor_law::MotorLaw;
+use crate::stepper::pelvis_wrench::PelvisHold;
+use crate::stepper::pelvis_wrench::pull;
+use crate::tick_context::TickContext;
 
 impl Figure {
     /// True while stiff motors and a pull on the pelvis keep it with its motion.
@@ -16,7 +18,7 @@ impl Figure {
     }
 
     /// True if it is helped, not let fall, should it lose its motion.
-    pub(super) fn is_held_up(&self) -> bool {
+    pub(in crate::figure) fn is_held_up(&self) -> bool {
         self.may_be_helped() && self.surroundings.help.is_ready()
     }
 
@@ -24,7 +26,7 @@ impl Figure {
     fn most_help(&self) -> f64 {
         let own = self.setup.options.max_help;
         match self.motion.source() {
-            Drive::Clip(play) => own.max(play.max_help),
+            MotionSource::Clip(play) => own.max(play.max_help),
             _ => own,
         }
     }
@@ -41,19 +43,19 @@ impl Figure {
     fn may_be_helped(&self) -> bool {
         self.most_help() > 0.0
             && self.setup.options.assist == 0.0
-            && self.setup.controller == ControllerKind::Modern
+            && self.mode().can_be_helped()
             && self.motion.rehearsed().is_none()
             && !self.motion.has_fallen()
     }
 
     /// Stage 3: is the motion being lost, and is the figure to be helped?
-    pub(super) fn update_help(&mut self, world: &TickContext) {
+    pub(in crate::figure) fn update_help(&mut self, world: &TickContext) {
         let before = self.is_carried();
         if !self.may_be_helped() {
             self.surroundings.help.stop();
         } else {
             let seen = Situation {
-                forecast: Forecast::of(&self.desired.target, &self.physical.state, world.dt),
+                forecast: LossForecast::of(&self.desired.target, &self.physical.state, world.dt),
                 on_feet: self.is_on_feet(),
                 falls: self.surroundings.balance.lost() || self.lies(),
             };
@@ -89,14 +91,17 @@ impl Figure {
     }
 
     /// What leads the pelvis back to the motion, if anything does.
-    pub(super) fn pull(&self) -> Option<Hold> {
+    pub(in crate::figure) fn pull(&self) -> Option<PelvisHold> {
         let help = &self.surroundings.help;
         let most = self.most_help() * help.share();
         (most > 0.0).then(|| pull(&self.setup.body, most))
     }
 
     /// What motors are asked to do while the figure is carried; `None` if it is not. No allocation.
-    pub(super) fn carried_command(&mut self, world: &TickContext) -> Option<MotorCommand> {
+    pub(in crate::figure) fn carried_command(
+        &mut self,
+        world: &TickContext,
+    ) -> Option<MotorCommand> {
         let target = self.is_carried().then(|| self.desired.target.clone())?;
         Some(self.stiff_command(MotorLaw::STIFF, &target, world.dt))
     }

@@ -1,19 +1,20 @@
 //! From one motion to another while the figure moves: from step to step where they fit, else by a stand for which what
 //! was asked for waits.
 
-use super::fall_detection::FEET;
-use super::motion_switch::ExitGoal;
-use super::{Figure, TickContext};
 use crate::body::Posture;
-use crate::figure::drive::{ClipPlayback, Drive, Entry, EntryProblem, QueuedClip};
-use crate::figure::get_up::GetUpDecision;
+use crate::figure::motion::exit::ExitGoal;
+use crate::figure::motion::get_up::GetUpDecision;
+use crate::figure::motion::source::{
+    ClipEntry, ClipEntryProblem, ClipPlayback, MotionSource, QueuedClip,
+};
 use crate::figure::params::get_up::UP_HEIGHT;
 use crate::figure::params::switch::{EARLIEST_BEGIN, ENTRY_TIME, LEAD, PATIENCE, STILL, UPRIGHT};
-use crate::figure::plan_task::Planning;
+use crate::figure::state::figure::Figure;
+use crate::figure::tick::fall_detection::FEET;
 use crate::motion::{Clip, Target};
 use crate::plan::splice;
-use crate::setup::ControllerKind;
-use crate::track::StepPlan;
+use crate::tick_context::{Planning, TickContext};
+use crate::track::{PlacedPlan, StepPlan};
 use std::sync::Arc;
 
 /// How a clip begins.
@@ -57,7 +58,7 @@ impl Figure {
         };
         if !(rises || self.steps()) || (stands && begins_so(&self.comes_to())) {
             let start = play.start;
-            self.set_drive(Drive::Clip(play));
+            self.set_drive(MotionSource::Clip(play));
             return start;
         }
         let ease = *self.desired.tracker.at_ease();
@@ -119,7 +120,7 @@ impl Figure {
     }
 
     /// True if it does not stand upright when its motion is over.
-    pub(super) fn crouches(&self) -> bool {
+    pub(in crate::figure) fn crouches(&self) -> bool {
         self.comes_to().root_position.z < UPRIGHT * self.setup.body.standing_root_height()
     }
 
@@ -129,9 +130,9 @@ impl Figure {
             return *ease;
         }
         match self.motion.source() {
-            Drive::Hold(posture) => *posture,
-            Drive::Clip(play) => play.clip.sample(f64::INFINITY).posture,
-            Drive::External(_) | Drive::Live(_) | Drive::Rehearsed(_) => {
+            MotionSource::Hold(posture) => *posture,
+            MotionSource::Clip(play) => play.clip.sample(f64::INFINITY).posture,
+            MotionSource::External(_) | MotionSource::Live(_) | MotionSource::Rehearsed(_) => {
                 self.desired.target.next.posture
             }
         }
@@ -139,7 +140,7 @@ impl Figure {
 
     /// True if the motion that ends moves no joint any more.
     fn has_come(&self, time: f64) -> bool {
-        let Drive::Clip(end) = self.motion.source() else {
+        let MotionSource::Clip(end) = self.motion.source() else {
             return true;
         };
         let here = end.sample(time - self.desired.tracker.lag()).posture;
@@ -148,12 +149,12 @@ impl Figure {
     }
 
     /// Begins to work out the way from the stand that its motion leads to into the clip that waits, if it takes one.
-    pub(super) fn plan_entry(&mut self, time: f64) {
+    pub(in crate::figure) fn plan_entry(&mut self, time: f64) {
         let Some(q) = self.motion.next() else { return };
         let stands = !self.motion.has_fallen() && !self.crouches();
         let (next, first) = (q.play.motion(), q.first);
         let (body, stand) = (Arc::clone(&self.setup.body), self.comes_to());
-        let problem = EntryProblem {
+        let problem = ClipEntryProblem {
             body,
             next,
             first,
@@ -164,7 +165,7 @@ impl Figure {
         }
         self.motion.update_next(|q| {
             q.from = q.from.max(time + LEAD as f64 / splice::RATE);
-            q.entry = Some(Entry::from(problem));
+            q.entry = Some(ClipEntry::from(problem));
         });
     }
 
@@ -176,7 +177,7 @@ impl Figure {
         };
         match (self.motion.next(), self.motion.source()) {
             (Some(q), _) => Some(&q.play.clip),
-            (None, Drive::Clip(play)) if coming(play) => Some(&play.clip),
+            (None, MotionSource::Clip(play)) if coming(play) => Some(&play.clip),
             _ => None,
         }
     }
@@ -188,14 +189,14 @@ impl Figure {
     }
 
     /// True while there is something to follow: a clip that has begun and is not over, or a stream.
-    pub(super) fn has_motion(&self, time: f64) -> bool {
+    pub(in crate::figure) fn has_motion(&self, time: f64) -> bool {
         let moves = match self.motion.source() {
-            Drive::Clip(play) => {
+            MotionSource::Clip(play) => {
                 let begins = play.way_in.is_some() || play.clip_time(time) >= -play.clip.lead_in();
                 begins && !self.is_over(play, time)
             }
-            Drive::External(_) | Drive::Live(_) => true,
-            Drive::Hold(_) | Drive::Rehearsed(_) => false,
+            MotionSource::External(_) | MotionSource::Live(_) => true,
+            MotionSource::Hold(_) | MotionSource::Rehearsed(_) => false,
         };
         moves && !self.motion.has_fallen()
     }
@@ -203,9 +204,9 @@ impl Figure {
     /// True in the middle of a clip or of a step.
     fn is_busy(&self, time: f64) -> bool {
         let plays = match self.motion.source() {
-            Drive::Clip(play) => !self.is_over(play, time),
-            Drive::Live(_) => self.desired.tracker.is_walking(),
-            Drive::Hold(_) | Drive::External(_) | Drive::Rehearsed(_) => false,
+            MotionSource::Clip(play) => !self.is_over(play, time),
+            MotionSource::Live(_) => self.desired.tracker.is_walking(),
+            MotionSource::Hold(_) | MotionSource::External(_) | MotionSource::Rehearsed(_) => false,
         };
         plays || self.motion.exit().is_some() || self.desired.tracker.recovery_step().is_some()
     }
@@ -221,7 +222,7 @@ impl Figure {
     }
 
     /// Begins the clip that waits, once the figure stands.
-    pub(super) fn begin_next_if_ready(&mut self, world: &TickContext) {
+    pub(in crate::figure) fn begin_next_if_ready(&mut self, world: &TickContext) {
         let time = world.time();
         let Some(q) = self.motion.next() else { return };
         if self.motion.exit().is_some() {
@@ -259,17 +260,17 @@ impl Figure {
             let (play, plan) = q.begin(time, stance);
             self.desired
                 .tracker
-                .follow(Some((plan, play.speed, play.origin)));
+                .follow(Some(PlacedPlan::new(plan, play.speed, play.origin)));
             self.motion.lie_down();
-            self.motion.enter(Drive::Clip(play));
+            self.motion.enter(MotionSource::Clip(play));
             self.desired.get_up.reset();
         }
     }
 
     /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. What it is
     /// asked to do meanwhile waits.
-    pub(super) fn update_get_up(&mut self, time: f64) {
-        let able = self.setup.controller == ControllerKind::Modern;
+    pub(in crate::figure) fn update_get_up(&mut self, time: f64) {
+        let able = self.mode().gets_up();
         if !self.motion.has_fallen() || !able || self.setup.options.assist >= 1.0 {
             self.motion.lie_down();
             self.desired.get_up.reset();
@@ -324,13 +325,13 @@ impl Figure {
         // It does so already: a step that is under way is finished.
         if self.motion.stops()
             || self.motion.exit().is_some()
-            || matches!(self.motion.source(), Drive::Hold(_))
+            || matches!(self.motion.source(), MotionSource::Hold(_))
         {
             return;
         }
         if !self.steps() || !self.desired.tracker.is_walking() {
             let posture = self.desired.target.next.posture;
-            self.set_drive(Drive::Hold(posture));
+            self.set_drive(MotionSource::Hold(posture));
             return;
         }
         self.leave_for_a_stand(LEAD, time);

@@ -1,12 +1,13 @@
 //! A rehearsed motion within the tick: motors, help, and the end of it.
 
-use super::{Figure, TickContext};
-use crate::figure::drive::Drive;
-use crate::figure::rehearsed::{MotorLaw, RehearsedMotion, RehearsedPlayback};
-use crate::figure::torque_step::MotorCommand;
+use crate::figure::motion::rehearsed::{RehearsedMotion, RehearsedPlayback};
+use crate::figure::motion::source::MotionSource;
+use crate::figure::state::figure::Figure;
 use crate::motion::TargetPair;
 use crate::report::Flags;
-use crate::setup::ControllerKind;
+use crate::stepper::command::MotorCommand;
+use crate::stepper::motor_law::MotorLaw;
+use crate::tick_context::TickContext;
 use crate::track::planned_to_world::Anchor;
 use std::sync::Arc;
 
@@ -15,15 +16,15 @@ impl Figure {
     pub fn rehearse(&mut self, motion: Arc<RehearsedMotion>) {
         if self.motion.next().is_some() {
             self.motion.update_next(|q| q.play.rehearsed = Some(motion));
-        } else if let Drive::Clip(play) = self.motion.source_mut() {
+        } else if let MotionSource::Clip(play) = self.motion.source_mut() {
             play.rehearsed = Some(motion);
         }
     }
 
     /// Begins the rehearsal of a clip in the tick in which the clip begins, if the figure stands as that does; else the
     /// clip is tracked as it is.
-    pub(super) fn begin_rehearsal_if_due(&mut self, world: &TickContext) {
-        let Drive::Clip(play) = self.motion.source() else {
+    pub(in crate::figure) fn begin_rehearsal_if_due(&mut self, world: &TickContext) {
+        let MotionSource::Clip(play) = self.motion.source() else {
             return;
         };
         let Some(motion) = &play.rehearsed else {
@@ -38,22 +39,22 @@ impl Figure {
         let (tracker, state) = (&self.desired.tracker, &self.physical.state);
         let first = tracker.stance_of(&self.setup.body, &motion.start().posture);
         let feet = Anchor::between(first, tracker.stance(&self.scratch.placement)).transform();
-        let able = self.setup.controller == ControllerKind::Modern && !self.motion.has_fallen();
+        let able = self.mode().plays_rehearsals() && !self.motion.has_fallen();
         let here = RehearsedPlayback::new(Arc::clone(motion), time);
         let way = [play.origin, feet].map(|origin| here.clone().at(origin));
         let begins = |way: &RehearsedPlayback| {
             able && late < world.dt && way.begins_at(state) && way.goes_on(time, state, world)
         };
         if let Some(way) = way.into_iter().find(begins) {
-            self.set_drive(Drive::Rehearsed(way));
-        } else if let Drive::Clip(play) = self.motion.source_mut() {
+            self.set_drive(MotionSource::Rehearsed(way));
+        } else if let MotionSource::Clip(play) = self.motion.source_mut() {
             play.rehearsed = None;
         }
     }
 
     /// Leaves a rehearsed motion that is over, that this world is not for, or whose path is out of reach.
-    pub(super) fn leave_rehearsal_if_over(&mut self, world: &TickContext) {
-        let Drive::Rehearsed(play) = self.motion.source() else {
+    pub(in crate::figure) fn leave_rehearsal_if_over(&mut self, world: &TickContext) {
+        let MotionSource::Rehearsed(play) = self.motion.source() else {
             return;
         };
         let time = world.time();
@@ -64,7 +65,7 @@ impl Figure {
     }
 
     /// Stands as the motion does now, or recovers or falls on the way there: what comes next is as after any motion.
-    pub(super) fn leave_rehearsal(&mut self) {
+    pub(in crate::figure) fn leave_rehearsal(&mut self) {
         let mut next = self.desired.target.next.clone();
         let tracker = &self.desired.tracker;
         let asked = tracker.stance_of(&self.setup.body, &next.posture);
@@ -72,13 +73,16 @@ impl Figure {
         let feet = Anchor::between(asked, tracker.stance(&self.scratch.placement)).transform();
         feet.apply_to(&mut next);
         let posture = next.posture;
-        self.set_drive(Drive::Hold(posture));
+        self.set_drive(MotionSource::Hold(posture));
         self.surroundings.balance.reset();
         self.start_afresh();
     }
 
     /// What a rehearsed motion asks of the motors; `None` if none is played. No allocation.
-    pub(super) fn rehearsed_command(&mut self, world: &TickContext) -> Option<MotorCommand> {
+    pub(in crate::figure) fn rehearsed_command(
+        &mut self,
+        world: &TickContext,
+    ) -> Option<MotorCommand> {
         let play = self.motion.rehearsed()?;
         let mut target = self.desired.target.clone();
         play.offset(world.time()).add_to(&mut target);
@@ -87,7 +91,7 @@ impl Figure {
     }
 
     /// What stiff motors are asked to do, so that they follow a target in a tick of `dt` s: no controller decides.
-    pub(super) fn stiff_command(
+    pub(in crate::figure) fn stiff_command(
         &mut self,
         motors: MotorLaw,
         target: &TargetPair,
@@ -99,7 +103,7 @@ impl Figure {
         (report.joints.saturated, report.joints.saturated_secondary) = (0, 0);
         report.control_iterations = 0;
         report.flags = Flags::default();
-        self.stepping.tips = false;
+        self.stepping.note_tipping(false);
         out
     }
 }

@@ -1,14 +1,15 @@
 //! Stage 8: what a tick showed.
 
-use super::state::{PhysicalState, StageResults};
-use super::{Figure, TickContext};
 use crate::body::topology::{DOF_COUNT, NV};
-use crate::figure::following::FollowMode;
-use crate::figure::torque_step::TorqueRange;
+use crate::figure::motion::following::FollowMode;
+use crate::figure::state::figure::Figure;
+use crate::figure::state::parts::{PhysicalState, StageResults};
 use crate::math::Vec3;
 use crate::motion::GRAVITY;
 use crate::report::Flags;
+use crate::stepper::command::TorqueRange;
 use crate::support::zmp_above;
+use crate::tick_context::TickContext;
 
 /// DOFs whose torque is at its limit, a bit each. Limits follow angles and rates within the tick.
 fn at_limit(torque: &[f64; DOF_COUNT], available: &TorqueRange) -> u64 {
@@ -19,23 +20,15 @@ fn at_limit(torque: &[f64; DOF_COUNT], available: &TorqueRange) -> u64 {
 
 impl Figure {
     /// What the tick showed, for everyone outside.
-    pub(super) fn write_report(&mut self, world: &TickContext, frozen: bool) {
+    pub(in crate::figure) fn write_report(&mut self, world: &TickContext, frozen: bool) {
         let PhysicalState { links, state, .. } = &self.physical;
         let com = self.workspace.tasks.center_of_mass(links, state);
         let StageResults {
             before, available, ..
         } = &self.scratch.results;
-        let (f, penetration) = if self.stepping.prescribed {
-            (
-                &self.workspace.steppers.kinematic.forces,
-                self.workspace.steppers.kinematic.penetration(),
-            )
-        } else {
-            (
-                &self.workspace.steppers.torque.forces,
-                self.workspace.steppers.torque.penetration(),
-            )
-        };
+        let prescribed = self.stepping.is_prescribed();
+        let moved = self.workspace.steppers.result(prescribed);
+        let f = moved.forces;
         let r = &mut self.outcome.report;
         r.touches.clear();
         r.touches.extend(self.surroundings.touches.list());
@@ -77,7 +70,7 @@ impl Figure {
         r.joints.joint_error = before
             .posture
             .joint_difference(&self.desired.target.now.posture);
-        r.penetration = penetration;
+        r.penetration = moved.penetration;
         r.step_iterations = f.iterations;
         r.flags.set(f.flags);
         if r.contacts.is_empty() && r.touches.is_empty() {
@@ -89,7 +82,7 @@ impl Figure {
         if self.surroundings.balance.lost() {
             r.flags.set(Flags::BALANCE_LOST);
         }
-        if self.stepping.handed_over.is_some() {
+        if self.stepping.is_handed_over() {
             r.flags.set(Flags::HANDED_OVER);
         }
         if frozen {

@@ -1,13 +1,14 @@
 //! Stage 2: what the other hand does for a load that is too heavy for one arm.
 
-use super::{Figure, TickContext};
 use crate::body::SegmentId;
-use crate::figure::second_hand::Sight;
+use crate::figure::loads::second_hand::Sight;
+use crate::figure::state::figure::Figure;
 use crate::motion::arm_ik::ARMS;
+use crate::tick_context::TickContext;
 
 impl Figure {
     /// Changes the desired motion of an arm whose hand helps with a load.
-    pub(super) fn lead_second_hand(&mut self, world: &TickContext) {
+    pub(in crate::figure) fn lead_second_hand(&mut self, world: &TickContext) {
         let time = world.time();
         let helps = self.surroundings.disturbances.helpable(time);
         if helps.is_none() && self.desired.second_hand.led().is_none() {

@@ -1,59 +1,14 @@
 //! From a stand into a stream that begins in motion. The way is worked out aside, and taken in a tick that is fixed
 //! when it is asked for; whoever feeds the stream puts it before what comes.
 
-use super::{Figure, TickContext};
 use crate::body::Posture;
+use crate::figure::motion::stream_entry::{StreamEntryPlan, StreamEntryProblem};
 use crate::figure::params::switch::MOST_LEAD;
-use crate::figure::plan_task::{PlanRequest, PlanTask, Planning};
+use crate::figure::state::figure::Figure;
 use crate::plan::motion_transition::{StreamBeginning, StreamEntry};
 use crate::plan::splice;
-use serde::{Deserialize, Serialize, Serializer};
-
-/// The way into a stream, while it is planned.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(from = "StreamEntryProblem")]
-pub(in crate::figure) struct StreamEntryPlan {
-    problem: StreamEntryProblem,
-    task: PlanTask<Option<StreamEntry>>,
-}
-
-/// What it is planned from.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct StreamEntryProblem {
-    beginning: StreamBeginning,
-    /// World time at which it is taken, s.
-    due: f64,
-    /// It can be taken.
-    settled: bool,
-}
-
-impl From<StreamEntryProblem> for StreamEntryPlan {
-    fn from(problem: StreamEntryProblem) -> Self {
-        let beginning = problem.beginning.clone();
-        Self {
-            problem,
-            task: PlanTask::new(move || beginning.way()),
-        }
-    }
-}
-
-impl Serialize for StreamEntryPlan {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        self.problem.serialize(to)
-    }
-}
-
-impl StreamEntryPlan {
-    /// False if it cannot be what was written into a checkpoint.
-    pub fn is_valid(&self) -> bool {
-        self.problem.due.is_finite() && self.problem.beginning.is_valid()
-    }
-
-    /// Asks for the way.
-    pub fn request(&self) -> Option<PlanRequest> {
-        self.task.request()
-    }
-}
+use crate::tick_context::Planning;
+use crate::tick_context::TickContext;
 
 impl Figure {
     /// True if it stands and can be led into a stream by steps.
@@ -91,7 +46,7 @@ impl Figure {
     }
 
     /// Lets the way into a stream be taken when it is due. A tick that does not wait for plans puts that off.
-    pub(super) fn settle_stream_entry_if_due(&mut self, world: &TickContext) {
+    pub(in crate::figure) fn settle_stream_entry_if_due(&mut self, world: &TickContext) {
         let open = |e: &&StreamEntryPlan| !e.problem.settled;
         let Some(entry) = self.motion.stream_entry().filter(open) else {
             return;

@@ -2,10 +2,13 @@
 
 use super::*;
 use crate::body::{Body, Posture};
-use crate::figure::{ClipPlayback, Drive, FigureEvent, FigureKey};
+use crate::figure::state::figure::FigureKey;
+use crate::figure::{ClipPlayback, FigureEvent, MotionSource};
 use crate::math::Vec3;
 use crate::motion::builtin::builtin;
 use crate::motion::{Clip, Target, TargetPair};
+use crate::setup::{ControllerKind, FigureSetup};
+use crate::tick_context::Planning;
 use crate::world::{World, WorldParams};
 use std::sync::Arc;
 
@@ -120,7 +123,7 @@ fn a_figure_whose_desired_motion_is_out_of_hand_is_set_aside() {
             (0..10).for_each(|_| world.step());
             let held = world.figure(victim).unwrap().target().next.posture;
             if let Some(asked) = &asked {
-                let drive = Drive::External(Box::new(asked.clone()));
+                let drive = MotionSource::External(Box::new(asked.clone()));
                 world.figure_mut(victim).unwrap().set_drive(drive);
             }
             for _ in 0..5 {
@@ -135,7 +138,7 @@ fn a_figure_whose_desired_motion_is_out_of_hand_is_set_aside() {
             assert!(asked.is_some() || !frozen(&world, victim));
             set_aside += usize::from(frozen(&world, victim));
             // What it remembers is not refused, and a reset takes it back if it is asked for something else.
-            let drive = Drive::Hold(held);
+            let drive = MotionSource::Hold(held);
             world.figure_mut(victim).unwrap().set_drive(drive);
             let capture = world.capture();
             let (mut restored, ()) = capture
@@ -166,7 +169,7 @@ fn walking(planning: Planning) -> (World, FigureKey, Arc<Clip>) {
     world
         .figure_mut(key)
         .unwrap()
-        .set_drive(Drive::Clip(ClipPlayback {
+        .set_drive(MotionSource::Clip(ClipPlayback {
             looped: true,
             ..ClipPlayback::new(Arc::clone(&clip), 0.0)
         }));
@@ -188,7 +191,7 @@ fn stopped(planning: Planning, solved: usize) -> (usize, Option<usize>, u64) {
         world.step();
         late += world.late_plans();
         let stays = match world.figure(key).unwrap().drive() {
-            Drive::Clip(play) => Arc::ptr_eq(&play.clip, &clip),
+            MotionSource::Clip(play) => Arc::ptr_eq(&play.clip, &clip),
             _ => false,
         };
         if !stays {

@@ -1,6 +1,7 @@
 //! Text of a BVH file to joints and numbers. Whatever is wrong is named by line, frame and column.
 
-use super::{BvhChannel, BvhError, BvhJoint, MAX_JOINTS};
+use super::{BvhChannel, BvhError, BvhJoint};
+use crate::motion::skeleton::MAX_JOINTS;
 use std::collections::BTreeMap;
 
 /// Most warnings that are kept.
@@ -40,13 +41,13 @@ fn is_line_end(b: u8) -> bool {
 }
 
 /// Position in the bytes, with the line it is on.
-pub(super) struct Reader<'a> {
+pub(super) struct BvhReader<'a> {
     bytes: &'a [u8],
     at: usize,
     pub line: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> BvhReader<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         let mut bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         // DOS writers end the text with Ctrl-Z, some C writers with the string's NUL.
@@ -202,7 +203,7 @@ pub(super) struct OpenJoint {
 }
 
 pub(super) fn parse_hierarchy(
-    reader: &mut Reader<'_>,
+    reader: &mut BvhReader<'_>,
     warnings: &mut Warnings,
 ) -> Result<Vec<BvhJoint>, BvhError> {
     reader.expect("HIERARCHY")?;
@@ -307,7 +308,7 @@ fn note_duplicate_names(joints: &[BvhJoint], lines: &[usize], warnings: &mut War
 
 /// Reads the name and the opening brace of a ROOT or JOINT and puts it on the stack. Returns the line of the name.
 fn open_joint(
-    reader: &mut Reader<'_>,
+    reader: &mut BvhReader<'_>,
     joints: &mut Vec<BvhJoint>,
     open: &mut Vec<OpenJoint>,
     warnings: &mut Warnings,
@@ -340,7 +341,7 @@ fn open_joint(
 }
 
 /// Reads the rest of an End Site; an empty block counts as zero length.
-fn parse_end_site(reader: &mut Reader<'_>) -> Result<[f64; 3], BvhError> {
+fn parse_end_site(reader: &mut BvhReader<'_>) -> Result<[f64; 3], BvhError> {
     let _site = reader.name(); // "Site", in some files with a name
     reader.expect("{")?;
     let mut offset = None;
@@ -368,7 +369,7 @@ fn parse_end_site(reader: &mut Reader<'_>) -> Result<[f64; 3], BvhError> {
 }
 
 /// Reads from `MOTION` to the frame time; the two settings come in either order.
-pub(super) fn parse_motion_head(reader: &mut Reader<'_>) -> Result<(u64, f64), BvhError> {
+pub(super) fn parse_motion_head(reader: &mut BvhReader<'_>) -> Result<(u64, f64), BvhError> {
     let word = reader.header_word("MOTION")?;
     if word.eq_ignore_ascii_case(b"ROOT") {
         return Err(BvhError::SecondRoot {
@@ -438,7 +439,7 @@ pub(super) fn parse_motion_head(reader: &mut Reader<'_>) -> Result<(u64, f64), B
 
 /// Reads one frame per line to the end of the bytes.
 pub(super) fn parse_frames(
-    reader: &mut Reader<'_>,
+    reader: &mut BvhReader<'_>,
     columns: usize,
     declared: u64,
     warnings: &mut Warnings,

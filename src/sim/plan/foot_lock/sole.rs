@@ -86,13 +86,7 @@ impl Sole {
         let foot = body.segment(f).contact_points.clone();
         let toes = body.segment(t).contact_points.clone();
         let toe_joint = body.joint_offset[t.index()];
-        let low = foot.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
-        let toe_low = toes
-            .iter()
-            .map(|p| p.z + toe_joint.z)
-            .fold(f64::INFINITY, f64::min);
-        let height = -low.min(toe_low);
-        let ankle_height = if height.is_finite() { height } else { 0.0 };
+        let ankle_height = body.ankle_height(side);
         let back = foot.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
         let heel = Vec3 {
             x: if back.is_finite() { back } else { 0.0 },

@@ -3,9 +3,10 @@
 
 use super::sole::{Sole, turn, yaw_pitch};
 use super::{RecordedFoot, median};
+use crate::math::runs::runs;
 use crate::math::{Quat, Vec3, trig};
-use crate::plan::contact_labels::runs;
 use crate::plan::params::{contact, stance};
+use std::ops::Range;
 
 /// One stance of one foot: its place and its heading stay.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,14 +18,14 @@ pub struct Stance {
 }
 
 /// Foot point and heading per sample: where the flat ankle would stand on the floor.
-pub(super) struct Track {
+pub(super) struct FootTrack {
     pub point: Vec<Vec3>,
     pub yaw: Vec<f64>,
     pub pitch: Vec<f64>,
     pub roll: Vec<f64>,
 }
 
-impl Track {
+impl FootTrack {
     pub fn new(sole: &Sole, ankles: &[Vec3], rotations: &[Quat]) -> Self {
         let n = ankles.len();
         let mut t = Self {
@@ -62,7 +63,8 @@ impl Track {
 
     /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps, or begins it
     /// after, or ends it before it does, while the `other` foot is on the floor: a foot that shuffles alone stays.
-    fn split(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64, out: &mut Pieces) {
+    fn split(&self, samples: Range<usize>, other: &[bool], rate_hz: f64, out: &mut StancePieces) {
+        let Range { start, end } = samples;
         let shortest = (stance::SHORTEST * rate_hz) as usize;
         let (anchor, yaw) = self.anchor(start, end);
         let margin = (end - start) / stance::SPLIT_MARGIN;
@@ -88,8 +90,8 @@ impl Track {
                 .map(|i| (i, moved(i - half, i + half)))
                 .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
             if let Some((i, _)) = at.filter(|(_, far)| *far > stance::LEAST_SHUFFLE) {
-                self.split((start, i - half), other, rate_hz, out);
-                self.split((i + half, end), other, rate_hz, out);
+                self.split(start..i - half, other, rate_hz, out);
+                self.split(i + half..end, other, rate_hz, out);
                 return;
             }
         }
@@ -105,9 +107,9 @@ impl Track {
         let tail = (alone_until + drags).max(start + least);
         let head = alone_from.min(end.saturating_sub(least));
         if tail < end && moved(tail, end - 1) > stance::LEAST_SHUFFLE {
-            self.split((start, tail), other, rate_hz, out);
+            self.split(start..tail, other, rate_hz, out);
         } else if head > start && moved(start, head) > stance::LEAST_SHUFFLE {
-            self.split((head, end), other, rate_hz, out);
+            self.split(head..end, other, rate_hz, out);
         } else {
             out.push((start, end));
         }
@@ -115,7 +117,8 @@ impl Track {
 
     /// Takes from the ends of a stance what only there is astray, while the other foot stands too: a foot that begins
     /// to turn away, or that is still coming, does not stand, and what stands does not pivot because of it.
-    fn trim(&self, (start, end): (usize, usize), other: &[bool], rate_hz: f64) -> (usize, usize) {
+    fn trim(&self, samples: Range<usize>, other: &[bool], rate_hz: f64) -> Range<usize> {
+        let Range { start, end } = samples;
         let (anchor, yaw) = self.anchor(start, end);
         let edge = ((end - start) / stance::TRIM_SHARE).min((stance::TRIM_TIME * rate_hz) as usize);
         let astray = |i: usize| self.stray(i, anchor, yaw);
@@ -128,9 +131,9 @@ impl Track {
         let (head, tail) = (clip(start, head), clip(end, tail));
         let (from, to) = (start + cut(start, head), end - cut(end - 1, tail));
         if (from..to).any(|i| astray(i) > stance::STEADY_STRAY) {
-            return (start, end);
+            return start..end;
         }
-        (from, to)
+        from..to
     }
 
     /// Gives swings that are shorter than their way takes what they lack, of the time in which both feet are on the
@@ -163,7 +166,7 @@ impl Track {
     }
 
     /// When the foot stands where its `label` says that it is on the floor, with the `other` foot's.
-    pub fn pieces(&self, label: &[bool], other: &[bool], rate_hz: f64) -> Pieces {
+    pub fn pieces(&self, label: &[bool], other: &[bool], rate_hz: f64) -> StancePieces {
         let mut pieces = Vec::new();
         for (i, j, on) in runs(label) {
             let of = |v: &[f64]| median(v[i..j].to_vec());
@@ -173,7 +176,7 @@ impl Track {
                 && pitch < contact::MOST_TILT
                 && roll.abs() < contact::MOST_TILT
             {
-                self.split((i, j), other, rate_hz, &mut pieces);
+                self.split(i..j, other, rate_hz, &mut pieces);
             }
         }
         pieces
@@ -203,11 +206,13 @@ pub fn stances(
     labels: [&[bool]; 2],
     rate_hz: f64,
 ) -> [Vec<Stance>; 2] {
-    let tracks: [Track; 2] =
-        std::array::from_fn(|s| Track::new(&soles[s], recorded[s].ankles, recorded[s].rotations));
+    let tracks: [FootTrack; 2] = std::array::from_fn(|s| {
+        FootTrack::new(&soles[s], recorded[s].ankles, recorded[s].rotations)
+    });
     let first = |first: usize| sequence(&tracks, labels, [first, 1 - first], rate_hz);
     let (left, right) = (first(0), first(1));
-    let strays = |pieces: &[Pieces; 2]| tracks[0].strays(&pieces[0]) + tracks[1].strays(&pieces[1]);
+    let strays =
+        |pieces: &[StancePieces; 2]| tracks[0].strays(&pieces[0]) + tracks[1].strays(&pieces[1]);
     let best = if strays(&left) <= strays(&right) {
         left
     } else {
@@ -220,29 +225,30 @@ pub fn stances(
 }
 
 /// Stances of one foot as half-open ranges of samples, in order.
-pub(super) type Pieces = Vec<(usize, usize)>;
+pub(super) type StancePieces = Vec<(usize, usize)>;
 
 /// The stances of both feet if foot `order[0]` gives way first: the other one relies on where that one really stands,
 /// not on where it is on the floor. Feet that both turn on the floor would each leave the body to the other one.
 fn sequence(
-    tracks: &[Track; 2],
+    tracks: &[FootTrack; 2],
     labels: [&[bool]; 2],
     order: [usize; 2],
     rate_hz: f64,
-) -> [Pieces; 2] {
-    let held = |pieces: &Pieces| {
+) -> [StancePieces; 2] {
+    let held = |pieces: &StancePieces| {
         let mut held = vec![false; labels[0].len()];
         pieces.iter().for_each(|&(i, j)| held[i..j].fill(true));
         held
     };
     let [first, second] = order;
-    let mut out: [Pieces; 2] = Default::default();
+    let mut out: [StancePieces; 2] = Default::default();
     out[first] = tracks[first].pieces(labels[first], labels[second], rate_hz);
     out[second] = tracks[second].pieces(labels[second], &held(&out[first]), rate_hz);
     for s in order {
         let other = held(&out[1 - s]);
         for piece in &mut out[s] {
-            *piece = tracks[s].trim(*piece, &other, rate_hz);
+            let trimmed = tracks[s].trim(piece.0..piece.1, &other, rate_hz);
+            *piece = (trimmed.start, trimmed.end);
         }
     }
     for s in order {

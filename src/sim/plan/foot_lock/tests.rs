@@ -1,4 +1,4 @@
-use super::stances::Pieces;
+use super::stances::StancePieces;
 use super::*;
 use crate::plan::params::stance;
 
@@ -147,17 +147,18 @@ fn feet_that_turn_together_step_in_turn_and_one_of_them_always_stands() {
             [&label, &label],
             120.0,
         );
-        let stands = |steps: &[Pieces; 2], k: usize| {
+        let stands = |steps: &[StancePieces; 2], k: usize| {
             steps.iter().flatten().any(|&(i, j)| (i..j).contains(&k))
         };
-        let tracks: [Track; 2] = [
-            Track::new(&soles[0], &l.0, &l.1),
-            Track::new(&soles[1], &r.0, &r.1),
+        let tracks: [FootTrack; 2] = [
+            FootTrack::new(&soles[0], &l.0, &l.1),
+            FootTrack::new(&soles[1], &r.0, &r.1),
         ];
         // Each relying on the other's label they leave the body alone.
-        let alone: [Pieces; 2] = std::array::from_fn(|s| tracks[s].pieces(&label, &label, 120.0));
+        let alone: [StancePieces; 2] =
+            std::array::from_fn(|s| tracks[s].pieces(&label, &label, 120.0));
         assert!((0..n).any(|k| !stands(&alone, k)), "{angle}: {alone:?}");
-        let pieces: [Pieces; 2] = steps.map(|s| s.iter().map(|s| (s.start, s.end)).collect());
+        let pieces: [StancePieces; 2] = steps.map(|s| s.iter().map(|s| (s.start, s.end)).collect());
         assert!((0..n).all(|k| stands(&pieces, k)), "{angle}: {pieces:?}");
         // A foot that stands does not turn.
         for (s, (place, turned)) in [l, r].into_iter().enumerate() {

@@ -32,9 +32,9 @@ impl NextClip {
         let begins = seen(&features.feet[1], features.com[1] + moves);
         let joints = stand.joint_difference(&samples[1].0);
         let rates = samples[1].0.joint_difference(&samples[2].0);
-        far(is.0, begins.0) < common::MISPLACED_BY
-            && trig::wrapped(begins.1 - is.1).abs() < common::MISPLACED_TURN
-            && far(is.2, begins.2) < transition::BEGIN_CAPTURE
+        far(is.left, begins.left) < common::MISPLACED_BY
+            && trig::wrapped(begins.turn - is.turn).abs() < common::MISPLACED_TURN
+            && far(is.point, begins.point) < transition::BEGIN_CAPTURE
             && joints.iter().all(|e| e.abs() < transition::BEGIN_JOINT)
             && rates
                 .iter()
@@ -73,11 +73,24 @@ impl NextClip {
     }
 }
 
-/// Seen from the middle between two feet: the left one, its heading, and a point over the floor.
-fn seen(feet: &[FootPlacement; 2], point: Vec3) -> ([f64; 2], f64, [f64; 2]) {
+/// What lies about two feet, seen from the middle between them.
+struct AboutFeet {
+    /// Place of the left foot, m.
+    left: [f64; 2],
+    /// Its heading, rad.
+    turn: f64,
+    /// A point over the floor, m.
+    point: [f64; 2],
+}
+
+fn seen(feet: &[FootPlacement; 2], point: Vec3) -> AboutFeet {
     let half = 0.5 * trig::wrapped(feet[1].yaw - feet[0].yaw);
     let heading = feet[0].yaw + half;
     let middle = (feet[0].place + feet[1].place) * 0.5;
     let from = |p: Vec3| turned_on_floor([p.x - middle.x, p.y - middle.y], -heading);
-    (from(feet[0].place), -half, from(point))
+    AboutFeet {
+        left: from(feet[0].place),
+        turn: -half,
+        point: from(point),
+    }
 }

@@ -50,7 +50,7 @@ impl<const N: usize> FadingOffset<N> {
 }
 
 /// Both motions at the seam.
-struct Seam {
+struct MotionSeam {
     soles: [Sole; 2],
     /// The one that is left, before, at and after the seam.
     left: [Posture; 3],
@@ -80,16 +80,25 @@ fn stood(sole: &Sole, pose: &FootPose) -> FootPlacement {
     sole.footing((pose.ankle, pose.rotation))
 }
 
-impl Seam {
-    /// * `known`, `at`: the motion that is left, and the sample at which it is.
-    /// * `enters`: clip time at which `next` is entered, s; `count`: how many samples of it are looked at.
+/// Where one motion turns into the next.
+#[derive(Clone, Copy)]
+pub(super) struct ClipEntry<'a> {
+    pub(super) moment: &'a Moment,
+    /// Clip time at which the next motion is entered, s.
+    pub(super) enters: f64,
+}
+
+impl MotionSeam {
+    /// * `known`: the motion that is left; `count`: how many samples of `next` are looked at.
     fn new(
         body: &Body,
-        (known, at): (&[Sample], usize),
+        known: &[Sample],
         next: &NextClip,
-        (moment, enters): (&Moment, f64),
+        entry: ClipEntry<'_>,
         count: usize,
     ) -> Self {
+        let ClipEntry { moment, enters } = entry;
+        let at = moment.left;
         let mut entered = next.samples(enters - next.speed / stop::RATE, count + 1);
         for (posture, _) in &mut entered {
             moment.place.apply_posture(posture);
@@ -322,17 +331,17 @@ impl SeamMotion<'_> {
 /// the weight.
 ///
 /// * `known`: the motion; it plays as it is up to sample `now`.
-/// * `enters`: clip time at which `next` is entered at that moment, s.
 pub(super) fn transition_at(
     body: &Body,
     known: &[Sample],
     now: usize,
     next: &NextClip,
-    (moment, enters): (&Moment, f64),
+    entry: ClipEntry<'_>,
 ) -> Option<(f64, TransitionClip)> {
+    let ClipEntry { moment, enters } = entry;
     let at = moment.left;
     let count = samples_in(transition::LONGEST) + transition::STEADY + 2;
-    let seam = Seam::new(body, (known, at), next, (moment, enters), count);
+    let seam = MotionSeam::new(body, known, next, entry, count);
     let ends = seam.ends()?;
     let count = (ends + samples_in(transition::MARGIN)).min(count);
 

@@ -33,7 +33,15 @@ fn into(body: &Arc<Body>, known: &[Sample], clip: &Arc<Clip>, speed: f64) -> Tra
         speed,
         looped: false,
     };
-    TransitionCandidates::new(body, known.to_vec(), (NOW, NOW), next)
+    TransitionCandidates::new(
+        body,
+        known.to_vec(),
+        LeavingSamples {
+            now: NOW,
+            earliest: NOW,
+        },
+        next,
+    )
 }
 
 /// Largest difference of two postures, m and rad.

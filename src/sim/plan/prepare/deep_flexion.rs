@@ -59,7 +59,8 @@ fn lacks_flexion(body: &Body, posture: &Posture, deep: [bool; 2]) -> f64 {
 fn give_way(
     body: &Body,
     like: &Posture,
-    (tilt, raise): (f64, f64),
+    tilt: f64,
+    raise: f64,
     feet: [((Vec3, Quat), f64); 2],
 ) -> Posture {
     let mut posture = *like;
@@ -88,7 +89,8 @@ pub(super) fn unfold(
     body: &Body,
     postures: &mut [Posture],
     planted: &[[bool; 2]],
-    (soles, locked): (&[Sole; 2], &[LockedFoot; 2]),
+    soles: &[Sole; 2],
+    locked: &[LockedFoot; 2],
     rate_hz: f64,
 ) -> DeepFlexion {
     let n = postures.len();
@@ -114,8 +116,7 @@ pub(super) fn unfold(
             })
         })
         .collect();
-    let with =
-        |i: usize, tilt: f64, raise: f64| give_way(body, &original[i], (tilt, raise), feet[i]);
+    let with = |i: usize, tilt: f64, raise: f64| give_way(body, &original[i], tilt, raise, feet[i]);
     let smooth = |need: &[f64]| -> Vec<f64> {
         let ceiling: Vec<f64> = need.iter().map(|x| -x).collect();
         let curve = smoothest_below(&ceiling, leg::DROP_TIME, rate_hz);

@@ -1,5 +1,6 @@
 //! Joints within the limits of the body: the upper body first, the legs last.
 
+use super::compared::Excess;
 use crate::body::angles::clamp_to_limits;
 use crate::body::topology::{
     BALL_COUNT, DOF_COUNT, DOF_START, FEET, HINGE_COUNT, JOINT, Joint, L_THIGH, SHANKS, THIGHS,
@@ -15,7 +16,7 @@ use crate::plan::toe_hinge;
 
 /// What is left of a lock when the legs are within their limits.
 #[derive(Default)]
-pub(super) struct Held {
+pub(super) struct HeldFeet {
     /// Furthest that a planted foot is from its place, m.
     pub slide: f64,
     /// Deepest that one is in the floor, m.
@@ -29,11 +30,13 @@ pub(super) fn into_limits(
     body: &Body,
     postures: &mut [Posture],
     planted: &mut [[bool; 2]],
-    (soles, locked, accuracy): (&[Sole; 2], &[LockedFoot; 2], f64),
-    clamped: &mut [(f64, f64); DOF_COUNT],
-) -> Held {
+    soles: &[Sole; 2],
+    locked: &[LockedFoot; 2],
+    accuracy: f64,
+    clamped: &mut [Excess; DOF_COUNT],
+) -> HeldFeet {
     let n = postures.len();
-    let mut held = Held::default();
+    let mut held = HeldFeet::default();
     for (i, (posture, planted)) in postures.iter_mut().zip(planted).enumerate() {
         let wanted = forward(body, posture);
         let off = clamp_to_limits(body, posture, leg::LIMIT_MARGIN * 0.5);
@@ -105,12 +108,12 @@ fn raise_foot(body: &Body, posture: &mut Posture, side: usize, sole: &Sole) {
     }
 }
 
-fn note_clamped(clamped: &mut [(f64, f64); DOF_COUNT], off: &[f64; DOF_COUNT], n: usize) {
+fn note_clamped(clamped: &mut [Excess; DOF_COUNT], off: &[f64; DOF_COUNT], n: usize) {
     for (c, o) in clamped.iter_mut().zip(off) {
         // Below a tenth of a degree it is the margin, not the motion.
         if o.abs() > leg::NOTED_EXCESS {
-            c.0 = c.0.max(o.abs());
-            c.1 += 1.0 / n as f64;
+            c.max = c.max.max(o.abs());
+            c.fraction += 1.0 / n as f64;
         }
     }
 }
@@ -120,7 +123,7 @@ pub(super) fn clamp_upper(
     body: &Body,
     postures: &mut [Posture],
     rate_hz: f64,
-    clamped: &mut [(f64, f64); DOF_COUNT],
+    clamped: &mut [Excess; DOF_COUNT],
 ) {
     let n = postures.len();
     let mut any = false;

@@ -10,17 +10,23 @@ use crate::plan::ankle_torque_limit::{AnkleTorqueLimit, Over};
 use crate::plan::foot_lock::{LockedFoot, Sole};
 use crate::plan::params::{ankle, balance, leg, pelvis};
 use crate::plan::pelvis_shift::{MassTrack, OtherSupport, SupportPhase};
+use crate::reference::units::millimetres;
+use serde::Serialize;
 
 /// How far the zero-moment point is outside the support polygon of planted feet, over the samples that feet carry.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ZmpOutside {
     /// Fraction of the samples outside.
+    #[serde(rename = "share")]
     pub fraction: f64,
     /// Mean excess over all samples (0 inside), m.
+    #[serde(rename = "mean_mm", serialize_with = "millimetres")]
     pub mean: f64,
     /// 95th percentile of the excess, m.
+    #[serde(rename = "p95_mm", serialize_with = "millimetres")]
     pub p95: f64,
     /// Largest excess, m.
+    #[serde(rename = "max_mm", serialize_with = "millimetres")]
     pub max: f64,
 }
 

@@ -1,6 +1,6 @@
 //! How the feet move between the footholds of an end.
 
-use super::footsteps::Step;
+use super::footsteps::PlannedStep;
 use super::initial_state::InitialState;
 use super::turned;
 use crate::math::curve::{self, min_jerk_3, smootherstep};
@@ -9,7 +9,7 @@ use crate::plan::foot_lock::{Sole, yaw_pitch};
 use crate::plan::params::stop;
 
 /// Stance of a foot between two of its steps.
-struct Stance {
+struct StanceCurve {
     place: Vec3,
     yaw: f64,
     /// From when to when, s.
@@ -19,7 +19,7 @@ struct Stance {
     pitch: [f64; 3],
 }
 
-impl Stance {
+impl StanceCurve {
     /// Pose `t` seconds into the end. The heel of a foot that is left behind rises before it is lifted, over
     /// [`stop::ROLL_TIME`].
     fn pose(&self, sole: &Sole, t: f64) -> (Vec3, Quat) {
@@ -39,22 +39,43 @@ fn left_behind(place: Vec3, other: Vec3, heading: f64) -> f64 {
     -(stop::ROLL_GAIN * (behind - stop::ROLL_FROM)).clamp(0.0, stop::MOST_ROLL)
 }
 
-/// Ankle and rotation of a foot `t` seconds into the end, and whether it is down.
-///
-/// * `lands`: see [`stop::OVER_TIME`]; not where time runs backwards, and what looks like a landing is a foot that
-///   leaves.
+/// A foot of a motion that comes to its end.
+pub(super) struct EndingFoot {
+    /// Left (0) or right (1).
+    pub(super) side: usize,
+    /// Heading at its last foothold, rad.
+    pub(super) yaw: f64,
+    /// See [`stop::OVER_TIME`]; false where time runs backwards, and what looks like a landing is a foot that leaves.
+    pub(super) lands: bool,
+}
+
+/// A foot at one time.
+pub(super) struct FootMoment {
+    pub(super) ankle: Vec3,
+    /// `world_from_foot`.
+    pub(super) rotation: Quat,
+    pub(super) down: bool,
+}
+
+/// The foot `t` seconds into the end.
 pub(super) fn pose(
     from: &InitialState,
-    steps: &[Step],
+    steps: &[PlannedStep],
     sole: &Sole,
-    (side, yaw, lands): (usize, f64, bool),
+    ending: EndingFoot,
     t: f64,
-) -> (Vec3, Quat, bool) {
+) -> FootMoment {
+    let EndingFoot { side, yaw, lands } = ending;
+    let stands = |ankle, rotation| FootMoment {
+        ankle,
+        rotation,
+        down: true,
+    };
     let other = |t: f64| {
         let landed = steps.iter().rev().find(|s| s.side != side && s.on <= t);
         landed.map_or(from.feet[1 - side].place, |s| s.place)
     };
-    let mine: Vec<&Step> = steps.iter().filter(|s| s.side == side).collect();
+    let mine: Vec<&PlannedStep> = steps.iter().filter(|s| s.side == side).collect();
     let foot = &from.feet[side];
     let pitch = yaw_pitch(foot.rotation).1;
     let lifts = |k: usize| mine.get(k).map_or(f64::INFINITY, |s| s.off);
@@ -69,7 +90,7 @@ pub(super) fn pose(
                 } else {
                     pitch
                 };
-                Stance {
+                StanceCurve {
                     place,
                     yaw: foot.yaw,
                     on: 0.0,
@@ -78,10 +99,10 @@ pub(super) fn pose(
                 }
             }
             Some(before) => {
-                let Step { place, on, .. } = *mine[before];
+                let PlannedStep { place, on, .. } = *mine[before];
                 let first = left_behind(place, other(on), from.heading);
                 let last = if off.is_finite() { lifted(place) } else { 0.0 };
-                Stance {
+                StanceCurve {
                     place,
                     yaw,
                     on,
@@ -100,10 +121,10 @@ pub(super) fn pose(
         .filter(|(_, s)| t < s.on);
     let Some((k, step)) = under_way else {
         if k == 0 && !foot.down {
-            return (foot.ankle, foot.rotation, true);
+            return stands(foot.ankle, foot.rotation);
         }
         let (ankle, rotation) = stance(k).pose(sole, t);
-        return (ankle, rotation, true);
+        return stands(ankle, rotation);
     };
     let in_air = k == 0 && !foot.down;
     // A foot in the air, and one that lifts at once, goes on as it moves, toe-up as it may be.
@@ -129,5 +150,9 @@ pub(super) fn pose(
     p.z += curve::arc(arc, u);
     let way = (flat * rotation.conjugate()).log();
     let way = min_jerk_3(Vec3::zero(), spin, way, long, t - step.off);
-    (p, Quat::exp(way) * rotation, false)
+    FootMoment {
+        ankle: p,
+        rotation: Quat::exp(way) * rotation,
+        down: false,
+    }
 }

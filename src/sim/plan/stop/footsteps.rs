@@ -18,7 +18,7 @@ use crate::plan::params::{common, stop};
 
 /// One step of the end.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Step {
+pub(super) struct PlannedStep {
     pub(super) side: usize,
     pub(super) off: f64,
     pub(super) on: f64,
@@ -26,9 +26,19 @@ pub(super) struct Step {
     pub(super) place: Vec3,
 }
 
+/// A step that catches the body.
+#[derive(Clone, Copy)]
+struct CaptureStep {
+    /// How long it takes, s.
+    time: f64,
+    place: Vec3,
+    /// How far inside the feet the capture point is when the foot lands, m.
+    inside: f64,
+}
+
 /// Where the feet are in the plan.
 #[derive(Clone, Copy)]
-pub(super) struct Feet<'a> {
+pub(super) struct StepFeet<'a> {
     place: [Vec3; 2],
     yaw: [f64; 2],
     soles: &'a [Sole; 2],
@@ -39,7 +49,7 @@ fn all_but(side: usize) -> [bool; 2] {
     [side == 1, side == 0]
 }
 
-impl<'a> Feet<'a> {
+impl<'a> StepFeet<'a> {
     /// As a motion ends.
     pub(super) fn of(from: &InitialState, soles: &'a [Sole; 2]) -> Self {
         Self {
@@ -47,6 +57,14 @@ impl<'a> Feet<'a> {
             yaw: from.feet.map(|f| f.yaw),
             soles,
         }
+    }
+
+    /// Whether a body in the state `from` could stop without a step. `omega`: rate of its inverted pendulum, 1/s.
+    pub(super) fn stop_here(&self, from: &InitialState, omega: f64) -> bool {
+        let capture = from.com + from.velocity * (1.0 / omega);
+        from.velocity.level() < stop::STANDING_SPEED
+            && from.down() == [true; 2]
+            && margin(&self.support(from.down()), capture.xy()) > stop::STANDING_MARGIN
     }
 
     /// Hull of the soles that are down.
@@ -156,20 +174,20 @@ impl StepOptions {
 /// The pendulum on its way to a stand: footsteps, and the path of its mass.
 struct PendulumPlan<'a> {
     from: &'a InitialState,
-    feet: Feet<'a>,
+    feet: StepFeet<'a>,
     stand: &'a StandingPose,
     leg: f64,
     omega: f64,
     dt: f64,
     capture: Vec3,
     way: StepOptions,
-    steps: Vec<Step>,
+    steps: Vec<PlannedStep>,
     path: Vec<Vec3>,
 }
 
 /// The steps of an end and the path of its mass over the floor, first sample where the motion ends.
 pub(super) struct Footsteps {
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<PlannedStep>,
     pub(super) path: Vec<Vec3>,
     /// Heading in the end, rad.
     pub(super) heading: f64,
@@ -180,21 +198,35 @@ pub(super) fn frequency(from: &InitialState, stand: &StandingPose) -> f64 {
     (GRAVITY / (0.5 * (from.com.z + stand.mass.z)).max(stop::LEAST_HEIGHT)).sqrt()
 }
 
+/// What the search for steps depends on besides the body's state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StepSearch {
+    /// From hip to ankle, m.
+    pub(super) leg: f64,
+    /// Samples per second of the path.
+    pub(super) rate_hz: f64,
+    /// The most that should be in hand beyond [`stop::CAUGHT_INSET`], s.
+    pub(super) spare: f64,
+}
+
 /// The steps that ask least of a body. `None` if none are found that stop it.
 ///
-/// * `leg`: from hip to ankle, m; `rate_hz`: samples per second of the path; `spare`: the most that should be in hand
-///   beyond [`stop::CAUGHT_INSET`], s.
 pub(super) fn footsteps(
     from: &InitialState,
     stand: &StandingPose,
     soles: &[Sole; 2],
-    (leg, rate_hz, spare): (f64, f64, f64),
+    search: StepSearch,
 ) -> Option<Footsteps> {
+    let StepSearch {
+        leg,
+        rate_hz,
+        spare,
+    } = search;
     let omega = frequency(from, stand);
     let tried = |way: StepOptions| {
         let mut stop = PendulumPlan {
             from,
-            feet: Feet::of(from, soles),
+            feet: StepFeet::of(from, soles),
             stand,
             leg,
             omega,
@@ -227,15 +259,15 @@ pub(super) fn footsteps(
 }
 
 /// Where the feet that are down carry the body.
-struct Support {
+struct StepSupport {
     /// Where the capture point is to stay.
     capture: Region,
     /// Where the zero-moment point may be.
     pressure: Region,
 }
 
-impl Support {
-    fn of(feet: &Feet<'_>, down: [bool; 2]) -> Self {
+impl StepSupport {
+    fn of(feet: &StepFeet<'_>, down: [bool; 2]) -> Self {
         let hull = feet.support(down);
         Self {
             capture: Region::inside(&hull, stop::CAPTURE_INSET),
@@ -273,21 +305,21 @@ impl PendulumPlan<'_> {
     }
 
     /// The zero-moment point within `support` that drives the capture point to `goal`.
-    fn drive(&self, support: &Support, goal: Vec3) -> [f64; 2] {
+    fn drive(&self, support: &StepSupport, goal: Vec3) -> [f64; 2] {
         let off = self.capture - goal;
         let wanted = self.capture + off * stop::LEAN_GAIN;
         support.pressure.nearest(wanted.xy())
     }
 
     /// The zero-moment point within `support` that keeps the capture point there, or slows it down most.
-    fn hold(&self, support: &Support) -> [f64; 2] {
+    fn hold(&self, support: &StepSupport) -> [f64; 2] {
         let inside = support.capture.nearest(self.capture.xy());
         self.drive(support, Vec3::on_floor(inside))
     }
 
     /// Stands on both feet for a while.
     fn both(&mut self, time: f64) {
-        let support = Support::of(&self.feet, [true; 2]);
+        let support = StepSupport::of(&self.feet, [true; 2]);
         for _ in 0..(time / self.dt).round() as usize {
             self.advance(self.hold(&support));
         }
@@ -296,7 +328,7 @@ impl PendulumPlan<'_> {
     /// Brings the capture point to `goal` with both feet on the floor. Foot `next`, if any, steps after that, and
     /// sooner if the leg gets no further and the other foot has the capture point.
     fn lean(&mut self, goal: Vec3, next: Option<usize>) {
-        let support = Support::of(&self.feet, [true; 2]);
+        let support = StepSupport::of(&self.feet, [true; 2]);
         let other = next.map(|side| (self.feet.support(all_but(side)), self.feet.place[side]));
         for _ in 0..(stop::LEAN_TIME / self.dt) as usize {
             if (self.capture - goal).norm() < stop::LEAN_SETTLED {
@@ -315,7 +347,7 @@ impl PendulumPlan<'_> {
 
     /// Foot `side`, which left the floor at time `off` (s), lands at `place`.
     fn put(&mut self, side: usize, off: f64, place: Vec3) {
-        self.steps.push(Step {
+        self.steps.push(PlannedStep {
             side,
             off,
             on: self.now(),
@@ -329,7 +361,7 @@ impl PendulumPlan<'_> {
     /// lands if there is one.
     fn swing(&mut self, side: usize, time: f64, place: Vec3, goal: Option<Vec3>) {
         let off = self.now();
-        let support = Support::of(&self.feet, all_but(side));
+        let support = StepSupport::of(&self.feet, all_but(side));
         let count = ((time / self.dt).round() as usize).max(1);
         for left in (1..=count).rev() {
             let p = match goal {
@@ -350,9 +382,8 @@ impl PendulumPlan<'_> {
     ///
     /// * `ankle`: where it is; `least`: shortest time.
     ///
-    /// Returns time, place, and how far inside the feet the capture point will be then, m.
-    fn capture_step(&self, side: usize, ankle: Vec3, least: f64) -> (f64, Vec3, f64) {
-        let p = Vec3::on_floor(self.hold(&Support::of(&self.feet, all_but(side))));
+    fn capture_step(&self, side: usize, ankle: Vec3, least: f64) -> CaptureStep {
+        let p = Vec3::on_floor(self.hold(&StepSupport::of(&self.feet, all_but(side))));
         let away = self.capture - p;
         let landing = |time: f64| p + away * exp(self.omega * time);
         // Where it moves, more than it needs: a body stops less well than a pendulum.
@@ -377,7 +408,11 @@ impl PendulumPlan<'_> {
         feet.place[side] = place;
         feet.yaw[side] = self.yaw(side);
         let inside = margin(&feet.support([true; 2]), landing(time).xy());
-        (time, place, inside)
+        CaptureStep {
+            time,
+            place,
+            inside,
+        }
     }
 
     /// Place of foot `side` with the middle of its sole at `wanted`, or as near as the leg allows beside the other
@@ -419,7 +454,8 @@ impl PendulumPlan<'_> {
             square * square * self.dt
         };
         let falls: f64 = self.path.windows(3).map(fall).sum();
-        let hops = |w: &&[Step]| w[0].side == w[1].side && w[1].on - w[1].off < stop::CLOSING_TIME;
+        let hops =
+            |w: &&[PlannedStep]| w[0].side == w[1].side && w[1].on - w[1].off < stop::CLOSING_TIME;
         let hops = self.steps.windows(2).filter(hops).count() as f64;
         let mut at = [0, 1].map(|s| (self.from.feet[s].ankle.horizontal(), self.from.feet[s].yaw));
         let mut hurry = 0.0;
@@ -470,9 +506,9 @@ impl PendulumPlan<'_> {
     fn land(&mut self, side: usize) {
         let since = self.from.feet[side].since + self.now();
         let least = (stop::SHORTEST_SWING - since).max(self.way.rest);
-        let (time, place, _) = self.capture_step(side, self.from.feet[side].ankle, least);
+        let step = self.capture_step(side, self.from.feet[side].ankle, least);
         let in_flight = self.path.len() > 1;
-        self.swing(side, time, place, None);
+        self.swing(side, step.time, step.place, None);
         if let Some(step) = self.steps.last_mut().filter(|_| in_flight) {
             step.off = 0.0;
         }
@@ -493,9 +529,11 @@ impl PendulumPlan<'_> {
             }
             let [left, right] =
                 [0, 1].map(|s: usize| self.capture_step(s, ankle[s], stop::SHORTEST_SWING));
-            let side = first.take().unwrap_or(usize::from(right.2 > left.2));
-            let (time, place, _) = [left, right][side];
-            self.swing(side, time, place, None);
+            let side = first
+                .take()
+                .unwrap_or(usize::from(right.inside > left.inside));
+            let step = [left, right][side];
+            self.swing(side, step.time, step.place, None);
             self.both(stop::DOUBLE_SUPPORT);
         }
     }

@@ -1,12 +1,10 @@
 //! What an end starts from: where the last samples of a motion have the body, and how it moves.
 
-use super::footsteps::Feet;
 use crate::body::topology::NV;
 use crate::body::{Body, Posture};
-use crate::math::polygon::margin;
+use crate::math::runs::runs;
 use crate::math::{Quat, Vec3};
 use crate::motion::leg_ik::{center_of_mass, forward};
-use crate::plan::contact_labels::runs;
 use crate::plan::foot_lock::{Sole, turn, yaw_pitch};
 use crate::plan::params::{contact, stop};
 use crate::plan::prepare::Draft;
@@ -117,14 +115,5 @@ impl InitialState {
     /// True if it is not at rest: what ends here would end in motion.
     pub(super) fn moves(&self) -> bool {
         self.pelvis_velocity.level() > stop::MOVING_SPEED
-    }
-
-    /// True if a body could stop here without a step.
-    pub(super) fn stands(&self, soles: &[Sole; 2], omega: f64) -> bool {
-        let feet = Feet::of(self, soles);
-        let capture = self.com + self.velocity * (1.0 / omega);
-        self.velocity.level() < stop::STANDING_SPEED
-            && self.down() == [true; 2]
-            && margin(&feet.support(self.down()), capture.xy()) > stop::STANDING_MARGIN
     }
 }

@@ -20,7 +20,7 @@ use crate::motion::builtin::at_ease;
 use crate::motion::filter::low_pass_points;
 use crate::motion::leg_ik::{forward, knee_axis};
 use crate::plan::params::{pelvis, stance, stop};
-use footsteps::{Footsteps, StandingPose, footsteps, frequency};
+use footsteps::{Footsteps, StandingPose, StepFeet, StepSearch, footsteps, frequency};
 use initial_state::InitialState;
 
 fn turned(yaw: f64, v: Vec3) -> Vec3 {
@@ -29,7 +29,7 @@ fn turned(yaw: f64, v: Vec3) -> Vec3 {
 
 /// How a motion is to end.
 #[derive(Clone, Copy)]
-enum Goal<'a> {
+enum StopGoal<'a> {
     /// Standing, at ease if it does not stand.
     Stand,
     /// The same, of a motion that runs backwards: it will come from there.
@@ -44,53 +44,69 @@ enum Goal<'a> {
 
 /// Samples after the last one of `draft`, from its motion to its goal. `None` if it is there already, if it does not
 /// walk, or if no steps are found that stop it.
-fn steps_to_stand(body: &Body, draft: &Draft, goal: Goal<'_>, spare: f64) -> Option<Draft> {
+fn steps_to_stand(body: &Body, draft: &Draft, goal: StopGoal<'_>, spare: f64) -> Option<Draft> {
     if draft.postures.len() < 3 {
         return None;
     }
     let soles = [Sole::new(body, 0), Sole::new(body, 1)];
     let from = InitialState::of(body, draft, &soles);
     let mut stand = match goal {
-        Goal::Stand | Goal::Origin | Goal::AtRest => StandingPose::of(body, &at_ease(body)),
-        Goal::Like(posture) | Goal::Rest(posture) => StandingPose::of(body, posture),
+        StopGoal::Stand | StopGoal::Origin | StopGoal::AtRest => {
+            StandingPose::of(body, &at_ease(body))
+        }
+        StopGoal::Like(posture) | StopGoal::Rest(posture) => StandingPose::of(body, posture),
     };
     // A body that sits or lies is not led to a stand; one that squats stands on its feet.
-    let stands = from.stands(&soles, frequency(&from, &stand));
+    let stands = StepFeet::of(&from, &soles).stop_here(&from, frequency(&from, &stand));
     if !stands && from.posture.root_position.z < pelvis::UPRIGHT * body.standing_root_height() {
         return None;
     }
-    if stands && matches!(goal, Goal::AtRest) {
+    if stands && matches!(goal, StopGoal::AtRest) {
         // It needs no step, only time.
         stand = StandingPose::of(body, &from.posture);
     }
     let is_there = match goal {
-        Goal::Stand | Goal::Origin => true,
-        Goal::AtRest => !from.moves(),
-        Goal::Like(posture) => alike(&from.posture, posture),
-        Goal::Rest(_) => false,
+        StopGoal::Stand | StopGoal::Origin => true,
+        StopGoal::AtRest => !from.moves(),
+        StopGoal::Like(posture) => alike(&from.posture, posture),
+        StopGoal::Rest(_) => false,
     };
     if is_there && stands {
         return None;
     }
-    let how = (body.leg_length(0), draft.rate_hz, spare);
-    let found = footsteps(&from, &stand, &soles, how)?;
-    let axis = [0, 1].map(|s: usize| draft.knee_axis[s].last().copied().unwrap_or(Vec3::Y));
-    let lands = !matches!(goal, Goal::Origin);
-    let how = (axis, draft.rate_hz, lands);
-    Some(along_footsteps(&from, &stand, &soles, &found, how))
+    let search = StepSearch {
+        leg: body.leg_length(0),
+        rate_hz: draft.rate_hz,
+        spare,
+    };
+    let found = footsteps(&from, &stand, &soles, search)?;
+    let path = PathOptions {
+        knee_axis: [0, 1].map(|s: usize| draft.knee_axis[s].last().copied().unwrap_or(Vec3::Y)),
+        rate_hz: draft.rate_hz,
+        lands: !matches!(goal, StopGoal::Origin),
+    };
+    Some(along_footsteps(&from, &stand, &soles, &found, path))
+}
+
+/// How the motion along footsteps begins and is sampled.
+struct PathOptions {
+    /// Knee axes that it starts with.
+    knee_axis: [Vec3; 2],
+    /// Samples per second.
+    rate_hz: f64,
+    /// Whether feet that come down in it do so in the world, as time runs there.
+    lands: bool,
 }
 
 /// The motion along footsteps: the pelvis with the pendulum's mass, feet from hold to hold, everything else to ease.
-///
-/// * `axis`: knee axes that it starts with; `rate`: samples per second; `lands`: what comes down in it does so in the
-///   world, as time runs there.
 fn along_footsteps(
     from: &InitialState,
     stand: &StandingPose,
     soles: &[Sole; 2],
     found: &Footsteps,
-    (axis, rate, lands): ([Vec3; 2], f64, bool),
+    options: PathOptions,
 ) -> Draft {
+    let (axis, rate) = (options.knee_axis, options.rate_hz);
     let upright =
         Quat::exp(Vec3::Z * (found.heading - stand.heading)) * stand.posture.root_rotation;
     // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
@@ -130,12 +146,15 @@ fn along_footsteps(
         };
         let mut label = [true; 2];
         for side in 0..2 {
-            let yaw = found.heading + stand.yaw[side];
-            let (ankle, foot, down) =
-                foot_curves::pose(from, &found.steps, &soles[side], (side, yaw, lands), t);
-            out.ankle[side].push(ankle);
-            out.foot[side].push(foot);
-            label[side] = down;
+            let foot = foot_curves::EndingFoot {
+                side,
+                yaw: found.heading + stand.yaw[side],
+                lands: options.lands,
+            };
+            let foot = foot_curves::pose(from, &found.steps, &soles[side], foot, t);
+            out.ankle[side].push(foot.ankle);
+            out.foot[side].push(foot.rotation);
+            label[side] = foot.down;
             let axis = axis[side] * (1.0 - s) + p.root_rotation.rotate(Vec3::Y) * s;
             out.knee_axis[side].push(axis.normalized_or(Vec3::Y));
         }
@@ -228,7 +247,7 @@ impl Draft {
         count
     }
 
-    fn end(&mut self, body: &Body, goal: Goal<'_>, spare: f64) -> usize {
+    fn end(&mut self, body: &Body, goal: StopGoal<'_>, spare: f64) -> usize {
         self.put_down();
         let after = steps_to_stand(body, self, goal, spare);
         self.go_on(after)
@@ -237,12 +256,12 @@ impl Draft {
     /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns how many
     /// samples it took.
     pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
-        self.end(body, Goal::Like(goal), 0.0)
+        self.end(body, StopGoal::Like(goal), 0.0)
     }
 
     /// The same, but to rest in just that posture, however little that takes.
     pub fn end_at_rest(&mut self, body: &Body, goal: &Posture) -> usize {
-        self.end(body, Goal::Rest(goal), 0.0)
+        self.end(body, StopGoal::Rest(goal), 0.0)
     }
 
     /// Continues a draft of whole postures to a stand, wherever that is. Returns how many samples it took; none if it
@@ -252,16 +271,16 @@ impl Draft {
     ///   chosen for being easy.
     pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
         let spare = if given { stop::SPARE_TIME } else { 0.0 };
-        self.end(body, Goal::Stand, spare)
+        self.end(body, StopGoal::Stand, spare)
     }
 
     /// Continues a draft of whole postures to a stand and lets it begin from one, where it does not stand, sit or lie
     /// anyway. Returns how many samples came before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
         self.put_down();
-        let after = steps_to_stand(body, self, Goal::AtRest, stop::SPARE_TIME);
+        let after = steps_to_stand(body, self, StopGoal::AtRest, stop::SPARE_TIME);
         self.reverse();
-        let before = self.end(body, Goal::Origin, stop::SPARE_TIME);
+        let before = self.end(body, StopGoal::Origin, stop::SPARE_TIME);
         self.reverse();
         (before, self.go_on(after))
     }

@@ -31,7 +31,7 @@ pub struct Stance {
 
 /// A foot as if it stood.
 #[derive(Clone, Copy, Debug)]
-pub struct Standing {
+pub struct StandingSample {
     /// Point of the floor under the flat ankle, m.
     pub place: Vec3,
     /// Heading, rad.
@@ -46,7 +46,7 @@ pub struct Standing {
 
 /// A foot put where it is to be.
 #[derive(Clone, Copy, Debug)]
-pub struct Posed {
+pub struct PosedFoot {
     /// Pose, without clearance.
     pub pose: FootPose,
     /// It stands.
@@ -57,7 +57,7 @@ pub struct Posed {
 
 /// Labels, stances and the swing of one foot.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Foot {
+pub struct StreamFoot {
     #[serde(with = "crate::saved::array")]
     on: [bool; KEPT],
     #[serde(with = "crate::saved::array")]
@@ -117,6 +117,15 @@ pub fn risen(sole: &Sole, at: &FootPlacement, lacks: &impl Fn(Vec3) -> f64) -> f
     at.pitch - least_without(most, pitch::RISE_HALVINGS, |rise| left(rise) > 0.0)
 }
 
+/// How far a stream is known.
+#[derive(Clone, Copy, Debug)]
+pub struct KnownUpTo {
+    /// Last sample whose contact is settled.
+    pub labelled: i64,
+    /// Last sample that was seen.
+    pub seen: i64,
+}
+
 impl Stance {
     /// One from sample `start` on, of which nothing else is known.
     fn since(start: i64) -> Self {
@@ -141,7 +150,7 @@ impl Stance {
     }
 }
 
-impl Foot {
+impl StreamFoot {
     /// False if it cannot be what was written into a checkpoint, after `samples` of which the one of number `posed`
     /// was posed last.
     pub fn is_valid(&self, samples: i64, posed: i64) -> bool {
@@ -245,7 +254,7 @@ impl Foot {
         last: i64,
         upright: bool,
         other: &Self,
-        standing: impl Fn(i64) -> Standing,
+        standing: impl Fn(i64) -> StandingSample,
     ) -> Option<i64> {
         let before = j > 0 && self.down[Self::slot(j - 1)];
         let on = |i: i64| self.on[Self::slot(i)];
@@ -299,9 +308,9 @@ impl Foot {
     fn give_up(
         &mut self,
         j: i64,
-        now: &Standing,
+        now: &StandingSample,
         other: &Self,
-        standing: &impl Fn(i64) -> Standing,
+        standing: &impl Fn(i64) -> StandingSample,
     ) -> Option<i64> {
         let k = self.stance_at(j)?;
         let st = self.stances[k];
@@ -338,7 +347,7 @@ impl Foot {
     }
 
     /// A stance from sample `start` on, placed by what is known up to `last`: where the foot moves least.
-    fn estimate(&self, start: i64, last: i64, standing: &impl Fn(i64) -> Standing) -> Stance {
+    fn estimate(&self, start: i64, last: i64, standing: &impl Fn(i64) -> StandingSample) -> Stance {
         let first = standing(start);
         let (mut sum, mut place, mut yaw) = (0.0, Vec3::zero(), 0.0);
         for i in start..=last.min(start + stance::STREAM_AVERAGED).max(start) {
@@ -360,19 +369,24 @@ impl Foot {
     }
 
     /// Where it stands in sample `j`; `None` if it does not.
-    pub fn anchor(&self, j: i64, standing: impl Fn(i64) -> Standing) -> Option<FootPlacement> {
+    pub fn anchor(
+        &self,
+        j: i64,
+        standing: impl Fn(i64) -> StandingSample,
+    ) -> Option<FootPlacement> {
         let st = &self.stances[self.stance_at(j)?];
         Some(st.at(j, standing(j).pitch))
     }
 
-    /// First sample after `f` in which it stands, with that stance: settled up to sample `labelled`, as it seems up to
-    /// `seen`.
+    /// First sample after `f` in which it stands, with that stance: settled up to the last label, as it seems from
+    /// there on.
     fn landing(
         &self,
         f: i64,
-        (labelled, seen): (i64, i64),
-        standing: &impl Fn(i64) -> Standing,
+        known: KnownUpTo,
+        standing: &impl Fn(i64) -> StandingSample,
     ) -> Option<Stance> {
+        let KnownUpTo { labelled, seen } = known;
         let known = self.stances[..self.count].iter().find(|s| s.start > f);
         if let Some(st) = known {
             return Some(*st);
@@ -393,11 +407,12 @@ impl Foot {
         &mut self,
         sole: &Sole,
         f: i64,
-        (labelled, seen): (i64, i64),
+        known: KnownUpTo,
         raw: impl Fn(i64) -> (Vec3, Quat),
-        standing: impl Fn(i64) -> Standing,
+        standing: impl Fn(i64) -> StandingSample,
         lacks: impl Fn(Vec3) -> f64,
-    ) -> Posed {
+    ) -> PosedFoot {
+        let seen = known.seen;
         let now = standing(f);
         let recorded_pose = |i: i64, pitch: f64| {
             let (ankle, rotation) = raw(i);
@@ -426,13 +441,13 @@ impl Foot {
             self.offset = [o, v, [0.0; 7]];
             self.posed = f;
             self.coming = None;
-            return Posed {
+            return PosedFoot {
                 pose,
                 down: true,
                 lift: 0.0,
             };
         }
-        self.coming = self.landing(f, (labelled, seen), &standing);
+        self.coming = self.landing(f, known, &standing);
         let (goal, slope, left) = match &self.coming {
             Some(st) => {
                 let at = |i: i64| {
@@ -456,7 +471,7 @@ impl Foot {
         self.posed = f;
         let mut pose = recorded.moved(&self.offset[0]);
         pose.toe = pose.toe.max(0.0);
-        Posed {
+        PosedFoot {
             lift: self.lift(sole, f, &pose, now.place),
             pose,
             down: false,

@@ -28,8 +28,8 @@ use crate::motion::clip::{Knot, PlanarTransform, between};
 use crate::motion::leg_ik::{center_of_mass, forward};
 use crate::motion::target::Target;
 use crate::plan::params::{contact, pelvis, stream, transition};
-use foot::Foot;
 pub use foot::Stance;
+use foot::StreamFoot;
 use receding_horizon::Balance;
 use repeated_samples::RepeatedSamples;
 pub use repeated_samples::is_same;
@@ -207,7 +207,7 @@ pub struct StreamPlan {
     /// Number of samples taken into the ring.
     count: i64,
     ring: Vec<Sample>,
-    feet: [Foot; 2],
+    feet: [StreamFoot; 2],
     lowering: PelvisLowering,
     balance: ShiftState,
     output: Output,
@@ -242,7 +242,7 @@ impl StreamPlan {
             },
             count: 0,
             ring: vec![blank; length],
-            feet: [Foot::new(), Foot::new()],
+            feet: [StreamFoot::new(), StreamFoot::new()],
             lowering: PelvisLowering::default(),
             balance: ShiftState {
                 shift: [[0.0; 2]; 2],
@@ -296,7 +296,7 @@ impl StreamPlan {
             && self
                 .balance
                 .horizon
-                .complete(self.timing.window as usize, (out.max(0), labelled))
+                .complete(self.timing.window as usize, out.max(0)..labelled)
     }
 
     /// Length of the window, s.
@@ -573,7 +573,7 @@ impl StreamPlan {
         let upright =
             self.at(j).smooth.root_position.z > pelvis::SEATED * self.body.standing_root_height();
         for side in 0..2 {
-            let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
+            let mut foot = std::mem::replace(&mut self.feet[side], StreamFoot::new());
             let other = &self.feet[1 - side];
             let given_up = foot.label(j, last, upright, other, |i| self.standing(side, i));
             self.feet[side] = foot;
@@ -584,10 +584,10 @@ impl StreamPlan {
     }
 
     /// Place, heading and pitch of a foot of a smoothed sample, and how fast its place moves, m/s.
-    fn standing(&self, side: usize, i: i64) -> foot::Standing {
+    fn standing(&self, side: usize, i: i64) -> foot::StandingSample {
         let pose = |i: i64| self.at(i).poses[FEET[side].index()];
         let [before, at] = [i - 1, i].map(|i| self.soles[side].footing(pose(i)));
-        foot::Standing {
+        foot::StandingSample {
             place: at.place,
             yaw: at.yaw,
             pitch: at.pitch,

@@ -10,6 +10,7 @@ use crate::plan::pelvis_shift::PRICE;
 use crate::plan::turned_on_floor;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
+use std::ops::Range;
 
 /// What is known of the balance in one sample.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
@@ -145,8 +146,9 @@ impl Balance {
     }
 
     /// Adds the buffers to what was read from a checkpoint. False if it is not for windows of at most `most` samples,
-    /// or does not hold samples from number `first` up to `end`.
-    pub fn complete(&mut self, most: usize, (first, end): (i64, i64)) -> bool {
+    /// or does not hold the numbered `samples`.
+    pub fn complete(&mut self, most: usize, samples: Range<i64>) -> bool {
+        let Range { start: first, end } = samples;
         let fresh = Self::new(most);
         let room = fresh.shift.len();
         (self.matrix, self.rows) = (fresh.matrix, fresh.rows);

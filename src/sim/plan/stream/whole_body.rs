@@ -1,7 +1,7 @@
 //! The whole posture of a sample: feet where they stand or swing, a pelvis that both legs reach, a trunk that is
 //! shifted.
 
-use super::foot::{self, Foot};
+use super::foot::{self, KnownUpTo, StreamFoot};
 use super::{H, Sample, StreamPlan};
 use crate::body::Posture;
 use crate::body::angles::clamp_to_limits;
@@ -40,12 +40,12 @@ impl StreamPlan {
     /// Poses of the feet of sample `f`, and what they ask of the pelvis.
     pub(super) fn pose_feet(&mut self, f: i64, seen: i64, labelled: i64) {
         for side in 0..2 {
-            let mut foot = std::mem::replace(&mut self.feet[side], Foot::new());
+            let mut foot = std::mem::replace(&mut self.feet[side], StreamFoot::new());
             let sole = &self.soles[side];
             let raw = |i: i64| self.at(i).poses[FEET[side].index()];
             let standing = |i: i64| self.standing(side, i);
             let lacks = |ankle: Vec3| self.lacks(f, side, ankle);
-            let posed = foot.pose(sole, f, (labelled, seen), raw, standing, lacks);
+            let posed = foot.pose(sole, f, KnownUpTo { labelled, seen }, raw, standing, lacks);
             self.feet[side] = foot;
             let s = self.at_mut(f);
             s.feet[side] = posed.pose;

@@ -6,9 +6,9 @@ use crate::body::SegmentId;
 use crate::body::topology::NV;
 use crate::collide::island::{ContactLaw, Island};
 use crate::dynamics::jacobian::for_each_column;
-use crate::figure::TickContext;
 use crate::figure::touches::Contacting;
 use crate::math::Vec3;
+use crate::tick_context::TickContext;
 use crate::touch::MAX_ISLAND_CONTACTS as MAX_CONTACTS;
 
 /// Compliance of a contact between bodies, 1/kg.

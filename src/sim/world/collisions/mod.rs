@@ -13,12 +13,12 @@ mod islands;
 mod neighbourhood;
 mod staged;
 
-use crate::collide::impact::Impact;
 use crate::collide::island::Island;
 use crate::collide::narrow::Near;
 use crate::collide::{Mobility, Obstacle, ObstacleKey};
-use crate::figure::TickContext;
 use crate::math::Vec3;
+use crate::paper::impact::Impact;
+use crate::tick_context::TickContext;
 use cast::Cast;
 pub(super) use neighbourhood::Neighbourhood;
 use serde::{Deserialize, Serialize};

@@ -6,9 +6,10 @@ use crate::body::topology::SEGMENT_COUNT;
 use crate::collide::broad::{self, Bounds};
 use crate::collide::narrow;
 use crate::collide::{Obstacle, ObstacleKey, Shape};
-use crate::figure::{Figure, FigureKey, TickContext};
+use crate::figure::{Figure, FigureKey};
 use crate::math::Vec3;
 use crate::math::vec3::vec3;
+use crate::tick_context::TickContext;
 
 /// Distance by which a body may exceed the motion predicted by its speed at the start of a tick, m.
 const SLACK: f64 = 0.05;

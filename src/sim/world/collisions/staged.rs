@@ -7,17 +7,17 @@ use super::cast::Cast;
 use super::{Candidate, Cluster, Participant};
 use crate::body::SegmentId;
 use crate::body::topology::NV;
-use crate::collide::impact::{Impact, Row};
 use crate::dynamics::jacobian::for_each_column;
 use crate::dynamics::terms::WIDTH;
-use crate::figure::TickContext;
 use crate::figure::params::staged::{CORRECTION, CORRECTIONS, OVERLAP};
 use crate::figure::touches::Contacting;
 use crate::math::Vec3;
+use crate::paper::impact::{Impact, ImpactRow};
+use crate::tick_context::TickContext;
 
 /// Purpose of one system.
 #[derive(Clone, Copy, PartialEq)]
-enum Stage {
+enum StagedPass {
     Impact,
     Correction,
 }
@@ -41,13 +41,13 @@ impl Cluster {
         }
         std::mem::swap(&mut self.pairs, &mut self.staged);
         self.find_staged(world, cast);
-        if self.set_up(world, cast, Stage::Impact) {
+        if self.set_up(world, cast, StagedPass::Impact) {
             self.impact.solve();
             self.apply_impact(world, cast);
         }
         for _ in 0..CORRECTIONS {
             self.find_staged(world, cast);
-            if !self.set_up(world, cast, Stage::Correction) {
+            if !self.set_up(world, cast, StagedPass::Correction) {
                 break;
             }
             self.impact.solve();
@@ -73,11 +73,11 @@ impl Cluster {
     }
 
     /// Sets up the rows of the present candidates. Returns false if there is nothing to do.
-    fn set_up(&mut self, world: &TickContext, cast: &Cast<'_>, stage: Stage) -> bool {
+    fn set_up(&mut self, world: &TickContext, cast: &Cast<'_>, stage: StagedPass) -> bool {
         self.impact.clear();
         self.block.clear();
         self.block.resize(cast.figures.len(), None);
-        let matters = |c: &Candidate| stage == Stage::Impact || c.near.gap < -OVERLAP;
+        let matters = |c: &Candidate| stage == StagedPass::Impact || c.near.gap < -OVERLAP;
         if !self.candidates.iter().any(matters) {
             return false;
         }
@@ -93,15 +93,15 @@ impl Cluster {
                 let f = &cast.figures[i].1;
                 let t = f.substep_dynamics();
                 let velocity = match stage {
-                    Stage::Impact => t.state.velocity,
-                    Stage::Correction => [0.0; NV],
+                    StagedPass::Impact => t.state.velocity,
+                    StagedPass::Correction => [0.0; NV],
                 };
                 let b = self.impact.add_body(&t.mass_matrix, &velocity);
                 self.block[i] = Some(b);
                 // A foot pulls on the floor by at most the impulse of the body's weight in this tick.
                 let least = match stage {
-                    Stage::Impact => -t.composite.mass[0] * world.gravity * world.dt,
-                    Stage::Correction => f64::NEG_INFINITY,
+                    StagedPass::Impact => -t.composite.mass[0] * world.gravity * world.dt,
+                    StagedPass::Correction => f64::NEG_INFINITY,
                 };
                 hold_feet(&mut self.impact, f, b, least);
             }
@@ -111,7 +111,7 @@ impl Cluster {
             if !matters(c) {
                 continue;
             }
-            let mut row = Row::new([None; 2], HOLDS + k);
+            let mut row = ImpactRow::new([None; 2], HOLDS + k);
             (row.least, row.one_sided) = (0.0, true);
             for side in 0..2 {
                 let n = c.near.normal * if side == 0 { 1.0 } else { -1.0 };
@@ -123,13 +123,13 @@ impl Cluster {
                         let j = &mut row.jacobian[side];
                         for_each_column(&t.kin, c.part[side], r, |d, _, v| j[d] = n.dot(v));
                     }
-                    other if stage == Stage::Impact => {
+                    other if stage == StagedPass::Impact => {
                         row.wanted -= n.dot(cast.velocity(other, c.part[side], c.near.position));
                     }
                     _ => {}
                 }
             }
-            if stage == Stage::Correction {
+            if stage == StagedPass::Correction {
                 row.wanted = (-c.near.gap - OVERLAP).min(CORRECTION);
             }
             if self.impact.add_row(row) {
@@ -194,7 +194,7 @@ fn hold_feet(impact: &mut Impact, f: &crate::figure::Figure, body: usize, least:
         }
         let rows = if point.is_some() { 3..6 } else { 0..6 };
         for k in rows {
-            let mut row = Row::new([Some(body), None], group);
+            let mut row = ImpactRow::new([Some(body), None], group);
             row.jacobian[0].copy_from_slice(&jacobian[k][..NV]);
             // Only the vertical force decides whether it pulls.
             if k == 5 {

@@ -5,7 +5,7 @@
 use super::*;
 use crate::collide::island::ContactLaw;
 use crate::collide::narrow::Near;
-use crate::contact::{ContactRows, LimitRows, Motors, NewtonWorkspace};
+use crate::contact::{ContactRows, Interior, LimitRows, Motors, NewtonWorkspace};
 use crate::dynamics::Terms;
 use crate::dynamics::mass_matrix::MassMatrix;
 use crate::dynamics::terms::WIDTH;
@@ -21,12 +21,13 @@ pub(in super::super) struct Puppet {
     pub(in super::super) limits: LimitRows,
     pub(in super::super) contacts: ContactRows,
     newton: NewtonWorkspace,
+    interior: Interior,
     pub(in super::super) x: [f64; NV],
 }
 
 impl Articulated for Puppet {
-    fn parts(&mut self) -> Parts<'_> {
-        Parts {
+    fn parts(&mut self) -> ArticulatedParts<'_> {
+        ArticulatedParts {
             m: &self.terms.mass_matrix,
             hessian: &mut self.hessian,
             b: &self.b,
@@ -34,6 +35,7 @@ impl Articulated for Puppet {
             limits: &self.limits,
             contacts: &self.contacts,
             newton: &mut self.newton,
+            interior: &mut self.interior,
             x: &mut self.x,
         }
     }
@@ -59,6 +61,7 @@ pub(in super::super) fn scene(rng: &mut Rng, count: usize) -> (Island, Vec<Puppe
             limits: LimitRows::default(),
             contacts: ContactRows::new(0.9),
             newton: NewtonWorkspace::default(),
+            interior: Interior::default(),
             x: numbers(rng),
         })
         .collect();
@@ -118,14 +121,14 @@ fn residual(island: &Island, figures: &[Puppet]) -> f64 {
     for b in &island.blocks {
         let mut y = [0.0; NV];
         match b.kind {
-            Kind::Figure(i) => {
+            BlockKind::Figure(i) => {
                 let mut dense = [[0.0; WIDTH]; NV];
                 figures[i].terms.mass_matrix.to_dense(&mut dense);
                 for (y, row) in y.iter_mut().zip(&dense) {
                     *y = row.iter().zip(&b.d).map(|(m, d)| m * d).sum();
                 }
             }
-            Kind::Free(_) => {
+            BlockKind::Free(_) => {
                 for (y, row) in y.iter_mut().zip(&b.a) {
                     *y = row.iter().zip(&b.d).map(|(m, d)| m * d).sum();
                 }

@@ -8,7 +8,7 @@ use super::super::newton::MAX_ITERATIONS;
 use super::*;
 use crate::contact::limits::LIMIT_STIFFNESS;
 use crate::contact::rows::PointRow;
-use crate::contact::{LimitRow, Outcome};
+use crate::contact::{LimitRow, SolveOutcome};
 use crate::dynamics::terms::WIDTH;
 use crate::math::vec3::vec3;
 use crate::support::testing::Rng;
@@ -105,11 +105,11 @@ impl Dual {
             let n = b.len();
             let mut m = [[0.0; WIDTH]; NV];
             match b.kind {
-                Kind::Figure(i) => {
+                BlockKind::Figure(i) => {
                     figures[i].terms.mass_matrix.to_dense(&mut m);
                     out.motion.extend(figures[i].b);
                 }
-                Kind::Free(_) => {
+                BlockKind::Free(_) => {
                     for i in 0..6 {
                         m[i][..6].copy_from_slice(&b.a[i]);
                     }
@@ -127,7 +127,9 @@ impl Dual {
             }
         }
         for (b, at) in island.blocks.iter().zip(first.clone()) {
-            let Kind::Figure(i) = b.kind else { continue };
+            let BlockKind::Figure(i) = b.kind else {
+                continue;
+            };
             let f = &figures[i];
             for j in 0..DOF_COUNT {
                 let z = out.unknown(1.0 / f.motors.gain[j], -f.motors.rest[j]);
@@ -218,7 +220,7 @@ fn islands_are_solved_within_their_bound() {
         let (contacts, fast) = ([2, 10, 30, 100][case % 4], [1.0, 30.0, 1000.0][case % 3]);
         let (mut island, mut figures) = hard(&mut rng, contacts, fast);
         let exact = Dual::of(&island, &figures).solve();
-        let out: Outcome = island.solve(&mut figures);
+        let out: SolveOutcome = island.solve(&mut figures);
         let text = format!("case {case}: {contacts} contacts, {fast} times, {out:?}");
         assert!(out.converged && out.iterations <= MAX_ITERATIONS, "{text}");
         jammed += u32::from(out.iterations > 30);

@@ -1,0 +1,245 @@
+//! LiveHelp while a motion is being lost: bounded, always reported, and gone once the motion is kept.
+//!
+//! A forecast extrapolates how far the pelvis is going to be from its desired pose. As long as that is short of what
+//! counts as lost, the figure does what it can by its own strength. Beyond it the figure is *carried*: a pull leads the
+//! pelvis back to the motion, cut at what is allowed, and stiff motors follow the joints, since neither steps nor
+//! balance are going to save the motion by themselves. Once the forecast has been good for a while, controller and
+//! steps are back in charge, and the pull fades.
+//!
+//! Nothing here looks ahead in the motion, so streams are helped by the same rule as clips.
+
+use crate::body::State;
+use crate::figure::params::help::{
+    AGAIN_AFTER, ARM, BEGIN, BEGIN_AFTER, END, END_AFTER, FADE_TIME, FORECAST_TIME, GROWTH_TIME,
+    OUT_OF_REACH, OUT_OF_REACH_AFTER,
+};
+use crate::math::Vec3;
+use crate::motion::TargetPair;
+use crate::stepper::pelvis_wrench::Missing;
+use serde::{Deserialize, Serialize};
+
+/// How far a pelvis is going to be from its desired pose, and how far it is, m. Turns count as the way of a part of the
+/// body at [`ARM`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LossForecast {
+    /// After [`FORECAST_TIME`], if both go on as they do.
+    pub ahead: f64,
+    /// Now, without turns.
+    pub now: f64,
+}
+
+impl LossForecast {
+    /// At the start of a tick of `dt` s.
+    pub fn of(target: &TargetPair, state: &State, dt: f64) -> Self {
+        let Missing { off, rate } = Missing::of(target, state, 0.0, dt);
+        let v = &state.velocity;
+        let ahead = |k: usize| {
+            let own = Vec3::from_array([v[3 * k], v[3 * k + 1], v[3 * k + 2]]);
+            (off[k] + (rate[k] - own) * FORECAST_TIME).norm()
+        };
+        Self {
+            ahead: ahead(1) + ARM * ahead(0),
+            now: off[1].norm(),
+        }
+    }
+}
+
+/// What of a figure decides over its help.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Situation {
+    /// Of the motion.
+    pub forecast: LossForecast,
+    /// Both the figure and its motion are up and on their feet, so that the figure can go on by itself.
+    pub on_feet: bool,
+    /// It has lost its balance, or lies.
+    pub falls: bool,
+}
+
+/// Whether a figure is helped, and how much. Nothing allocates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LiveHelp {
+    /// Part of the allowed help that may act, 0…1.
+    share: f64,
+    /// For how long the forecast has said that this should change, s.
+    since: f64,
+    carries: bool,
+    /// For how long the motion has been out of reach, s.
+    out_of_reach: f64,
+    /// Time until the figure can be helped again, after it was let fall, s.
+    pause: f64,
+}
+
+impl LiveHelp {
+    /// True while stiff motors and the pull do what controller and steps do else.
+    pub fn carries(&self) -> bool {
+        self.carries
+    }
+
+    /// True if any help may act.
+    pub fn acts(&self) -> bool {
+        self.share > 0.0
+    }
+
+    /// True if a figure that loses its motion is helped, not let fall.
+    pub fn is_ready(&self) -> bool {
+        self.pause == 0.0
+    }
+
+    /// Part of the allowed help that may act, 0…1.
+    pub fn share(&self) -> f64 {
+        self.share
+    }
+
+    /// Nothing helps any more, at once.
+    pub fn stop(&mut self) {
+        *self = Self::default();
+    }
+
+    /// False if it cannot be what was written into a checkpoint.
+    pub fn is_valid(&self) -> bool {
+        let times = [self.since, self.out_of_reach, self.pause];
+        (0.0..=1.0).contains(&self.share)
+            && (!self.carries || self.acts())
+            && times.iter().all(|t| (0.0..=1e3).contains(t))
+    }
+
+    /// Decides about the tick of `dt` s that begins.
+    pub fn observe(&mut self, seen: &Situation, dt: f64) {
+        self.pause = (self.pause - dt).max(0.0);
+        let changes = if self.carries {
+            seen.forecast.ahead < END && seen.on_feet
+        } else {
+            seen.forecast.ahead > BEGIN && self.is_ready()
+        };
+        self.since = if changes { self.since + dt } else { 0.0 };
+        let after = if self.carries { END_AFTER } else { BEGIN_AFTER };
+        if self.since > after || (seen.falls && !self.carries && self.is_ready()) {
+            (self.carries, self.since) = (!self.carries, 0.0);
+        }
+        self.out_of_reach = if self.carries && seen.forecast.now > OUT_OF_REACH {
+            self.out_of_reach + dt
+        } else {
+            0.0
+        };
+        if self.out_of_reach > OUT_OF_REACH_AFTER {
+            // What is allowed does not do. It falls as it would have.
+            *self = Self {
+                share: self.share,
+                pause: AGAIN_AFTER,
+                ..Self::default()
+            };
+        }
+        self.share = if self.carries {
+            (self.share + dt / GROWTH_TIME).min(1.0)
+        } else {
+            (self.share - dt / FADE_TIME).max(0.0)
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DT: f64 = 1.0 / 60.0;
+
+    fn seen(ahead: f64, now: f64) -> Situation {
+        Situation {
+            forecast: LossForecast { ahead, now },
+            on_feet: true,
+            falls: false,
+        }
+    }
+
+    fn run(help: &mut LiveHelp, seen: Situation, seconds: f64) {
+        for _ in 0..(seconds / DT).round() as usize {
+            help.observe(&seen, DT);
+            assert!(help.is_valid());
+        }
+    }
+
+    #[test]
+    fn it_grows_when_the_motion_is_being_lost_and_fades_within_half_a_second() {
+        let mut help = LiveHelp::default();
+        run(&mut help, seen(0.9 * BEGIN, 0.1), 5.0);
+        assert!(!help.acts() && !help.carries());
+        // A spike is no loss.
+        run(&mut help, seen(4.0 * BEGIN, 0.1), 0.5 * BEGIN_AFTER);
+        run(&mut help, seen(0.5 * BEGIN, 0.1), DT);
+        assert!(!help.acts());
+        run(
+            &mut help,
+            seen(1.1 * BEGIN, 0.1),
+            BEGIN_AFTER + GROWTH_TIME + 2.0 * DT,
+        );
+        assert!(help.carries() && help.share() == 1.0);
+        // Between the two limits it stays as it is.
+        run(&mut help, seen(0.5 * (BEGIN + END), 0.1), 2.0);
+        assert!(help.carries());
+        run(&mut help, seen(0.5 * END, 0.01), END_AFTER + 2.0 * DT);
+        assert!(!help.carries() && help.share() < 1.0);
+        run(&mut help, seen(0.5 * END, 0.01), FADE_TIME);
+        assert_eq!(help, LiveHelp::default());
+    }
+
+    #[test]
+    fn who_lies_is_not_let_go_and_who_cannot_be_held_falls() {
+        let mut help = LiveHelp::default();
+        let lies = Situation {
+            on_feet: false,
+            falls: true,
+            ..seen(0.0, 0.0)
+        };
+        run(&mut help, lies, 3.0);
+        assert!(help.carries());
+        run(
+            &mut help,
+            seen(9.0, 1.5 * OUT_OF_REACH),
+            OUT_OF_REACH_AFTER + 2.0 * DT,
+        );
+        assert!(!help.carries() && !help.is_ready());
+        run(
+            &mut help,
+            Situation {
+                falls: true,
+                ..seen(9.0, 9.0)
+            },
+            FADE_TIME,
+        );
+        assert!(!help.acts());
+        run(&mut help, seen(0.0, 0.0), AGAIN_AFTER);
+        assert!(help.is_ready());
+    }
+
+    #[test]
+    fn the_forecast_is_the_distance_after_a_while() {
+        use crate::motion::Target;
+        use crate::support::testing::{mannequin, standing};
+        let body = mannequin();
+        let mut state = standing(&body);
+        let still = Target::still(state.posture);
+        let target = TargetPair {
+            now: still.clone(),
+            next: still,
+        };
+        let zero = LossForecast::of(&target, &state, DT);
+        assert_eq!(
+            zero,
+            LossForecast {
+                ahead: 0.0,
+                now: 0.0
+            }
+        );
+        state.posture.root_position.x += 0.03;
+        state.posture.root_position.y -= 0.04;
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
+        let off = LossForecast::of(&target, &state, DT);
+        assert!(near(off.ahead, 0.05) && near(off.now, 0.05));
+        // It comes back by itself, and turns.
+        state.velocity[3] = -0.03 / FORECAST_TIME;
+        state.velocity[4] = 0.04 / FORECAST_TIME;
+        state.velocity[2] = 0.5;
+        let back = LossForecast::of(&target, &state, DT);
+        assert!(near(back.ahead, ARM * 0.5 * FORECAST_TIME) && near(back.now, 0.05));
+    }
+}

@@ -1,0 +1,6 @@
+//! The loads of a figure: those that act and how they are shared, the hand that helps, and the posture that makes up
+//! for them.
+
+pub(in crate::figure) mod compensation;
+pub mod disturbances;
+pub(in crate::figure) mod second_hand;

@@ -1,0 +1,347 @@
+//! A trial: one figure follows one motion in a world of its own, from the beginning of the motion to a little after its
+//! end, and is judged by how far it was from the recording.
+
+use super::result::LOST;
+use crate::body::topology::SEGMENT_COUNT;
+use crate::body::{Body, Posture, State};
+use crate::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StrengthScale};
+use crate::math::rounding::short;
+use crate::motion::leg_ik::forward;
+use crate::motion::{Clip, GRAVITY};
+use crate::plan::StreamPlan;
+use crate::plan::contact_labels::{ContactPhase, phases};
+use crate::plan::stream::RATE;
+use crate::world::{
+    ClipPlayback, Figure, FigureKey, FigureSetup, LivePlayback, MotionSource, RehearsedMotion,
+    RehearsedPlayback, World, WorldError, WorldParams,
+};
+use std::sync::Arc;
+
+/// Time that a figure is watched for after a prepared clip has ended, s.
+const AFTER: f64 = 1.0;
+/// The same after a stream, s, whose last posture is held.
+const AFTER_STREAM: f64 = 3.0;
+
+/// The motions that a trial is measured against.
+#[derive(Clone, Debug)]
+pub struct TrackingReference {
+    /// The recording as fitted to the body: no foot lock, no shift for balance, no steps before or after it, runs as
+    /// they were.
+    pub recorded: Arc<Clip>,
+    /// The motion as prepared, in the same place of the world.
+    pub prepared: Arc<Clip>,
+    /// Which feet the recording has on the floor.
+    pub phases: Vec<ContactPhase>,
+}
+
+impl TrackingReference {
+    /// A motion that is made for the body: it is its own recording.
+    pub fn authored(clip: Arc<Clip>) -> Self {
+        let label: Vec<[bool; 2]> = (0..clip.len()).map(|i| clip.planted(i)).collect();
+        Self {
+            phases: phases(&label, clip.rate_hz()),
+            recorded: Arc::clone(&clip),
+            prepared: clip,
+        }
+    }
+
+    /// Feet on the floor at time `t` of the recording, s.
+    pub fn labelled(&self, t: f64) -> [bool; 2] {
+        let phase = self.phases.iter().find(|p| t < p.end);
+        phase
+            .or(self.phases.last())
+            .map_or([false; 2], |p| p.planted)
+    }
+}
+
+/// Everything that a trial depends on besides its motion.
+#[derive(Clone, Debug)]
+pub struct Conditions {
+    /// The body.
+    pub body: Arc<Body>,
+    /// The world.
+    pub world: WorldParams,
+    /// Strength.
+    pub strength: StrengthScale,
+    /// Assist and fatigue.
+    pub options: FigureOptions,
+    /// Loads and pushes, in world time: 0 is the beginning of the way into the clip.
+    pub perturbations: Vec<Perturbation>,
+    /// Streams the recording through a preparation window of this length, s, instead of playing the prepared motion.
+    pub live_window: Option<f64>,
+    /// Plays this instead: world time 0 is the beginning of its way in.
+    pub rehearsed: Option<RehearsedRun>,
+}
+
+/// A rehearsed motion, and the state that a figure begins it in.
+#[derive(Clone, Debug)]
+pub struct RehearsedRun {
+    /// The motion.
+    pub motion: Arc<RehearsedMotion>,
+    /// Its own beginning, or one near it.
+    pub from: State,
+}
+
+/// A world with one figure that follows a motion. Each [`step`](Self::step) is a tick.
+#[derive(Debug)]
+pub struct Trial<'a> {
+    reference: &'a TrackingReference,
+    world: World,
+    key: FigureKey,
+    /// World time of the motion's first frame, s.
+    lead: f64,
+    ticks_left: u64,
+    /// Samples of the stream that have been fed.
+    fed: usize,
+}
+
+impl<'a> Trial<'a> {
+    /// At the beginning of the motion.
+    ///
+    /// # Errors
+    /// Conditions that no world or figure accepts.
+    pub fn new(c: &Conditions, reference: &'a TrackingReference) -> Result<Self, WorldError> {
+        let mut world = World::new(c.world)?;
+        let (drive, lead, length) = match (&c.rehearsed, c.live_window) {
+            (Some(run), _) => {
+                let play = RehearsedPlayback::new(Arc::clone(&run.motion), 0.0);
+                let length = run.motion.duration() + AFTER;
+                (MotionSource::Rehearsed(play), run.motion.lead_in(), length)
+            }
+            (None, Some(window)) => {
+                let drive = stream(c, reference, window);
+                (drive, 0.0, reference.recorded.duration() + AFTER_STREAM)
+            }
+            (None, None) => {
+                let clip = &reference.prepared;
+                let lead = clip.lead_in();
+                let play = ClipPlayback::new(Arc::clone(clip), lead);
+                let length = lead + clip.duration() + clip.lead_out() + AFTER;
+                (MotionSource::Clip(play), lead, length)
+            }
+        };
+        let state = match &c.rehearsed {
+            Some(run) => run.from,
+            None => drive.targets(0.0, world.dt()).now.state(),
+        };
+        let key = world.add_figure(FigureSetup {
+            strength: c.strength.clone(),
+            options: c.options,
+            ..FigureSetup::new(Arc::clone(&c.body), ControllerKind::Modern, state)
+        })?;
+        for what in &c.perturbations {
+            world.perturb(key, *what)?;
+        }
+        let figure = world.figure_mut(key).expect("it was just added");
+        figure.set_drive(drive);
+        Ok(Self {
+            reference,
+            world,
+            key,
+            lead,
+            ticks_left: (length * c.world.rate_hz).round().max(1.0) as u64,
+            fed: fed(c.live_window),
+        })
+    }
+
+    /// The world.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The figure.
+    pub fn figure(&self) -> &Figure {
+        self.world.figure(self.key).expect("it is never removed")
+    }
+
+    /// One tick; its end on the clip's clock, s, or `None` once the trial is over.
+    pub fn step(&mut self) -> Option<f64> {
+        self.ticks_left = self.ticks_left.checked_sub(1)?;
+        let end = self.world.time() + self.world.dt();
+        let figure = self.world.figure_mut(self.key);
+        if let Some(live) = figure.and_then(|f| f.stream_mut()) {
+            // The stream comes at its own rate, whatever that of the world is.
+            while (self.fed as f64) / RATE <= live.stream_time(end) + live.motion.window() {
+                live.motion.push(&posture(self.reference, self.fed), None);
+                self.fed += 1;
+            }
+        }
+        self.world.step();
+        Some(self.world.time() - self.lead)
+    }
+}
+
+/// Sample `i` of the stream: the recording, then its last posture.
+fn posture(reference: &TrackingReference, i: usize) -> Posture {
+    let clip = &reference.recorded;
+    clip.sample((i as f64 / RATE).min(clip.duration())).posture
+}
+
+/// Samples that are fed before the first tick.
+fn fed(window: Option<f64>) -> usize {
+    window.map_or(0, |w| (w * RATE).floor() as usize + 1)
+}
+
+/// A stream whose window is full.
+fn stream(c: &Conditions, reference: &TrackingReference, window: f64) -> MotionSource {
+    let mut motion = StreamPlan::new(Arc::clone(&c.body), window);
+    for i in 0..fed(Some(window)) {
+        motion.push(&posture(reference, i), None);
+    }
+    motion.advance(1.0 / RATE);
+    MotionSource::Live(Box::new(LivePlayback {
+        motion,
+        offset: 0.0,
+    }))
+}
+
+/// The result of a trial. Times are on the clip's clock (negative in the way into the clip).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TrialResult {
+    /// The mean distance from the recording never exceeded 0.5 m (PHC's rule) to the clip's end.
+    pub completed: bool,
+    /// When it exceeded that, s.
+    pub lost_at: Option<f64>,
+    /// When the figure fell, s: also on the way in, and in the second after the way out.
+    pub fell_at: Option<f64>,
+    /// When the state ran away and the figure was frozen, s.
+    pub frozen_at: Option<f64>,
+    /// Time of the clip that distances are measured over: until it is lost or fell, s.
+    pub followed: f64,
+    /// Ticks in that time.
+    pub measured_ticks: usize,
+    /// Mean distance of the segment origins from the recording, mm.
+    pub global_mm: f64,
+    /// The same with both pelvis origins in one place, mm.
+    pub root_relative_mm: f64,
+    /// Help that the figure had.
+    pub help: TrialHelp,
+}
+
+/// Help that a figure had in a trial.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TrialHelp {
+    /// Impulse, N·s.
+    pub impulse: f64,
+    /// Impulse over weight × time.
+    pub share: f64,
+    /// Largest force, N.
+    pub most: f64,
+    /// Share of the ticks in which it acted.
+    pub acts: f64,
+}
+
+/// Judges a trial by its ticks.
+#[derive(Clone, Debug, Default)]
+pub struct Judge {
+    distances: Vec<Distance>,
+    fell_at: Option<f64>,
+    frozen_at: Option<f64>,
+    impulse: f64,
+    most: f64,
+    helped: usize,
+    ticks: usize,
+}
+
+/// Distance of a figure from the recording at one time.
+#[derive(Clone, Copy, Debug)]
+struct Distance {
+    time: f64,
+    /// Mean distance of the segment origins, m.
+    global: f64,
+    /// The same with both pelvis origins in one place, m.
+    root_relative: f64,
+}
+
+impl Distance {
+    fn new(time: f64, body: &Body, [is, wanted]: [&Posture; 2]) -> Self {
+        let (a, b) = (forward(body, is), forward(body, wanted));
+        let mean = |shift| {
+            let far = |s: usize| (a[s].0 - b[s].0 - shift).norm();
+            (0..SEGMENT_COUNT).map(far).sum::<f64>() / SEGMENT_COUNT as f64
+        };
+        Self {
+            time,
+            global: mean(crate::math::Vec3::zero()),
+            root_relative: mean(a[0].0 - b[0].0),
+        }
+    }
+}
+
+impl Judge {
+    /// Takes in a tick of `dt` s that ended at `time` on the clip's clock.
+    pub fn observe(&mut self, figure: &Figure, reference: &TrackingReference, time: f64, dt: f64) {
+        let report = figure.report().expect("a stepped figure has a report");
+        self.ticks += 1;
+        self.helped += usize::from(report.assist != [0.0; 6]);
+        if report.flags.has(Flags::QUARANTINED) {
+            self.frozen_at.get_or_insert(time);
+            return;
+        }
+        let force = report.assist[3..].iter().map(|f| f * f).sum::<f64>().sqrt();
+        self.impulse += force * dt;
+        self.most = self.most.max(force);
+        if figure.is_fallen() {
+            self.fell_at.get_or_insert(time);
+        }
+        let clip = &reference.recorded;
+        if time > -1e-9 && time < clip.duration() + 1e-9 {
+            let wanted = clip.sample(time).posture;
+            let both = [&figure.state().posture, &wanted];
+            let distance = Distance::new(time, figure.body(), both);
+            self.distances.push(distance);
+        }
+    }
+
+    /// The result, once the trial is over.
+    pub fn result(&self, trial: &Trial<'_>) -> TrialResult {
+        let end = trial.reference.recorded.duration();
+        let lost = self.distances.iter().find(|d| d.global > LOST);
+        let lost = lost.map(|d| d.time);
+        let until = [lost, self.fell_at, self.frozen_at]
+            .into_iter()
+            .flatten()
+            .fold(f64::INFINITY, f64::min);
+        let followed = self.distances.partition_point(|d| d.time < until);
+        let measured = &self.distances[..followed];
+        let n = measured.len().max(1) as f64;
+        let mean = |of: fn(&Distance) -> f64| {
+            let sum = measured.iter().map(|d| 1e3 * of(d) / n).sum::<f64>();
+            short(sum)
+        };
+        let weight = trial.figure().links().total_mass() * GRAVITY;
+        TrialResult {
+            // A frozen figure has no samples any more: the part that it did not reach is not completed.
+            completed: lost.is_none() && self.frozen_at.is_none_or(|t| t > end),
+            lost_at: lost.map(short),
+            fell_at: self.fell_at.map(short),
+            frozen_at: self.frozen_at.map(short),
+            followed: short(until.clamp(0.0, end)),
+            measured_ticks: followed,
+            global_mm: mean(|d| d.global),
+            root_relative_mm: mean(|d| d.root_relative),
+            help: TrialHelp {
+                impulse: self.impulse,
+                share: short(self.impulse / (weight * trial.world.time())),
+                most: short(self.most),
+                acts: self.helped as f64 / self.ticks.max(1) as f64,
+            },
+        }
+    }
+}
+
+/// Runs a trial to its end and judges it.
+///
+/// # Errors
+/// Conditions that no world or figure accepts.
+pub fn try_out(
+    conditions: &Conditions,
+    reference: &TrackingReference,
+) -> Result<TrialResult, WorldError> {
+    let mut trial = Trial::new(conditions, reference)?;
+    let mut judge = Judge::default();
+    while let Some(time) = trial.step() {
+        judge.observe(trial.figure(), reference, time, trial.world.dt());
+    }
+    Ok(judge.result(&trial))
+}
