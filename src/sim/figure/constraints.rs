@@ -1,5 +1,5 @@
-//! Constraints that a client gives: a point of a segment or the centre of mass at a place, a segment turned a certain
-//! way, while the rest of the body follows its motion as well as it can.
+//! Constraints that a client sets: a point of a segment or the centre of mass at a place, or the orientation of a
+//! segment, while the rest of the body follows its motion as well as it can.
 
 use crate::body::topology::{
     L_FOOT, L_FOREARM, L_HAND, L_TOES, L_UPPER_ARM, R_FOOT, R_FOREARM, R_HAND, R_TOES, R_UPPER_ARM,
@@ -21,7 +21,7 @@ pub const MAX_CONSTRAINTS: usize = 8;
 /// Largest `ease`, s.
 pub const MAX_EASE: f64 = 60.0;
 
-/// What a constraint is on.
+/// The part that a constraint is on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Constrained {
     /// The centre of mass, loads included.
@@ -30,32 +30,32 @@ pub enum Constrained {
     Point(SegmentId, Vec3),
 }
 
-/// Where the centre of mass or a point of a segment should be, and how the segment should be turned.
+/// Where the centre of mass or a point of a segment should be, and how the segment should be oriented.
 ///
 /// At least one of `position` and `rotation` is given; the centre of mass has no rotation. The part moves there from
-/// wherever it is. What cannot be reached is approached as far as balance, strength and joints let it.
+/// its present place. A goal out of reach is approached as closely as balance, strength and joints allow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Constraint {
-    /// What it is on.
+    /// The part that it is on.
     pub on: Constrained,
-    /// Wanted position, world, m.
+    /// Desired position, world, m.
     pub position: Option<Vec3>,
-    /// How much each world axis of the position counts, 0…1.
+    /// Weight of each world axis of the position, 0…1.
     pub axes: [f64; 3],
-    /// Wanted rotation, `world_from_segment`.
+    /// Desired rotation, `world_from_segment`.
     pub rotation: Option<Quat>,
-    /// How much it counts, 0…1.
+    /// Weight of the whole constraint, 0…1.
     pub weight: f64,
-    /// Time in which it comes into force and in which it fades when it ends, s.
+    /// Time over which it comes into force, and over which it fades when it ends, s.
     pub ease: f64,
-    /// Begins at, s.
+    /// Time at which it begins, s.
     pub from: f64,
-    /// Has ended at, s; `f64::INFINITY` = when it is taken off.
+    /// Time at which it has ended, s; `f64::INFINITY` = when it is removed.
     pub to: f64,
 }
 
 impl Constraint {
-    /// How much of it is in force at `time` (s), 0…1: rises after `from` and falls before `to` within `ease`, C¹.
+    /// Share of it that is in force at `time` (s), 0…1: rises after `from` and falls before `to` within `ease`, C¹.
     pub fn level(&self, time: f64) -> f64 {
         let ramp = |t: f64| {
             let u = if self.ease > 0.0 {
@@ -74,18 +74,18 @@ impl Constraint {
     }
 }
 
-/// A place that is given again and again.
+/// A place that the client keeps updating.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct PlaceStream {
     on: Constrained,
     position: Vec3,
     velocity: Vec3,
-    /// When it was given last, s.
+    /// Time of the last update, s.
     at: f64,
 }
 
 impl PlaceStream {
-    /// The place that `c` gives at `time`, after it was `before`.
+    /// The place that `c` gives at `time`, following `before`.
     fn next(before: Option<&Self>, c: &Constraint, time: f64) -> Option<Self> {
         let mut next = Self {
             on: c.on,
@@ -110,7 +110,7 @@ impl PlaceStream {
     }
 }
 
-/// The constraints of a figure: those that were given, and those that fade because they were taken off.
+/// The constraints of a figure: those that are set, and those that are fading after their removal.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Constraints {
     given: Vec<Constraint>,
@@ -144,9 +144,9 @@ impl Default for Constraints {
 }
 
 impl Constraints {
-    /// Replaces all; at most [`MAX_CONSTRAINTS`] are taken. One on a part that was constrained already goes on from
-    /// there instead of easing in anew; those on other parts fade out within their `ease`. A place that is given anew
-    /// for the same part within 0.1 s has moved there, and is taken to move on.
+    /// Replaces all constraints; at most [`MAX_CONSTRAINTS`] are taken. A constraint on a part that was already
+    /// constrained continues from there, without easing in again; those on other parts fade out within their `ease`. A
+    /// new place for the same part within 0.1 s counts as a moving place, and is assumed to keep moving.
     pub fn replace(&mut self, new: &[Constraint], time: f64) {
         let new = &new[..new.len().min(MAX_CONSTRAINTS)];
         let streams: [Option<PlaceStream>; MAX_CONSTRAINTS] = std::array::from_fn(|i| {
@@ -166,7 +166,7 @@ impl Constraints {
         });
         for o in self.given.drain(..) {
             if new.iter().all(|c| c.on != o.on) && self.fading.len() < MAX_CONSTRAINTS {
-                // It falls from where it stands: one that was still rising has less of its way to go.
+                // It falls from its present level: one that was still rising has less to fall.
                 let risen = (time - o.from).clamp(0.0, o.ease);
                 let to = o.to.min(time + risen);
                 self.fading.push(Constraint { to, ..o });
@@ -175,7 +175,7 @@ impl Constraints {
         self.given.extend(given.into_iter().flatten());
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let most = MAX_CONSTRAINTS;
         let numbers = |c: &Constraint| {
@@ -193,12 +193,12 @@ impl Constraints {
             && self.given.iter().chain(&self.fading).all(numbers)
     }
 
-    /// Those that are given, in the order in which they were.
+    /// The constraints that are set, in the order in which they were set.
     pub fn given(&self) -> &[Constraint] {
         &self.given
     }
 
-    /// Takes all off at once: the figure was put somewhere else.
+    /// Removes all at once: the figure was put somewhere else.
     pub fn forget(&mut self) {
         self.given.clear();
         self.streams.clear();
@@ -207,8 +207,8 @@ impl Constraints {
         self.errors.clear();
     }
 
-    /// What is in force at `time`, the start of a tick: shifts the wanted centre of mass and collects the goals. No
-    /// allocation.
+    /// Applies the constraints in force at `time`, the start of a tick: shifts the desired centre of mass and collects
+    /// the goals. No allocation.
     pub(crate) fn begin(
         &mut self,
         time: f64,
@@ -227,7 +227,7 @@ impl Constraints {
             return;
         }
         for i in 0..self.fading.len() + self.given.len() {
-            // What is given comes first: where there is no room for all, it is what counts.
+            // Set constraints come before fading ones: they matter more if there is not room for all.
             let c = match self.given.get(i) {
                 Some(c) => *c,
                 None => self.fading[i - self.given.len()],
@@ -266,14 +266,14 @@ impl Constraints {
         }
     }
 
-    /// How fast the wanted place of a part moves, m/s: zero unless it is given again and again.
+    /// Speed of the desired place of a part, m/s: zero unless the client keeps updating it.
     fn velocity(&self, on: Constrained, time: f64) -> Vec3 {
         let fresh = |s: &&PlaceStream| s.on == on && time - s.at <= STREAM_INTERVAL;
         let stream = self.streams.iter().find(fresh);
         stream.map_or(Vec3::zero(), |s| s.velocity)
     }
 
-    /// A hand whose arm is constrained, or led elsewhere, does not follow the motion in space as well.
+    /// A hand whose arm is constrained, or led elsewhere, does not also follow the motion in space.
     pub(in crate::figure) fn release(&mut self, segment: SegmentId) {
         match segment {
             L_UPPER_ARM | L_FOREARM | L_HAND => self.hands[0] = None,
@@ -282,8 +282,8 @@ impl Constraints {
         }
     }
 
-    /// Blends the wanted centre of mass with a constraint on it: horizontally inside what the supports cover, and never
-    /// far ahead of where it is.
+    /// Blends the desired centre of mass with a constraint on it: horizontally inside the area that the supports cover,
+    /// and never far ahead of the present centre of mass.
     fn shift_com(
         &mut self,
         body: &Body,
@@ -299,7 +299,7 @@ impl Constraints {
             y: if share[1] > 0.0 { wanted.y } else { com.now.y },
             z: wanted.z,
         };
-        // All of a foot of which a part touches, since it can be put down again.
+        // The whole of each foot that touches with any part, since it can be put down again.
         let touches = |s: SegmentId| support.points().iter().any(|p| p.segment == s);
         let toes = |s: SegmentId| s == L_TOES || s == R_TOES;
         let feet = [(L_FOOT, L_TOES), (R_FOOT, R_TOES)];
@@ -330,7 +330,7 @@ impl Constraints {
         }
         let present = terms.com.to_array();
         let (at, moves) = (at.to_array(), moves.to_array());
-        // Each blended with what is wanted of it: the place is led there, never far ahead of where the body is.
+        // Each blended with the motion's own target: the goal moves there gradually, never far ahead of the body.
         let blend = |from: Vec3, wanted: [f64; 3]| {
             let mut out = from.to_array();
             for k in 0..3 {
@@ -348,7 +348,7 @@ impl Constraints {
         };
     }
 
-    /// True if one of these segments is constrained, or was and the constraint still fades.
+    /// Whether one of these segments is constrained, or still has a fading constraint.
     pub(in crate::figure) fn holds(&self, segments: [SegmentId; 3]) -> bool {
         let on = |c: &Constraint| match c.on {
             Constrained::Point(s, _) => segments.contains(&s),
@@ -357,7 +357,7 @@ impl Constraints {
         self.given.iter().chain(&self.fading).any(on)
     }
 
-    /// What the controllers are to reach in this tick.
+    /// The goals of the controllers in this tick.
     pub(crate) fn goals(&self) -> &[ConstraintGoal] {
         &self.goals
     }
@@ -367,8 +367,8 @@ impl Constraints {
         self.hands.iter().flatten().copied()
     }
 
-    /// Distance (m, along the axes that count) and angle (rad) that are missing at the start of the tick, one pair per
-    /// given constraint.
+    /// Remaining distance (m, along the axes that count) and angle (rad) at the start of the tick, one pair per set
+    /// constraint.
     pub(crate) fn errors(&mut self, terms: &Terms) -> &[[f64; 2]] {
         self.errors.clear();
         for c in &self.given {
@@ -423,7 +423,7 @@ mod tests {
         assert_eq!(set.given()[0].level(1.0), 0.0);
         assert_eq!(set.given()[0].level(1.25), 0.5);
         assert_eq!(set.given()[0].level(1.5), 1.0);
-        // A new place for the same hand keeps what is reached.
+        // A new place for the same hand keeps the level that was reached.
         set.replace(&[hand(0.4, 1.25)], 1.25);
         assert_eq!(set.given()[0].level(1.25), 0.5);
         set.replace(&[], 2.0);
@@ -447,9 +447,9 @@ mod tests {
         let last = 59.0 * dt;
         let v = set.velocity(on, last);
         assert!((v - vec3(1.3, 0.0, 0.0)).norm() < 1e-6, "{v:?}");
-        // No longer given: it rests where it was last.
+        // No longer updated: it rests at its last place.
         assert_eq!(set.velocity(on, last + 0.2), Vec3::zero());
-        // Twice in one tick: the last counts, and it has moved no faster.
+        // Twice in one tick: the last place counts, and its speed is no higher for that.
         set.replace(&[hand(9.0, 0.0)], last);
         assert_eq!(set.velocity(on, last), v);
         set.replace(&[hand(1.0, 0.0)], last + dt);

@@ -1,4 +1,4 @@
-//! What happened to a figure in a tick, in words.
+//! Events of a figure in a tick.
 
 use crate::body::SegmentId;
 use crate::body::topology::{DOF_COUNT, SEGMENT_COUNT};
@@ -7,17 +7,17 @@ use crate::report::{Flags, TickReport};
 use crate::support::Support;
 use serde::{Deserialize, Serialize};
 
-/// Something worth telling.
+/// An event.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum FigureEvent {
     /// A segment began to carry.
     SupportGained {
-        /// Which.
+        /// The segment.
         segment: SegmentId,
     },
     /// A segment no longer carries.
     SupportLost {
-        /// Which.
+        /// The segment.
         segment: SegmentId,
     },
     /// A DOF has been at its strength limit for [`SATURATION_TICKS`] ticks.
@@ -25,18 +25,18 @@ pub enum FigureEvent {
         /// DOF index.
         dof: usize,
     },
-    /// A DOF has left its limit for as long.
+    /// A DOF has been off its limit for the same number of ticks.
     Relieved {
         /// DOF index.
         dof: usize,
     },
     /// Balance is lost: the controller handed over to motors alone.
     BalanceLost,
-    /// It is found again.
+    /// Balance is regained.
     Recovered,
     /// The figure has fallen.
     Fell,
-    /// It stands again.
+    /// The figure stands again.
     GotUp,
     /// A load was taken up.
     LoadTaken {
@@ -52,7 +52,7 @@ pub enum FigureEvent {
         /// kg.
         mass: f64,
     },
-    /// The other hand took hold of a load too: one arm is too weak for it, or it was asked to.
+    /// The other hand took hold of a load too: one arm is too weak for it, or the caller asked for both.
     LoadShared {
         /// Carrying segment.
         segment: SegmentId,
@@ -60,8 +60,8 @@ pub enum FigureEvent {
         mass: f64,
         /// The other hand.
         hand: SegmentId,
-        /// Share of its strength that the arm needs to hold the load still, alone and with the other's help: its
-        /// hardest joint, in the desired motion.
+        /// Share of its strength that the hardest-working joint needs to hold the load still in the desired motion:
+        /// with one arm alone, and with the other's help.
         need: [f64; 2],
     },
     /// The other hand let go of a load: one arm is enough, or the other hand is needed elsewhere.
@@ -72,10 +72,10 @@ pub enum FigureEvent {
         mass: f64,
         /// The other hand.
         hand: SegmentId,
-        /// As of [`Self::LoadShared`], when it let go.
+        /// As in [`Self::LoadShared`], at the time when it let go.
         need: [f64; 2],
     },
-    /// A load slipped from a hand: more than its grip.
+    /// A load slipped from a hand: it exceeded the grip.
     LoadSlipped {
         /// Carrying segment.
         segment: SegmentId,
@@ -86,23 +86,23 @@ pub enum FigureEvent {
     Touched {
         /// Own segment.
         segment: SegmentId,
-        /// What it touches.
+        /// The body that it touches.
         other: Other,
     },
-    /// A segment no longer touches it.
+    /// A segment stopped touching another figure or an obstacle.
     Parted {
         /// Own segment.
         segment: SegmentId,
-        /// What it touched.
+        /// The body that it touched.
         other: Other,
     },
-    /// Somebody or something is in the way of its steps: it broke off what it did and comes to a stand.
+    /// A figure or an obstacle is in the way of its steps: it broke off its motion and comes to a stand.
     WayBarred,
-    /// The state turned non-finite or ran away; the figure is frozen at its last good state.
+    /// The state became non-finite or ran away; the figure is frozen at its last good state.
     Quarantined,
 }
 
-/// Ticks a DOF must stay at (or off) its limit before it is told: flicker is not news.
+/// Ticks for which a DOF must stay at (or off) its limit before this is reported: flicker is not news.
 pub const SATURATION_TICKS: u16 = 6;
 /// Most events of one tick.
 const MAX_EVENTS: usize = 128;
@@ -139,7 +139,7 @@ impl Watcher {
         self.events.clear();
     }
 
-    /// Adds an event; silently dropped beyond the bound, which no tick reaches.
+    /// Adds an event. Events beyond the bound, which no tick reaches, are dropped silently.
     pub fn push(&mut self, event: FigureEvent) {
         if self.events.len() < MAX_EVENTS {
             self.events.push(event);
@@ -184,8 +184,8 @@ impl Watcher {
             }
         }
         let balanced = !report.flags.has(Flags::BALANCE_LOST);
-        // A figure that lies has not lost its balance any more, and has not found it either: `Recovered` waits until it
-        // stands.
+        // A figure that lies no longer counts as having lost its balance, but it has not regained it either:
+        // `Recovered` waits until the figure stands.
         if balanced != self.balanced && !(balanced && fallen) {
             self.balanced = balanced;
             self.push(if balanced {

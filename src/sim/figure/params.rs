@@ -114,7 +114,7 @@ pub mod get_up {
     }
 }
 
-/// From one motion to another.
+/// Switching from one motion to another.
 pub mod switch {
     crate::params::params! {
         /// Samples of 1/60 s that still play before a motion is left: the time that there is to plan how.
@@ -142,7 +142,7 @@ pub mod switch {
     }
 }
 
-/// What a load changes in a motion that steps.
+/// The effect of a load on a motion with steps.
 pub mod load {
     crate::params::params! {
         /// Lean of the trunk per shift of the centre of mass: it does about half, and the pelvis the rest.
@@ -223,7 +223,7 @@ pub mod second_hand {
     }
 }
 
-/// Constraints that clients give.
+/// Constraints that clients set.
 pub mod constraints {
     crate::params::params! {
         /// How far inside of what carries it the wanted centre of mass is kept. Feet count from the heel to the

@@ -1,4 +1,4 @@
-//! What a figure touches besides the ground: sums over a tick, and what it knows of them in the next.
+//! A figure's contacts besides the ground: sums over a tick, and what they predict for the next.
 
 use crate::body::SegmentId;
 use crate::collide::{MAX_TOUCHES, Other, Touch};
@@ -10,7 +10,7 @@ use crate::math::Vec3;
 use crate::support::Rest;
 use serde::{Deserialize, Serialize};
 
-/// Places by which one part rests on one thing: buttocks and thighs do not turn on a stool as on a point.
+/// Places by which one part rests on one thing: a stool supports buttocks and thighs over an area, not at a point.
 const SPOTS: usize = 4;
 
 /// One contact of a substep, as one figure sees it.
@@ -18,7 +18,7 @@ const SPOTS: usize = 4;
 pub struct Contacting {
     /// Own segment.
     pub segment: SegmentId,
-    /// What it touches.
+    /// The body that it touches.
     pub other: Other,
     /// World, m.
     pub position: Vec3,
@@ -28,20 +28,20 @@ pub struct Contacting {
     pub normal: Vec3,
     /// Overlap, m.
     pub depth: f64,
-    /// The other is an obstacle that nothing moves.
+    /// Whether the other is an obstacle that nothing moves.
     pub firm: bool,
 }
 
 /// A place by which a part rests.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Spot {
-    /// Where on the segment, segment frame, m.
+    /// Place on the segment, segment frame, m.
     local: Vec3,
     /// Sum of normal forces, weight of the mean place, N.
     weight: f64,
     /// Reaction of this tick, world axes, N.
     force: Vec3,
-    /// Its part of the reaction, for a controller that chooses what each place of a rest gives, N.
+    /// Its part of the reaction, for a controller that chooses the force at each place of a rest, N.
     expected: Vec3,
 }
 
@@ -52,12 +52,12 @@ struct TouchRecord {
     weight: f64,
     /// Mean place on the segment, segment frame, m.
     local: Vec3,
-    /// Reaction of the whole part, for controllers that count on it as a force, N. It is learned apart from that of the
-    /// spots: those come and go and share it out anew from tick to tick, while their sum has to stay smooth; and a
-    /// touch counts from its second tick on.
+    /// Reaction of the whole part, for controllers that rely on it as a force, N. It is learned separately from the
+    /// reactions of the spots: those come and go and divide it differently from tick to tick, while their sum has to
+    /// stay smooth; and a touch counts from its second tick on.
     expected: Vec3,
     spots: [Spot; SPOTS],
-    /// How many of them count.
+    /// Number of spots in use.
     count: usize,
     firm: bool,
 }
@@ -67,7 +67,7 @@ impl TouchRecord {
         &self.spots[..self.count]
     }
 
-    /// The spot at `local`, a new one if there is room, the closest otherwise.
+    /// The spot at `local`: a new one if there is room, otherwise the closest.
     fn spot(&mut self, local: Vec3) -> &mut Spot {
         let closest = self.closest(local);
         let i = match closest {
@@ -100,7 +100,7 @@ impl TouchRecord {
         }
     }
 
-    /// What is expected of the next tick: the reactions of this one and what was expected of it, spot by spot.
+    /// The reactions expected of the next tick, from those of this one and the earlier expectation, spot by spot.
     fn learn(&mut self, old: Option<&Self>) {
         let mut taken = [false; SPOTS];
         for spot in &mut self.spots[..self.count] {
@@ -143,7 +143,7 @@ impl TouchRecord {
         }
     }
 
-    /// True if it carries more than `least` N: as far as is known, or `at_once` if it did in the last tick.
+    /// Whether it carries more than `least` N: in its learned reaction or, with `at_once`, in the last tick.
     fn carries(&self, least: f64, at_once: bool) -> bool {
         let now = if at_once {
             self.touch.force.dot(self.touch.normal)
@@ -159,7 +159,7 @@ impl TouchRecord {
 pub struct Touches {
     now: Vec<TouchRecord>,
     before: Vec<TouchRecord>,
-    /// Something has pressed on the figure from aside since it was last where its motion has it.
+    /// Whether something has pressed on the figure from the side since it was last at its place in the motion.
     pressed: bool,
 }
 
@@ -178,7 +178,7 @@ fn key(e: &TouchRecord) -> (SegmentId, Other) {
 }
 
 impl Touches {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         [&self.now, &self.before]
             .into_iter()
@@ -235,7 +235,7 @@ impl Touches {
         }
     }
 
-    /// Ends a tick: order, events, and what is expected of the next.
+    /// Ends a tick: order, events, and the reactions expected of the next.
     pub fn end(&mut self, watcher: &mut Watcher) {
         self.now.sort_unstable_by_key(key);
         for e in &mut self.now {
@@ -259,8 +259,8 @@ impl Touches {
         self.before.clear();
     }
 
-    /// True if something has pressed on the figure from aside, not only from below or above, with more than `least` N,
-    /// in the last tick or since it was last where its motion has it: there it `is_back` now, or not.
+    /// Whether something has pressed on the figure from the side, not only from below or above, with more than `least`
+    /// N, in the last tick or since it was last at its place in the motion. `is_back`: whether it is there now.
     pub fn press_aside(&mut self, least: f64, is_back: bool) -> bool {
         let pressure = |t: Touch| Vec3 { z: 0.0, ..t.normal } * t.force.dot(t.normal).max(0.0);
         let sum = self.list().fold(Vec3::zero(), |sum, t| sum + pressure(t));
@@ -273,9 +273,9 @@ impl Touches {
         self.now.iter().map(|e| e.touch)
     }
 
-    /// What carries it: firm things that push with more than `least` N, with their places in the state of `terms`.
+    /// Its supports: firm things that push with more than `least` N, with their places in the state of `terms`.
     ///
-    /// * `at_once`: a touch of one tick counts, for a controller that learns nothing about how much it gives.
+    /// * `at_once`: a touch of one tick counts, for a controller that does not learn the force.
     pub fn rests<'a>(
         &'a self,
         terms: &'a Terms,
@@ -294,7 +294,7 @@ impl Touches {
         })
     }
 
-    /// Counts the expected reactions among the forces in `terms.h`, but for those that the controller chooses.
+    /// Adds the expected reactions to the forces in `terms.h`, except those that the controller chooses.
     pub fn add_reactions(&self, terms: &mut Dynamics, chosen: ChosenRests) {
         for e in &self.now {
             let left = match chosen {

@@ -1,10 +1,10 @@
-//! Falling like a person: the posture that a figure takes once balance is lost for good.
+//! Falling like a person: the posture that a figure takes once its balance is lost for good.
 //!
-//! What is known of falls of people (Hsiao & Robinovitch 1998, DeGoede et al. 2003): hands reach the floor first in
-//! nearly all, hips and knees bend, which takes out speed before the trunk arrives, and the head is held off the floor.
-//! Here the arms point where the shoulders will be going when they are an arm's length above the floor, the head stays
-//! upright, knees bend, and hips as far as the fall goes backward. All follows from the present state: nothing is
-//! remembered.
+//! Studies of human falls (Hsiao & Robinovitch 1998, DeGoede et al. 2003) found that the hands reach the floor first in
+//! nearly all falls, that hips and knees bend, which removes speed before the trunk arrives, and that the head is held
+//! off the floor. Here the arms point to where the shoulders will be moving when they are an arm's length above the
+//! floor. The head stays upright, the knees bend, and the hips bend to the extent that the fall goes backward. All of
+//! this follows from the present state: nothing is remembered.
 
 use crate::body::angles::{anatomical_angles, clamp_to_limits, set_anatomical_angles};
 use crate::body::palm::load_point;
@@ -18,8 +18,8 @@ use crate::figure::params::second_hand::STRETCH;
 use crate::math::{Quat, Vec3, trig};
 use crate::motion::arm_ik::{ARMS, reach};
 
-/// The joints of `desired` as a figure in the state of `terms` holds them while it falls; `gravity` in m/s². The pelvis
-/// stays as it is. O(1), no allocation.
+/// The joint angles with which a figure in the state of `terms` falls, based on `desired`; `gravity` in m/s². The
+/// pelvis stays as it is. O(1), no allocation.
 pub(in crate::figure) fn posture(
     body: &Body,
     terms: &Terms,
@@ -55,7 +55,7 @@ pub(in crate::figure) fn posture(
         let shoulder = body.joint_offset[upper];
         let height = terms.point_world(CHEST.index(), shoulder).z;
         let v = terms.point_velocity(CHEST.index(), shoulder);
-        // Until the hand of a stretched arm would meet the floor, in free fall; without gravity none is coming.
+        // Time until the hand of a stretched arm would meet the floor, in free fall; without gravity it never does.
         let left = (height - length).max(0.0);
         let arrives = if gravity > 0.0 {
             (v.z + (v.z * v.z + 2.0 * gravity * left).sqrt()) / gravity
@@ -81,8 +81,8 @@ pub(in crate::figure) fn posture(
     out
 }
 
-/// Bends the knees, and the hips as far as the fall goes backward: forward, bent hips would bring the head down.
-/// `forward`: cosine of the direction of the fall against the front.
+/// Bends the knees, and the hips to the extent that the fall goes backward: in a forward fall, bent hips would bring
+/// the head down. `forward`: cosine of the angle between the direction of the fall and the front.
 fn bend_legs(body: &Body, forward: f64, posture: &mut Posture) {
     let mut angles = anatomical_angles(posture);
     let sitting = 0.5 * (1.0 - forward);
@@ -98,7 +98,7 @@ fn bend_legs(body: &Body, forward: f64, posture: &mut Posture) {
     set_anatomical_angles(posture, &angles);
 }
 
-/// The shortest rotation from one unit vector to another; about x where they are opposite.
+/// The shortest rotation from one unit vector to another; a turn about x if they are opposite.
 fn shortest_turn(from: Vec3, to: Vec3) -> Quat {
     let axis = from.cross(to);
     let angle = trig::atan2(axis.norm(), from.dot(to));

@@ -1,10 +1,10 @@
-//! LiveHelp while a motion is being lost: bounded, always reported, and gone once the motion is kept.
+//! Help while a motion is being lost: bounded, always reported, and gone once the figure keeps its motion again.
 //!
-//! A forecast extrapolates how far the pelvis is going to be from its desired pose. As long as that is short of what
-//! counts as lost, the figure does what it can by its own strength. Beyond it the figure is *carried*: a pull leads the
-//! pelvis back to the motion, cut at what is allowed, and stiff motors follow the joints, since neither steps nor
-//! balance are going to save the motion by themselves. Once the forecast has been good for a while, controller and
-//! steps are back in charge, and the pull fades.
+//! A forecast extrapolates how far the pelvis will be from its desired pose. While that distance counts as kept, the
+//! figure relies on its own strength. Beyond it the figure is *carried*: a pull of limited force leads the pelvis back
+//! to the motion, and stiff motors follow the joints, since neither steps nor balance would save the motion by
+//! themselves. Once the forecast has been good for a while, the controller and the steps take charge again, and the
+//! pull fades.
 //!
 //! Nothing here looks ahead in the motion, so streams are helped by the same rule as clips.
 
@@ -18,11 +18,11 @@ use crate::motion::TargetPair;
 use crate::stepper::pelvis_wrench::Missing;
 use serde::{Deserialize, Serialize};
 
-/// How far a pelvis is going to be from its desired pose, and how far it is, m. Turns count as the way of a part of the
-/// body at [`ARM`].
+/// Distance of a pelvis from its desired pose, forecast and present, m. A turn counts as the distance that a part of
+/// the body at [`ARM`] moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LossForecast {
-    /// After [`FORECAST_TIME`], if both go on as they do.
+    /// After [`FORECAST_TIME`], if both move on as they do now.
     pub ahead: f64,
     /// Now, without turns.
     pub now: f64,
@@ -44,58 +44,58 @@ impl LossForecast {
     }
 }
 
-/// What of a figure decides over its help.
+/// The facts about a figure that decide whether it is helped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Situation {
-    /// Of the motion.
+    /// The forecast for its motion.
     pub forecast: LossForecast,
-    /// Both the figure and its motion are up and on their feet, so that the figure can go on by itself.
+    /// Whether both the figure and its motion are up and on their feet, so that the figure can continue by itself.
     pub on_feet: bool,
-    /// It has lost its balance, or lies.
+    /// Whether it has lost its balance, or lies.
     pub falls: bool,
 }
 
 /// Whether a figure is helped, and how much. Nothing allocates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LiveHelp {
-    /// Part of the allowed help that may act, 0…1.
+    /// Share of the allowed help that may act, 0…1.
     share: f64,
-    /// For how long the forecast has said that this should change, s.
+    /// How long the forecast has called for a change, s.
     since: f64,
     carries: bool,
     /// For how long the motion has been out of reach, s.
     out_of_reach: f64,
-    /// Time until the figure can be helped again, after it was let fall, s.
+    /// Time until the figure can be helped again after it was left to fall, s.
     pause: f64,
 }
 
 impl LiveHelp {
-    /// True while stiff motors and the pull do what controller and steps do else.
+    /// Whether stiff motors and the pull are in charge, in place of controller and steps.
     pub fn carries(&self) -> bool {
         self.carries
     }
 
-    /// True if any help may act.
+    /// Whether any help may act.
     pub fn acts(&self) -> bool {
         self.share > 0.0
     }
 
-    /// True if a figure that loses its motion is helped, not let fall.
+    /// Whether a figure that loses its motion is helped rather than left to fall.
     pub fn is_ready(&self) -> bool {
         self.pause == 0.0
     }
 
-    /// Part of the allowed help that may act, 0…1.
+    /// Share of the allowed help that may act, 0…1.
     pub fn share(&self) -> f64 {
         self.share
     }
 
-    /// Nothing helps any more, at once.
+    /// Ends all help at once.
     pub fn stop(&mut self) {
         *self = Self::default();
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let times = [self.since, self.out_of_reach, self.pause];
         (0.0..=1.0).contains(&self.share)
@@ -103,7 +103,7 @@ impl LiveHelp {
             && times.iter().all(|t| (0.0..=1e3).contains(t))
     }
 
-    /// Decides about the tick of `dt` s that begins.
+    /// Decides whether to help in the tick of `dt` s that begins.
     pub fn observe(&mut self, seen: &Situation, dt: f64) {
         self.pause = (self.pause - dt).max(0.0);
         let changes = if self.carries {
@@ -122,7 +122,7 @@ impl LiveHelp {
             0.0
         };
         if self.out_of_reach > OUT_OF_REACH_AFTER {
-            // What is allowed does not do. It falls as it would have.
+            // The allowed help is not enough: the figure falls as it would have without it.
             *self = Self {
                 share: self.share,
                 pause: AGAIN_AFTER,
@@ -163,7 +163,7 @@ mod tests {
         let mut help = LiveHelp::default();
         run(&mut help, seen(0.9 * BEGIN, 0.1), 5.0);
         assert!(!help.acts() && !help.carries());
-        // A spike is no loss.
+        // A spike does not count as a loss.
         run(&mut help, seen(4.0 * BEGIN, 0.1), 0.5 * BEGIN_AFTER);
         run(&mut help, seen(0.5 * BEGIN, 0.1), DT);
         assert!(!help.acts());
@@ -173,7 +173,7 @@ mod tests {
             BEGIN_AFTER + GROWTH_TIME + 2.0 * DT,
         );
         assert!(help.carries() && help.share() == 1.0);
-        // Between the two limits it stays as it is.
+        // Between the two limits nothing changes.
         run(&mut help, seen(0.5 * (BEGIN + END), 0.1), 2.0);
         assert!(help.carries());
         run(&mut help, seen(0.5 * END, 0.01), END_AFTER + 2.0 * DT);
@@ -235,7 +235,7 @@ mod tests {
         let near = |a: f64, b: f64| (a - b).abs() < 1e-12;
         let off = LossForecast::of(&target, &state, DT);
         assert!(near(off.ahead, 0.05) && near(off.now, 0.05));
-        // It comes back by itself, and turns.
+        // The pelvis comes back by itself, and turns.
         state.velocity[3] = -0.03 / FORECAST_TIME;
         state.velocity[4] = 0.04 / FORECAST_TIME;
         state.velocity[2] = 0.5;

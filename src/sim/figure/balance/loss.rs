@@ -1,5 +1,5 @@
-//! Is balance lost for good? Then the controller, which would bend ankles and knees to keep soles flat that cannot stay
-//! flat, hands over to motors alone: the figure falls as the body it is.
+//! Decides whether balance is lost for good. If so, the controller, which would bend ankles and knees to keep soles
+//! flat that cannot stay flat, hands over to the motors alone, and the figure falls passively.
 
 use crate::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::body::{Body, SegmentId};
@@ -12,7 +12,7 @@ use crate::report::MAX_CONTACTS;
 use crate::support::{Polygon, Support};
 use serde::{Deserialize, Serialize};
 
-/// How far outside of its support a capture point is brought back, m.
+/// Distance outside its support from which a capture point can be brought back, m.
 fn length(reach: BalanceReach, height: f64) -> f64 {
     match reach {
         BalanceReach::Body => BODY_REACH,
@@ -21,25 +21,25 @@ fn length(reach: BalanceReach, height: f64) -> f64 {
     }
 }
 
-/// What balance is judged by.
+/// The data by which balance is judged.
 #[derive(Clone, Copy, Debug)]
 pub struct Observation<'a> {
     /// The body.
     pub body: &'a Body,
     /// Dynamics of its state.
     pub terms: &'a Terms,
-    /// What it stands on.
+    /// Its support.
     pub support: &'a Support,
     /// Magnitude of gravity, m/s².
     pub gravity: f64,
     /// Length of the tick, s.
     pub dt: f64,
-    /// What may bring the capture point back.
+    /// The means that can bring the capture point back.
     pub reach: BalanceReach,
     /// Height of the centre of mass, as a share of the standing one.
     pub height: f64,
-    /// Distance of the capture point from where the motion has it, m, while that motion walks: a walk falls from foot
-    /// to foot, and has lost nothing as long as it falls where the next foot is going to be.
+    /// Distance of the capture point from its place in the motion, m, while that motion walks. A walk falls from foot
+    /// to foot: nothing is lost while the body falls towards the next foothold.
     pub off: Option<f64>,
 }
 
@@ -63,7 +63,7 @@ impl Default for BalanceWatch {
 }
 
 impl BalanceWatch {
-    /// True while balance is lost.
+    /// Whether balance is lost.
     pub fn lost(&self) -> bool {
         self.lost
     }
@@ -83,7 +83,7 @@ impl BalanceWatch {
             ..
         } = *seen;
         if (support.points().is_empty() && support.rests().is_empty()) || gravity <= 0.0 {
-            return; // Flight: nothing to lose balance over.
+            return; // Flight: there is no balance to lose.
         }
         let (c, v) = (terms.com, terms.com_velocity);
         let time = (c.z.max(LEAST_HEIGHT) / gravity).sqrt();
@@ -103,8 +103,8 @@ impl BalanceWatch {
         }
     }
 
-    /// What the supports can cover: all of a foot of which a part touches, since it can be put down again; of other
-    /// segments what touches.
+    /// The area that the supports can cover: the whole of each foot that touches with any part, since it can be put
+    /// down again; of other segments the part that touches.
     fn cover(&mut self, body: &Body, terms: &Terms, support: &Support) {
         let points = support.points();
         let touches = |s: SegmentId| points.iter().any(|p| p.segment == s);
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn the_capture_point_decides_and_steps_reach_farther() {
-        // How fast the body may be so that the capture point is so far outside the toes.
+        // Speed of the body at which the capture point is this far outside the toes.
         let (body, t, _) = moving(0.0);
         let front = (0..SEGMENT_COUNT)
             .flat_map(|s| {
@@ -195,7 +195,7 @@ mod tests {
             let mut watch = BalanceWatch::default();
             assert!(!lost_after(&mut watch, speed(length - 1e-3), reach));
             assert!(lost_after(&mut watch, speed(length + 1e-3), reach));
-            // Found only after a while inside.
+            // Balance counts as regained only after some time inside.
             let mut ticks = 0;
             while lost_after(&mut watch, 0.0, reach) {
                 ticks += 1;

@@ -1,11 +1,11 @@
-//! How a load changes a motion that steps: the trunk leans to the other side, and the arm hangs.
+//! The effect of a load on a motion with steps: the trunk leans to the other side, and the arm hangs.
 //!
-//! A motion is prepared for an unloaded body. With a load its centre of mass lies elsewhere, by m/M of the way to the
-//! load: 10 kg in one hand move it 5 cm to that side, half a foot's width from where every step of the motion has its
-//! zero-moment point. So the trunk leans and the pelvis shifts until the loaded body has its centre of mass, over the
-//! floor, where the unloaded one has it in the motion. The feet stay, the head keeps its direction, and what carries is
-//! moved with the forces that an empty hand takes: an arm that hangs swings the less the more it carries, and what any
-//! arm does quickly it does less of.
+//! A motion is prepared for an unloaded body. A load moves the centre of mass by m/M of the distance to the load: 10 kg
+//! in one hand move it 5 cm to that side, half a foot's width away from where every step of the motion has its
+//! zero-moment point. So the trunk leans and the pelvis shifts until the centre of mass of the loaded body, projected
+//! on the floor, is where the motion has that of the unloaded one. The feet stay, and the head keeps its direction. The
+//! carrying arm moves its load with the forces that an empty hand would take: a hanging arm swings less the more it
+//! carries, and quick movements of any arm become smaller.
 
 mod arm;
 
@@ -33,7 +33,7 @@ struct Masses {
     moment: [Vec3; SEGMENT_COUNT],
 }
 
-/// Masses, and the share of their difference that counts.
+/// Masses, and the weight of their difference.
 #[derive(Clone, Copy)]
 struct Weighted<'a> {
     load: &'a Masses,
@@ -58,7 +58,7 @@ impl Masses {
         sum * (1.0 / mass)
     }
 
-    /// `self + a·x + b·y`, for the differences x and y of two others from `self`.
+    /// `self + a·x + b·y`, where x and y are the differences of two others from `self`.
     fn toward(&self, first: Weighted<'_>, second: Weighted<'_>) -> Self {
         let Weighted { load: x, share: a } = first;
         let Weighted { load: y, share: b } = second;
@@ -71,7 +71,7 @@ impl Masses {
         out
     }
 
-    /// False if no body with loads that it may carry is like that.
+    /// Whether a body with permitted loads could have these masses.
     fn is_valid(&self) -> bool {
         let number = |x: f64| x.abs() <= 1e6;
         self.mass.iter().all(|m| *m > 0.0 && number(*m))
@@ -89,20 +89,20 @@ impl Masses {
 /// The effect of a load at a moment.
 struct LoadEffect {
     load: Masses,
-    /// What the arms had done lately when the tick began, how much they hung then, 0…1, and how long ago that was, s.
+    /// At the start of the tick: the recent habits of the arms, how much they hung, 0…1, and how long ago that was, s.
     before: [Habit; 2],
     hung: [f64; 2],
     ahead: f64,
 }
 
-/// What one figure carries, and its effect on the motion.
+/// The loads that one figure carries, and their effect on the motion.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct LoadCompensation {
     unloaded: Masses,
-    /// What it carries as it follows from loads that come and go at once: after one time constant, and after both.
+    /// The carried masses, smoothed because loads come and go at once: after one time constant, and after both.
     halfway: Masses,
     effect: Masses,
-    /// What each arm has done lately; `None` before something is carried.
+    /// Recent habits of each arm; `None` until something is carried.
     habits: Option<[Habit; 2]>,
 }
 
@@ -118,14 +118,14 @@ impl LoadCompensation {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let masses = [&self.unloaded, &self.halfway, &self.effect];
         masses.iter().all(|m| m.is_valid()) && self.habits.iter().flatten().all(Habit::is_valid)
     }
 
-    /// What the left and the right hand of a figure that steps feel, kg. One that stays where it is lifts its loads as
-    /// the motion has it.
+    /// The loads that the left and the right hand of a stepping figure feel, kg. A figure that stays in place lifts its
+    /// loads as the motion has it.
     pub fn in_hands(&self) -> [f64; 2] {
         ARMS.map(|[.., hand]| self.effect.mass[hand.index()] - self.unloaded.mass[hand.index()])
     }
@@ -136,9 +136,9 @@ impl LoadCompensation {
         self.habits = None;
     }
 
-    /// Changes the desired motion of a tick of `dt` seconds for a body with the present loads, `links`; `steps` if the
-    /// motion steps: one that stays where it is has room in its feet and is left alone. No allocation; nothing is done
-    /// without a load.
+    /// Changes the desired motion of a tick of `dt` seconds for a body with the present loads, `links`. `steps`:
+    /// whether the motion steps. A figure that stays in place has room in its feet and is left alone. No allocation;
+    /// does nothing without a load.
     pub fn compensate(
         &mut self,
         body: &Body,
@@ -178,7 +178,7 @@ impl LoadCompensation {
         }
     }
 
-    /// Effect `ahead` seconds from now of what is carried then: after one time constant, and after both.
+    /// The effect, `ahead` seconds from now, of the loads carried then: after one time constant, and after both.
     fn effect_after(&self, carried: &Masses, ahead: f64) -> (Masses, Masses) {
         let left = exp(-ahead / ONSET_TIME);
         let weighted = |load, share| Weighted { load, share };
@@ -192,7 +192,7 @@ impl LoadCompensation {
     }
 }
 
-/// How a body leans.
+/// How a body leans under a load.
 struct LoadLean<'a> {
     body: &'a Body,
     unloaded: &'a Masses,
@@ -200,7 +200,7 @@ struct LoadLean<'a> {
 }
 
 impl LoadLean<'_> {
-    /// Changes a target and its rates for the effect of a load an instant before, now, and an instant later.
+    /// Changes a target and its rates for the effect of a load just before, at, and just after its time.
     fn change(&self, target: &mut Target, [before, effect, after]: &[LoadEffect; 3]) {
         let moved = |seconds: f64| {
             let mut p = target.posture;
@@ -213,7 +213,7 @@ impl LoadLean<'_> {
         target.velocity = std::array::from_fn::<f64, NV, _>(|i| way[i] * (0.5 / RATE_SPAN));
     }
 
-    /// The posture in which the body with the load that has `effect` has its centre of mass where the unloaded one has
+    /// The posture in which the body with the load that has `effect` has its centre of mass where the unloaded body has
     /// it in `posture`.
     fn compensated(&self, posture: &Posture, effect: &LoadEffect) -> Posture {
         let planned = forward(self.body, posture);
@@ -249,7 +249,7 @@ impl LoadLean<'_> {
     }
 }
 
-/// Tilts the trunk towards `by`, half of it in the waist; head and arms keep the directions they have in `poses`.
+/// Tilts the trunk towards `by`, half of it in the waist; head and arms keep their directions in `poses`.
 fn tilt(posture: &mut Posture, poses: &ArmPoses, by: Vec3) {
     let tilt = (Vec3::Z.cross(by) * LEAN).capped(LARGEST_LEAN);
     let mut turned = poses.map(|(_, rotation)| rotation);
@@ -288,7 +288,7 @@ mod tests {
         links
     }
 
-    /// Has carried `links` for long.
+    /// The compensation of a figure that has carried `links` for a long time.
     fn used_to(body: &Body, clip: &Clip, links: &Links) -> LoadCompensation {
         let mut compensation = LoadCompensation::new(body);
         for _ in 0..600 {
@@ -381,7 +381,7 @@ mod tests {
             t.posture.ball[shoulder] = Quat::identity();
             t.posture.hinge[elbow] = 1.6;
         }
-        // Once they have got there: what is done at once is done slowly.
+        // Once the effect has settled: a load that changes at once has its effect slowly.
         let mut pair = before.clone();
         for _ in 0..1800 {
             pair = before.clone();

@@ -1,4 +1,4 @@
-//! Loads and pushes of one figure: which act in a tick, and what taking up a load does to the body.
+//! Loads and pushes of one figure: those that act in a tick, and the effect on the body of taking up a load.
 
 use crate::body::topology::{L_HAND, R_HAND};
 use crate::body::topology::{NV, SegmentId};
@@ -16,22 +16,22 @@ use crate::stepper::command::Bar;
 use crate::stepper::forces::MAX_APPLIED;
 use serde::{Deserialize, Serialize};
 
-/// What the other hand does for a load.
+/// The other hand's part in holding a load.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoadShare {
     /// The other hand.
     pub hand: SegmentId,
-    /// Where it holds, segment frame, m.
+    /// Point at which it holds, segment frame, m.
     pub point: Vec3,
     /// Its share of the mass, 0…1.
     pub share: f64,
-    /// Share of its strength that the arm needs for the load alone, and that the harder of both arms needs together,
-    /// when the share was last changed.
+    /// Share of its strength that the arm needs for the load alone, and that the harder-working arm needs when both
+    /// hold it, as of the last change of `share`.
     pub need: [f64; 2],
 }
 
 impl LoadShare {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub(in crate::figure) fn is_valid(&self) -> bool {
         (self.hand == L_HAND || self.hand == R_HAND)
             && self.point.is_finite()
@@ -47,7 +47,7 @@ struct Scheduled {
     /// Velocity of the points that carry it at the start of the last tick, m/s.
     moved: Option<[Vec3; 2]>,
     slipped: bool,
-    /// What the other hand does for it, and what it is to do from the next tick on.
+    /// The other hand's part in it now, and from the next tick on.
     help: Option<LoadShare>,
     wish: Option<LoadShare>,
 }
@@ -59,7 +59,7 @@ impl Scheduled {
         helped.or_else(|| self.what.load()?.second)
     }
 
-    /// What each point carries, if it is a load: segment, point (segment frame, m), mass (kg).
+    /// For a load, the mass that each point carries: segment, point (segment frame, m), mass (kg).
     fn shares(&self) -> impl Iterator<Item = (SegmentId, Vec3, f64)> + use<> {
         let load = self.what.load();
         let helped = self.help.zip(load).map(|(help, load)| {
@@ -74,7 +74,7 @@ impl Scheduled {
         helped.into_iter().flatten().chain(alone)
     }
 
-    /// True if the other hand may help with what is carried at `time`, s, or is taken soon.
+    /// Whether it is carried at `time`, s, or will be soon, and the other hand may help with it.
     fn is_helpable(&self, time: f64) -> bool {
         let Perturbation::Helped { load, .. } = self.what else {
             return false;
@@ -88,15 +88,15 @@ impl Scheduled {
 pub struct Helpable {
     /// The load.
     pub load: HeldLoad,
-    /// When it does.
+    /// The setting for when the other hand helps.
     pub when: SecondHand,
-    /// What it does now.
+    /// The other hand's present part.
     pub help: Option<LoadShare>,
-    /// The load is carried already.
+    /// Whether the load is carried already.
     pub carried: bool,
 }
 
-/// A part of a load that goes from one hand over to the other.
+/// A part of a load that passes from one hand to the other.
 struct Moved {
     from: (SegmentId, Vec3),
     to: (SegmentId, Vec3),
@@ -124,7 +124,7 @@ impl Default for Disturbances {
 }
 
 impl Disturbances {
-    /// Schedules one; false if there is no room.
+    /// Schedules one; returns `false` without room for it.
     pub fn add(&mut self, what: Perturbation) -> bool {
         let room = self.scheduled.len() < MAX_PERTURBATIONS;
         if room {
@@ -140,7 +140,7 @@ impl Disturbances {
         room
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let helps = self.scheduled.iter().flat_map(|s| [s.help, s.wish]);
         self.scheduled.len() <= MAX_PERTURBATIONS
@@ -148,19 +148,19 @@ impl Disturbances {
             && helps.flatten().all(|h| h.is_valid())
     }
 
-    /// Drops everything that is scheduled or acts; the loads are let go at the next tick.
+    /// Drops everything that is scheduled or acts; the loads are released at the next tick.
     pub fn clear(&mut self) {
         for s in &mut self.scheduled {
             s.what.end_at(f64::NEG_INFINITY);
         }
     }
 
-    /// What is scheduled.
+    /// The scheduled perturbations.
     pub fn scheduled(&self) -> impl Iterator<Item = &Perturbation> {
         self.scheduled.iter().map(|s| &s.what)
     }
 
-    /// Mass properties of `body` with the loads that it carries and that were not taken off since. No allocation.
+    /// Mass properties of `body` with the loads that it carries and that have not been removed since. No allocation.
     pub fn loaded(&self, body: &Body) -> Links {
         let mut links = Links::new(body);
         let kept = |s: &&Scheduled| s.carried && s.what.ends() > f64::NEG_INFINITY;
@@ -172,7 +172,7 @@ impl Disturbances {
         links
     }
 
-    /// What each hand holds at `time`: segment, point (segment frame, m), mass (kg).
+    /// The loads that each hand holds at `time`: segment, point (segment frame, m), mass (kg).
     pub fn held(&self, time: f64) -> impl Iterator<Item = (SegmentId, Vec3, f64)> {
         let holds = move |s: &&Scheduled| {
             let load = s.what.load();
@@ -184,7 +184,7 @@ impl Disturbances {
             .flat_map(Scheduled::shares)
     }
 
-    /// The load that the other hand helps with at `time`, s, or else the heaviest that it may help with.
+    /// The load that the other hand helps with at `time`, s; if there is none, the heaviest that it may help with.
     pub fn helpable(&self, time: f64) -> Option<Helpable> {
         let s = &self.scheduled[self.helped(time)?];
         let Perturbation::Helped { load, when } = s.what else {
@@ -204,30 +204,30 @@ impl Disturbances {
         let all = || (0..self.scheduled.len()).filter(may);
         let mass = |i: usize| self.scheduled[i].what.load().map_or(0.0, |l| l.mass);
         let held = all().find(|i| self.scheduled[*i].help.is_some());
-        // The first of equals.
+        // The first among equals.
         held.or_else(|| all().reduce(|a, b| if mass(b) > mass(a) { b } else { a }))
     }
 
-    /// What the other hand does for the load of [`Self::helpable`] from the next tick on.
+    /// Sets the other hand's part in the load of [`Self::helpable`] from the next tick on.
     pub fn help(&mut self, time: f64, help: Option<LoadShare>) {
         if let Some(i) = self.helped(time) {
             self.scheduled[i].wish = help;
         }
     }
 
-    /// The other hand lets go of whatever it helps with, at the next tick.
+    /// Makes the other hand let go of any load that it helps with, at the next tick.
     pub fn stop_help(&mut self) {
         for s in &mut self.scheduled {
             s.wish = None;
         }
     }
 
-    /// What the other hand does for a load, while it holds it.
+    /// The other hand's part in a load, while it holds it.
     pub fn present_help(&self) -> Option<LoadShare> {
         self.scheduled.iter().find_map(|s| s.help)
     }
 
-    /// True if one of these segments carries something other than its part of a load that the other hand holds too.
+    /// Whether one of these segments carries anything besides its share of a load that the other hand holds too.
     pub fn burdens(&self, segments: [SegmentId; 3]) -> bool {
         let own = |s: &&Scheduled| s.carried && s.help.is_none();
         let mut parts = self
@@ -248,10 +248,10 @@ impl Disturbances {
         self.bar.as_ref()
     }
 
-    /// Takes up and lets go loads that are due at `time`, and collects the forces of the tick that begins then.
+    /// Takes up and releases the loads that are due at `time`, and collects the forces of the tick that begins then.
     ///
-    /// A load is taken up inelastically and momentum is conserved: `v⁺ = v⁻ − M'⁻¹ Σ J_pᵀ m (J_p v⁻ − v_load)` with M'
-    /// the loaded inertia. What is due before the first tick was carried all along.
+    /// Taking up a load is inelastic and conserves momentum: `v⁺ = v⁻ − M'⁻¹ Σ J_pᵀ m (J_p v⁻ − v_load)` with M' the
+    /// loaded inertia. A load that is due before the first tick counts as carried from the start.
     pub fn apply(
         &mut self,
         time: f64,
@@ -318,8 +318,8 @@ impl Disturbances {
 }
 
 impl Disturbances {
-    /// Masses, bar and velocity after loads were taken up or let go, in the tick of `dt` seconds that begins at `time`,
-    /// or a part of one was `moved` from one hand to the other.
+    /// Masses, bar and velocity after loads were taken up or released in the tick of `dt` seconds that begins at
+    /// `time`, or after a part of one has `moved` from one hand to the other.
     fn carry(
         &mut self,
         time: f64,
@@ -367,7 +367,7 @@ impl Disturbances {
         }
         for load in loads.filter_map(|s| s.what.load()) {
             let i = load.segment.index();
-            // Not carried in the tick before, by the same tolerance.
+            // Not carried in the previous tick, by the same tolerance.
             if load.from > time - dt + 1e-9 * dt && before[i] < links.mass[i] {
                 taken = true;
                 for (segment, point, mass) in load.shares() {
@@ -393,10 +393,10 @@ impl Disturbances {
         }
     }
 
-    /// Finds loads whose force at a hand exceeds the grip: they go at the start of the next tick.
+    /// Finds loads whose force at a hand exceeds the grip: they are dropped at the start of the next tick.
     ///
-    /// The force is that of the tick before, `m (a + g) − f`, a from the velocities of the point at its start and end,
-    /// f the bar's.
+    /// The force is that of the previous tick, `m (a + g) − f`, where a comes from the velocities of the point at the
+    /// start and end of that tick, and f is the force of the bar.
     ///
     /// * `terms`: of the state at the start of this tick; `bar_force`: mean force of the bar on its second end in the
     ///   last tick, N.
@@ -430,7 +430,8 @@ impl Disturbances {
 }
 
 impl Scheduled {
-    /// The other hand takes hold of the load, lets go of it, or takes another share of it; returns what goes over.
+    /// Makes the other hand take hold of the load, let go of it, or take another share of it; returns the part that
+    /// changes hands.
     fn follow_wish(&mut self, watcher: &mut Watcher) -> Option<Moved> {
         let (before, now) = (self.help, self.wish);
         self.help = now;

@@ -1,11 +1,11 @@
-//! The other hand helps with a load that one arm is too weak for.
+//! The other hand helps with a load for which one arm is too weak.
 //!
-//! The desired motion has a load in one hand. Statics say what the joints of that arm need to hold it still, now and in
-//! the coming part of the motion. Where that is more than they have, and the other hand has nothing else to do and can
-//! get there, the desired motion of the other arm is changed: inverse kinematics of its seven joints alone lead its
-//! palm to the load. Trunk, feet and the hand that carries keep their desired motion. Once it is there both hold the
-//! load, each with a share of its mass: the one that takes the least effort of the two arms. It lets go when one arm is
-//! clearly enough.
+//! The desired motion has a load in one hand. Statics give the torques that the joints of that arm need to hold it
+//! still, now and in the coming part of the motion. If the joints do not have that much, and the other hand is free and
+//! can get there, the desired motion of the other arm is changed: inverse kinematics of its seven joints alone lead its
+//! palm to the load. Trunk, feet and the carrying hand keep their desired motion. Once the palm is there, both hands
+//! hold the load, each with a share of its mass, chosen for the least effort of the two arms. The helping hand lets go
+//! when one arm is clearly enough.
 
 mod effort;
 mod sight;
@@ -36,44 +36,45 @@ use effort::{Efforts, Grasp};
 use serde::{Deserialize, Serialize};
 pub(in crate::figure) use sight::Sight;
 
-/// How far the elbow may point outwards, rad from down and a little back: the first that the joints allow is taken.
+/// Angles by which the elbow may point outwards, rad from down and a little back: the first that the joints allow is
+/// taken.
 const SPREADS: [f64; 4] = [0.35, 0.7, 1.05, 0.0];
-/// Moments at which the coming motion is looked at.
+/// Moments at which the coming motion is examined.
 const LOOKS: usize = 4;
-/// Parts of the way at which the arm is kept out of the body.
+/// Points along the way at which the arm is kept out of the body.
 const WAYPOINTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum HandPhase {
-    /// It does what the motion has it do.
+    /// The hand follows the motion.
     Away,
-    /// It goes to the load.
+    /// It moves to the load.
     Reach,
     /// It holds the load.
     Hold,
-    /// It goes back.
+    /// It returns to the motion.
     Back,
 }
 
-/// What the other hand does.
+/// The state of the other hand.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct HelpingHand {
     phase: HandPhase,
-    /// It is the right one.
+    /// Whether it is the right hand.
     right: bool,
     /// Point of the carrying hand that holds the load, segment frame, m.
     load: Vec3,
-    /// How far it is on its way, 0…1.
+    /// Progress on its way, 0…1.
     way: f64,
-    /// How far outwards the elbow points, rad.
+    /// Angle by which the elbow points outwards, rad.
     spread: f64,
-    /// By how much the load is not where the motion has it, chest frame, m.
+    /// Distance of the load from its place in the motion, chest frame, m.
     off: Vec3,
     /// From the load to the palm, chest frame, m.
     apart: Vec3,
-    /// For how long one arm has been enough, or the hand has been late, s.
+    /// How long one arm has been enough, or the hand has been late, s.
     since: f64,
-    /// Time until it looks again, s.
+    /// Time until it checks again, s.
     pause: f64,
 }
 
@@ -93,7 +94,7 @@ impl Default for HelpingHand {
     }
 }
 
-/// Where the chest is.
+/// Pose of the chest.
 fn chest(poses: &[(Vec3, Quat)]) -> (Vec3, Quat) {
     poses[CHEST.index()]
 }
@@ -108,7 +109,7 @@ fn from_chest(poses: &[(Vec3, Quat)], segment: SegmentId, point: Vec3) -> Vec3 {
 }
 
 impl HelpingHand {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let times = [self.since, self.pause];
         let vectors = [self.load, self.off, self.apart];
@@ -118,7 +119,7 @@ impl HelpingHand {
             && vectors.iter().all(|v| v.norm() <= 100.0)
     }
 
-    /// The hand that does not do what the motion has it do: 0 left, 1 right.
+    /// The hand that departs from the motion: 0 left, 1 right.
     pub fn led(&self) -> Option<usize> {
         (self.phase != HandPhase::Away).then_some(self.index())
     }
@@ -136,8 +137,8 @@ impl HelpingHand {
         ARMS[1 - self.index()][2]
     }
 
-    /// Decides what the hand does in this tick, and changes the desired motion of its arm. No allocation; nothing is
-    /// done without a load that it may help with, now or soon.
+    /// Decides what the hand does in this tick, and changes the desired motion of its arm. No allocation; does nothing
+    /// unless there is, now or soon, a load that it may help with.
     pub fn update(&mut self, see: &Sight<'_>, loads: &mut Disturbances, target: &mut TargetPair) {
         let found = loads.helpable(see.time).and_then(|found| {
             let right = match found.load.segment {
@@ -180,13 +181,13 @@ impl HelpingHand {
         }
     }
 
-    /// How far the load is from where the motion has it, as the chest sees both, m.
+    /// Distance of the load from its place in the motion, both seen from the chest, m.
     fn missing(&self, see: &Sight<'_>, desired: &Posture) -> Vec3 {
         let at = |p: &Posture| from_chest(&forward(see.body, p), self.carrying(), self.load);
         at(&see.state.posture) - at(desired)
     }
 
-    /// From one stage to the next.
+    /// Moves from one stage to the next.
     fn decide(
         &mut self,
         see: &Sight<'_>,
@@ -241,7 +242,7 @@ impl HelpingHand {
         }
     }
 
-    /// What both arms need in a posture; that of the other arm with its hand at the load.
+    /// The needs of both arms in a posture, with the hand of the other arm at the load.
     fn need(&self, see: &Sight<'_>, posture: &Posture, found: &Helpable) -> Efforts {
         let (load, help) = (&found.load, found.help);
         let mut held = *posture;
@@ -263,26 +264,26 @@ impl HelpingHand {
         load_point(body, self.arm()[2])
     }
 
-    /// Where the elbow points, chest frame.
+    /// Direction in which the elbow points, chest frame.
     fn pole(&self) -> Vec3 {
         let side = if self.right { -1.0 } else { 1.0 };
         let (sine, cosine) = crate::math::trig::sin_cos(self.spread);
         vec3(-0.3, side * sine, -cosine)
     }
 
-    /// Where its palm is to be in a posture, chest frame, m.
+    /// Place where the palm should be in a posture, chest frame, m.
     fn place(&self, body: &Body, posture: &Posture) -> Vec3 {
         let load = from_chest(&forward(body, posture), self.carrying(), self.load);
         load + self.off + self.apart
     }
 
-    /// How the arm is held in a posture with the palm at its place, and what is missing, m.
+    /// The arm in a posture with the palm at its place, and the distance that remains, m.
     fn reach_in(&self, body: &Body, posture: &Posture) -> (Arm, f64) {
         let place = self.place(body, posture);
         reach(body, self.arm(), self.palm(body), place, self.pole())
     }
 
-    /// True if the place is farther away than the arm is long.
+    /// Whether the place is farther away than the length of the arm.
     fn is_beyond_reach(&self, see: &Sight<'_>, posture: &Posture) -> bool {
         self.reach_in(see.body, posture).1 > NEAR
     }
@@ -318,7 +319,7 @@ impl HelpingHand {
         }
     }
 
-    /// From the load to where the palm is to be: to its own side and a little towards its shoulder, chest frame, m.
+    /// From the load to where the palm should be: on its own side and a little towards its shoulder, chest frame, m.
     fn beside(&self, body: &Body, posture: &Posture) -> Vec3 {
         let side = if self.right { -1.0 } else { 1.0 };
         let load = from_chest(&forward(body, posture), self.carrying(), self.load);
@@ -327,7 +328,7 @@ impl HelpingHand {
         (Vec3::Y * side + back).normalized_or(Vec3::Y * side) * APART
     }
 
-    /// True if the joints of the arm allow its palm to be at its place in a posture.
+    /// Whether the joints of the arm allow its palm to be at its place in a posture.
     fn allows(&self, see: &Sight<'_>, posture: &Posture) -> bool {
         let (body, arm) = (see.body, self.arm());
         let shoulder = body.joint_offset[arm[0].index()];
@@ -347,7 +348,7 @@ impl HelpingHand {
         })
     }
 
-    /// True if forearm and hand stay out of trunk, head and thighs on the way, as far as they do in the motion.
+    /// Whether forearm and hand stay as clear of trunk, head and thighs on the way as they do in the motion.
     fn is_clear(&self, see: &Sight<'_>) -> bool {
         WAYPOINTS.into_iter().all(|way| {
             let posture = (see.ahead)(way * REACH_TIME);
@@ -402,7 +403,7 @@ impl HelpingHand {
                 need: [efforts.alone(), efforts.together(efforts.best_share())],
             };
             loads.help(see.time, Some(help));
-            // What is missing of the load's place stays as it is; the hand holds where it is.
+            // The offset of the load stays as it is; the hand holds it where it is.
             self.apart = apart;
             (self.phase, self.since) = (HandPhase::Hold, 0.0);
             return;
@@ -413,7 +414,7 @@ impl HelpingHand {
         }
     }
 
-    /// Leads its share of the load to the one with the least effort, or to none and lets go.
+    /// Moves its share of the load towards the one with the least effort, or towards none, and then lets go.
     fn share(
         &mut self,
         see: &Sight<'_>,
@@ -464,7 +465,7 @@ impl HelpingHand {
         }
     }
 
-    /// A posture of the desired motion with the arm so far on its way.
+    /// A posture of the desired motion with the arm at progress `way`.
     fn led_posture(&self, body: &Body, posture: &Posture, way: f64) -> Posture {
         let arm = self.arm();
         let mut out = *posture;

@@ -1,4 +1,4 @@
-//! What a figure does, and every transition from one activity to the next.
+//! The activity of a figure, and every transition from one activity to the next.
 //!
 //! ```text
 //!   Hold, Track ──play, stop──► Switch ──the next motion has begun──► Track, Hold
@@ -10,7 +10,7 @@
 //!                                  └─────give up─────┘
 //! ```
 //!
-//! A motion that is replaced as a whole ([`MotionState::follow`]) ends a switch, and getting up, at once.
+//! Replacing the motion as a whole ([`MotionState::follow`]) ends a switch, and getting up, at once.
 
 use crate::body::Posture;
 use crate::figure::motion::exit::ExitPlan;
@@ -20,7 +20,7 @@ use crate::figure::motion::source::{MotionSource, QueuedClip};
 use crate::figure::motion::stream_entry::StreamEntryPlan;
 use serde::{Deserialize, Serialize};
 
-/// What a figure does.
+/// The activity of a figure.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) enum Activity {
     /// Hold a posture.
@@ -29,9 +29,9 @@ pub(in crate::figure) enum Activity {
     Track,
     /// Leave the motion for a stand, or for another clip.
     Switch(Switch),
-    /// Lie on the floor, relaxed. The motion goes on meanwhile: it says when the figure gets up.
+    /// Lie on the floor, relaxed. The motion continues, since it decides when the figure gets up.
     Limp(Switch),
-    /// Get up. A clip that was asked for waits until the figure stands.
+    /// Get up. A queued clip waits until the figure stands.
     GetUp(Switch),
 }
 
@@ -54,7 +54,7 @@ impl Switch {
     }
 }
 
-/// What a figure does, and where its desired motion comes from.
+/// The activity of a figure, and the source of its desired motion.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct MotionState {
     source: MotionSource,
@@ -72,7 +72,7 @@ impl MotionState {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let next = self.next().is_none_or(QueuedClip::is_valid);
         let entry = self.stream_entry().is_none_or(StreamEntryPlan::is_valid);
@@ -89,22 +89,22 @@ impl MotionState {
         &mut self.source
     }
 
-    /// True once the figure lies on the floor, until it stands again.
+    /// Whether the figure has fallen and not yet stood up again.
     pub fn has_fallen(&self) -> bool {
         matches!(self.activity, Activity::Limp(_) | Activity::GetUp(_))
     }
 
-    /// True while it lies and does nothing about it.
+    /// Whether it lies without getting up.
     pub fn is_limp(&self) -> bool {
         matches!(self.activity, Activity::Limp(_))
     }
 
-    /// True while it gets up.
+    /// Whether it is getting up.
     pub fn gets_up(&self) -> bool {
         matches!(self.activity, Activity::GetUp(_))
     }
 
-    /// The rehearsed motion that it does: not one that it is asked for on the floor.
+    /// The rehearsed motion being played. `None` while the figure is down, even if one is queued.
     pub fn rehearsed(&self) -> Option<&RehearsedPlayback> {
         match (&self.source, &self.activity) {
             (MotionSource::Rehearsed(play), Activity::Track) => Some(play),
@@ -112,17 +112,18 @@ impl MotionState {
         }
     }
 
-    /// How it is followed.
+    /// How the motion is followed.
     pub fn following(&self) -> &Following {
         &self.following
     }
 
-    /// Notes how it was followed in a tick of `dt` s: helped by a force of norm `force`, for a body of this weight, N.
+    /// Notes how the motion was followed in a tick of `dt` s: helped by a force of norm `force`, for a body of this
+    /// weight, N.
     pub fn note(&mut self, mode: FollowMode, force: f64, weight: f64, dt: f64) {
         self.following.add(mode, force, weight, dt);
     }
 
-    /// Forgets how it was followed.
+    /// Forgets how the motion was followed.
     pub fn forget_following(&mut self) {
         self.following = Following::default();
     }
@@ -134,12 +135,12 @@ impl MotionState {
         }
     }
 
-    /// The exit that is planned.
+    /// The exit that is being planned.
     pub fn exit(&self) -> Option<&ExitPlan> {
         self.switch()?.exit.as_deref()
     }
 
-    /// True if the present motion leads to a stand.
+    /// Whether the present motion leads to a stand.
     pub fn stops(&self) -> bool {
         self.switch().is_some_and(|s| s.stops)
     }
@@ -149,12 +150,12 @@ impl MotionState {
         self.switch()?.next.as_deref()
     }
 
-    /// The way into a stream that is planned.
+    /// The way into a stream that is being planned.
     pub fn stream_entry(&self) -> Option<&StreamEntryPlan> {
         self.switch()?.stream.as_deref()
     }
 
-    /// Changes the switch. A figure that stands or moves has the activity that results.
+    /// Changes the switch. A figure that stands or moves gets the activity that results.
     fn change<T>(&mut self, change: impl FnOnce(&mut Switch) -> T) -> T {
         let mut switch = match &mut self.activity {
             Activity::Hold | Activity::Track => Switch::default(),
@@ -183,10 +184,10 @@ impl MotionState {
 
     // ── the motion ──
 
-    /// Replaces the motion as a whole. What was switched to, and getting up, ends.
+    /// Replaces the motion as a whole. Any switch, and getting up, ends.
     pub fn follow(&mut self, source: MotionSource) {
         match (&self.source, &source) {
-            // What is held is the end of a motion, and targets of a stream are one motion.
+            // A held posture is the end of a motion, and targets of a stream are one motion.
             (_, MotionSource::Hold(_)) | (MotionSource::External(_), MotionSource::External(_)) => {
             }
             _ => self.following = Following::default(),
@@ -196,7 +197,7 @@ impl MotionState {
         self.change(|s| *s = Switch::default());
     }
 
-    /// A clip is to begin next.
+    /// Queues a clip to begin next.
     pub fn queue(&mut self, next: QueuedClip) {
         self.change(|s| {
             s.next = Some(Box::new(next));
@@ -204,7 +205,7 @@ impl MotionState {
         });
     }
 
-    /// The way into a stream is planned: that is what is to begin next.
+    /// Plans the way into a stream, which begins next.
     pub fn plan_stream_entry(&mut self, entry: StreamEntryPlan) {
         self.change(|s| {
             s.next = None;
@@ -212,12 +213,12 @@ impl MotionState {
         });
     }
 
-    /// Changes the way into a stream that is planned.
+    /// Changes the way into a stream that is being planned.
     pub fn update_stream_entry(&mut self, update: impl FnOnce(&mut StreamEntryPlan)) {
         self.change(|s| s.stream.as_deref_mut().map(update));
     }
 
-    /// Takes the way into a stream that is planned, to follow it or to forget it.
+    /// Takes the way into a stream that is being planned, to follow it or to forget it.
     pub fn take_stream_entry(&mut self) -> Option<StreamEntryPlan> {
         self.change(|s| s.stream.take()).map(|entry| *entry)
     }
@@ -232,24 +233,24 @@ impl MotionState {
         self.change(|s| s.next.take()).map(|next| *next)
     }
 
-    /// An exit from the motion is planned; without one the motion goes on.
+    /// Plans an exit from the motion; with `None` the motion continues.
     pub fn plan_exit(&mut self, exit: Option<ExitPlan>) {
         self.change(|s| s.exit = exit.map(Box::new));
     }
 
-    /// Takes the exit that is planned, to follow it or to forget it.
+    /// Takes the exit that is being planned, to follow it or to forget it.
     pub fn take_exit(&mut self) -> Option<ExitPlan> {
         self.change(|s| s.exit.take()).map(|exit| *exit)
     }
 
-    /// Goes over to a clip: the switch is done.
+    /// Switches to a clip: the switch is complete.
     pub fn enter(&mut self, clip: MotionSource) {
         self.following = Following::default();
         self.source = clip;
         self.change(|s| s.stops = false);
     }
 
-    /// Goes over to the steps that lead to a stand.
+    /// Switches to the steps that lead to a stand.
     pub fn follow_to_stand(&mut self, steps: MotionSource) {
         self.source = steps;
         self.change(|s| s.stops = true);
@@ -265,7 +266,7 @@ impl MotionState {
         }
     }
 
-    /// Stands again without having got up by itself: its motion goes on.
+    /// Stands again without having got up by itself: its motion continues.
     pub fn rise(&mut self) {
         if self.has_fallen() {
             let switch = self.change(std::mem::take);
@@ -273,7 +274,7 @@ impl MotionState {
         }
     }
 
-    /// Begins to get up: that leads to a stand.
+    /// Begins to get up, which leads to a stand.
     pub fn begin_to_get_up(&mut self) {
         if let Activity::Limp(switch) = &mut self.activity {
             let switch = std::mem::take(switch);
@@ -284,13 +285,13 @@ impl MotionState {
         }
     }
 
-    /// Gives up getting up; another attempt may follow.
+    /// Abandons getting up; another attempt may follow.
     pub fn give_up(&mut self) {
         self.lie_down();
         self.change(|s| s.stops = false);
     }
 
-    /// Lies relaxed again if it was getting up.
+    /// Lies relaxed again, if it was getting up.
     pub fn lie_down(&mut self) {
         if self.gets_up() {
             let switch = self.change(std::mem::take);
@@ -298,7 +299,7 @@ impl MotionState {
         }
     }
 
-    /// Has got up: holds the posture that it has come to. A clip that waits is kept.
+    /// Has got up: holds the posture that it has reached. A queued clip is kept.
     pub fn stand_up(&mut self, posture: Posture) {
         self.source = MotionSource::Hold(posture);
         let switch = self.change(std::mem::take);

@@ -9,29 +9,29 @@ use crate::plan::splice::StopCandidates;
 use serde::{Deserialize, Serialize, Serializer};
 use std::sync::Arc;
 
-/// A way to a stand, with what it asks of the ground.
+/// A way to a stand, with its demand on the ground.
 pub(in crate::figure) type StopWay = Option<(f64, Clip)>;
-/// A way into a clip, and where that puts the clip's origin.
+/// A way into a clip, and the resulting place of the clip's origin.
 pub(in crate::figure) type ClipWay = Option<(TransitionClip, PlanarTransform)>;
 
-/// What the exit from a motion is to lead to.
+/// The goal of an exit from the motion.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct ExitGoal {
-    /// The posture in which the figure is to stand if it hardly moves or does not reach the clip from step to step; at
-    /// ease if not given.
+    /// The posture in which the figure should stand if it hardly moves, or cannot reach the clip by steps; at ease if
+    /// `None`.
     pub posture: Option<Posture>,
-    /// The clip's origin is meant: the figure may not go over to it where it is.
+    /// The clip's origin is fixed: the figure may not start it from its present place.
     pub fixed: bool,
     /// World time before which the clip does not begin, s.
     pub from: f64,
 }
 
-/// How a motion is left, while that is planned.
+/// The exit from a motion, while it is being planned.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(try_from = "ExitProblem")]
 pub(in crate::figure) struct ExitPlan {
     pub(in crate::figure) problem: ExitProblem,
-    /// Over to the clip that waits, best first.
+    /// To the queued clip, best first.
     pub(in crate::figure) over: Vec<PlanTask<ClipWay>>,
     /// To a stand.
     pub(in crate::figure) stops: Vec<PlanTask<StopWay>>,
@@ -39,19 +39,19 @@ pub(in crate::figure) struct ExitPlan {
     pub(in crate::figure) last_resort: Option<PlanTask<Option<Clip>>>,
 }
 
-/// What [`ExitPlan`] is planned from.
+/// The input from which [`ExitPlan`] is planned.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct ExitProblem {
     pub goal: ExitGoal,
-    /// Samples that there were to plan it.
+    /// Number of samples that were available for planning.
     pub lead: usize,
-    /// The ways over to the clip that waits, if there are any.
+    /// The ways to the queued clip, if there are any.
     pub ways: Option<Arc<TransitionCandidates>>,
     /// World time of the first sample of these, s.
     pub known_from: f64,
-    /// The ways to a stand, if the motion is to be ended.
+    /// The ways to a stand, if the motion should end.
     pub ends: Option<Arc<StopCandidates>>,
-    /// When the motion turns from its own way to that one, s.
+    /// Time at which the motion leaves its own course for the exit, s.
     pub due: f64,
     /// World time of the first sample of the way to a stand, and time of the present motion then, s.
     pub begin: f64,
@@ -59,7 +59,7 @@ pub(in crate::figure) struct ExitProblem {
 }
 
 impl ExitPlan {
-    /// Everything that is to be planned, the more urgent first.
+    /// All pending plans, the most urgent first.
     pub fn requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
         let over = self.over.iter().filter_map(|t| t.request());
         let ends = self.stops.iter().filter_map(|t| t.request());
@@ -67,7 +67,7 @@ impl ExitPlan {
         over.chain(ends).chain(last)
     }
 
-    /// True if nothing that decides is still to be worked out.
+    /// Whether everything that the decision needs has been worked out.
     pub fn is_ready(&self) -> bool {
         for way in &self.over {
             match way.result() {
@@ -82,7 +82,7 @@ impl ExitPlan {
                 || self.last_resort.as_ref().is_none_or(PlanTask::is_ready))
     }
 
-    /// True if it may lead over to the clip that waits.
+    /// Whether it may lead to the queued clip.
     pub fn leads_over(&self) -> bool {
         !self.over.is_empty()
     }
@@ -102,7 +102,7 @@ impl ExitProblem {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     fn is_valid(&self) -> bool {
         let times = [
             self.goal.from,
@@ -121,7 +121,7 @@ impl ExitProblem {
 impl TryFrom<ExitProblem> for ExitPlan {
     type Error = &'static str;
 
-    /// Of what was read from a checkpoint.
+    /// Built from a problem that was read from a checkpoint.
     fn try_from(problem: ExitProblem) -> Result<Self, Self::Error> {
         if problem.is_valid() {
             Ok(Self::of(problem))
@@ -148,7 +148,7 @@ impl ExitPlan {
                 problem,
             };
         };
-        // Ends are left out if there is a way over.
+        // Ends are left out if there is a way to the clip.
         let end = |k| {
             let (ends, ways) = (Arc::clone(ends), ways.cloned());
             PlanTask::new(move || {

@@ -1,34 +1,34 @@
-//! In which way a figure follows its motion, and what help that has taken: told in its status and its frames.
+//! The way in which a figure follows its motion, and the help that it took: reported in its status and its frames.
 
 use serde::{Deserialize, Serialize};
 
-/// In which way a figure follows its motion in a tick.
+/// The way in which a figure follows its motion in a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum FollowMode {
-    /// There is no motion to follow: it holds a posture by itself, lies, or gets up.
+    /// There is no motion to follow: the figure holds a posture by itself, lies, or gets up.
     #[default]
     Nothing,
     /// By its own strength, with balance and steps.
     Tracked,
-    /// As it was rehearsed, by strength alone. The hold that leads back to the path of the rehearsal may act.
+    /// As rehearsed, by strength alone. The hold that leads back to the path of the rehearsal may act.
     Rehearsed,
-    /// With help: it acts in this tick, or is part of the rehearsal.
+    /// With help: help acts in this tick, or is part of the rehearsal.
     Helped,
 }
 
-/// How a figure follows its motion. Sums are those since the motion began; they stay until the next one begins.
+/// How a figure follows its motion. Sums run from the beginning of the motion, and stay until the next one begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Following {
-    /// In which way, in the last tick.
+    /// The mode of the last tick.
     pub mode: FollowMode,
-    /// Impulse of the help, N·s: the norm of its force over time.
+    /// Impulse of the help, N·s: the norm of its force, integrated over time.
     pub impulse: f64,
-    /// Weight of the body over the time in which there was something to follow, N·s.
+    /// Weight of the body, integrated over the time in which there was a motion to follow, N·s.
     pub weight_time: f64,
 }
 
 impl Following {
-    /// Share of the help in weight × time; 0 before the first tick.
+    /// Help as a share of weight × time; 0 before the first tick.
     pub fn help_share(&self) -> f64 {
         if self.weight_time > 0.0 {
             self.impulse / self.weight_time
@@ -46,7 +46,7 @@ impl Following {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let sums = [self.impulse, self.weight_time];
         sums.iter().all(|x| x.is_finite() && *x >= 0.0)

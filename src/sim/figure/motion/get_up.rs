@@ -1,8 +1,8 @@
 //! Getting up: a figure that lies where its motion lay down gets up when the motion does.
 //!
-//! A recorded way of getting up cannot be repeated as it is. It was made by another body, it leans on hands whose skin
-//! was not recorded, and often it leaps. So the motion decides *when*. *How* is planned for the figure
-//! ([`crate::get_up`]), at the pace at which it can follow.
+//! A recording of getting up cannot be repeated as it is. Another body made it, it leans on hands whose skin was not
+//! recorded, and it often leaps. So the motion decides *when*. *How* is planned for the figure ([`crate::get_up`]), at
+//! a pace that it can follow.
 
 use crate::body::topology::SegmentId;
 use crate::body::{Body, Posture};
@@ -25,30 +25,30 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct GetUp {
     motion: GetUpMotion,
-    /// The commanded motion has lain down since the figure fell.
+    /// Whether the commanded motion has lain down since the figure fell.
     lay: bool,
-    /// Attempts that are left once the commanded motion gets up.
+    /// Attempts left once the commanded motion gets up.
     attempts: u32,
-    /// The last tick's motion was not the commanded one.
+    /// Whether the last tick's motion was the figure's own, not the commanded one.
     own: bool,
-    /// How long the motion has hardly gone on, s.
+    /// How long the motion has hardly progressed, s.
     stalled: f64,
-    /// Distance of the centre of mass from the motion's over the floor, m.
+    /// Horizontal distance between the centre of mass and the motion's, m.
     off: f64,
 }
 
-/// What a fallen figure is to do next.
+/// The next action of a fallen figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::figure) enum GetUpDecision {
-    /// Go on as it does.
+    /// Continue as before.
     Continue,
     /// Begin to get up.
     Begin,
-    /// Give up: it does not get on.
+    /// Abandon it: there is no progress.
     GiveUp,
 }
 
-/// How much two rotations differ but for a turn about the vertical, rad.
+/// Difference of two rotations, leaving out turns about the vertical, rad.
 fn tilt(a: Quat, b: Quat) -> f64 {
     let [x, y, z, w] = (a * b.conjugate()).to_xyzw();
     2.0 * trig::atan2((x * x + y * y).sqrt(), (z * z + w * w).sqrt())
@@ -61,7 +61,7 @@ fn unlike(a: &Posture, b: &Posture) -> f64 {
 }
 
 impl GetUp {
-    /// Of a figure with this body.
+    /// For a figure with this body.
     pub fn new(body: &Body) -> Self {
         Self {
             motion: GetUpMotion::new(body),
@@ -73,7 +73,7 @@ impl GetUp {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         self.motion.is_valid()
     }
@@ -84,7 +84,7 @@ impl GetUp {
         self.attempts = 0;
     }
 
-    /// True once the motion is over.
+    /// Whether the motion is over.
     pub fn is_over(&self) -> bool {
         self.motion.is_over()
     }
@@ -94,7 +94,7 @@ impl GetUp {
         self.motion.stage()
     }
 
-    /// How the body is meant to touch the floor.
+    /// How the body should touch the floor.
     pub fn on_floor<'a>(&'a self, heights: &'a [f64; MAX_CONTACTS]) -> OnFloor<'a> {
         OnFloor {
             heights,
@@ -104,8 +104,8 @@ impl GetUp {
         }
     }
 
-    /// Decides about a fallen figure in the state of `terms`, whose motion had its centre of mass at `height` (share of
-    /// the standing one); `gets_up` if it does so already.
+    /// Decides about a fallen figure in the state of `terms`, whose motion has its centre of mass at `height` (share of
+    /// the standing one). `gets_up`: whether the figure is getting up already.
     pub fn decide(
         &mut self,
         solver: &GetUpSolver,
@@ -135,7 +135,7 @@ impl GetUp {
         GetUpDecision::Continue
     }
 
-    /// Desired motion of a tick of `dt` seconds while it gets up: at the pace at which the figure, in the state of
+    /// Desired motion of a tick of `dt` seconds while it gets up, at the pace at which the figure, in the state of
     /// `terms`, follows the last tick's `target`.
     pub fn targets(
         &mut self,
@@ -166,8 +166,8 @@ impl GetUp {
         self.motion.advance(body, solver, terms, dt, pace)
     }
 
-    /// Heights of the contact points that the motion means to touch the floor, with the target's kinematics in `tasks`;
-    /// infinite for the others. `off`: from the centre of mass to the desired one, m.
+    /// Heights of the contact points that should touch the floor in the motion, with the target's kinematics in
+    /// `tasks`; infinite for the others. `off`: from the centre of mass to the desired one, m.
     pub fn plan_contacts(
         &mut self,
         body: &Body,
@@ -192,7 +192,7 @@ impl GetUp {
     }
 }
 
-/// True if it lies, and lies still.
+/// Whether it lies, and lies still.
 fn lies(terms: &Terms) -> bool {
     let up = terms.state.posture.root_rotation.rotate(Vec3::Z);
     up.z.abs() < LEVEL && terms.com_velocity.norm() < STILL_SPEED

@@ -1,26 +1,26 @@
 //! Plans that take too long for a tick. A figure states a problem in one tick and takes the result in a later one that
 //! is fixed beforehand.
 //!
-//! Nothing here runs on its own. The caller that steps the world may solve the problems meanwhile, on threads of its
-//! own ([`World::plan_requests`](crate::world::World::plan_requests)). A problem that is not solved by then is
-//! solved by the tick that takes it ([`Planning::InTick`]), or planned anew for a later tick ([`Planning::Aside`]).
+//! Nothing here runs on its own. The caller that steps the world may solve the problems in the meantime, on its own
+//! threads ([`World::plan_requests`](crate::world::World::plan_requests)). A problem that is not solved by then is
+//! solved by the tick that takes it ([`Planning::InTick`]), or planned again for a later tick ([`Planning::Aside`]).
 
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock, Weak};
 
-/// Plans that a tick needed and that were not there.
+/// Plans that a tick needed and that were missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LatePlans {
-    /// How the motion is left.
+    /// The exit from the motion.
     pub exit: bool,
-    /// The way into the clip that waits.
+    /// The way into the queued clip.
     pub entry: bool,
 }
 
 impl LatePlans {
-    /// How many.
+    /// Number of missing plans.
     pub fn count(self) -> usize {
         usize::from(self.exit) + usize::from(self.entry)
     }
@@ -28,11 +28,11 @@ impl LatePlans {
 
 /// A problem and, once it is solved, its result.
 struct SharedTask<T> {
-    /// Depends on nothing but what it was made of, so that it may be done twice.
+    /// Depends only on its captured values, so that it may run twice.
     work: Box<dyn Fn() -> T + Send + Sync>,
     /// `None` if the work panicked: the tick that takes it sees that panic.
     result: OnceLock<Option<T>>,
-    /// A thread will solve it.
+    /// Whether a thread has promised to solve it.
     accepted: AtomicBool,
 }
 
@@ -45,7 +45,7 @@ impl<T: Send + Sync> PlanProblem for SharedTask<T> {
     fn solve(&self) {
         if self.result.get().is_none() {
             let out = catch_unwind(AssertUnwindSafe(&self.work)).ok();
-            // If it is there by now, it is the same.
+            // A result that is there by now is the same.
             let _ = self.result.set(out);
         }
     }
@@ -55,7 +55,7 @@ impl<T: Send + Sync> PlanProblem for SharedTask<T> {
     }
 }
 
-/// A plan that a figure has asked for. Dropped, it is not wanted any more.
+/// A plan that a figure has asked for. Dropping it cancels the request.
 pub(in crate::figure) struct PlanTask<T>(Arc<SharedTask<T>>);
 
 impl<T> Clone for PlanTask<T> {
@@ -80,7 +80,7 @@ impl<T: Clone + Send + Sync + 'static> PlanTask<T> {
         }))
     }
 
-    /// True if [`Self::take`] has nothing to work out.
+    /// Whether [`Self::take`] has nothing left to work out.
     pub fn is_ready(&self) -> bool {
         self.0.result.get().is_some()
     }
@@ -90,12 +90,12 @@ impl<T: Clone + Send + Sync + 'static> PlanTask<T> {
         self.0.result.get()?.as_ref()
     }
 
-    /// Works the result out, unless it is there.
+    /// Works out the result if it is missing.
     pub fn settle(&self) {
         self.0.solve();
     }
 
-    /// The result, worked out now if it is not there. Never waits for another thread that is at it.
+    /// The result, worked out now if it is missing. Never waits for another thread that is working on it.
     pub fn take(self) -> T {
         match self.result() {
             Some(out) => out.clone(),
@@ -122,14 +122,14 @@ impl std::fmt::Debug for PlanRequest {
 }
 
 impl PlanRequest {
-    /// Accepts it: it is not requested again.
+    /// Accepts the request, so that it is not made again.
     pub fn accept(&self) {
         if let Some(problem) = self.0.upgrade() {
             problem.accept();
         }
     }
 
-    /// Solves it, on any thread, unless its figure does not want it any more.
+    /// Solves it, on any thread, unless its figure no longer wants it.
     pub fn solve(&self) {
         if let Some(problem) = self.0.upgrade() {
             problem.solve();

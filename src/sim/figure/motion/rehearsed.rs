@@ -1,14 +1,14 @@
 //! A motion that was rehearsed (`sim::rehearsal`), and how a figure plays it.
 //!
-//! A rehearsed motion is a recording, and by windows of a tenth of a second what has to be added to its joints so that
-//! stiff motors of human strength do it in our own simulator. Played from the state it was rehearsed from it runs as
-//! it did there. A weak spring, the *hold*, leads the pelvis back to the path that it took in the rehearsal; on that
-//! path it gives nothing. Where strength alone did not do, the rehearsal has found impulses on the pelvis: the *help*,
-//! which acts as it was found. Both are bounded, and reported like any assist.
+//! A rehearsed motion is a recording together with joint offsets for windows of a tenth of a second, which make stiff
+//! motors of human strength perform it in our own simulator. Played from the state in which the rehearsal started, it
+//! runs exactly as it did there. A weak spring, the *hold*, leads the pelvis back to its path in the rehearsal; on that
+//! path its force is zero. If strength alone was not enough, the rehearsal found impulses on the pelvis, the *help*,
+//! which are applied as found. Both are bounded, and reported like any assist.
 //!
-//! Within such a motion no step is planned and no balance is watched: it says itself when what touches. It is over at
-//! its end, and when the figure is farther from the path than the hold can mend; then the figure stands, recovers or
-//! falls as after any other motion.
+//! During such a motion no step is planned and no balance is watched: the motion itself states which parts touch, and
+//! when. It is over at its end, or when the figure is farther from the path than the hold can correct. Then the figure
+//! stands, recovers or falls as after any other motion.
 
 use crate::body::topology::DOF_COUNT;
 use crate::body::{NV, State};
@@ -21,12 +21,12 @@ use crate::tick_context::TickContext;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// How near to its beginning a figure has to be to begin a rehearsed motion: it stands as that does, as steadily as a
-/// body stands.
+/// How near a figure has to be to the beginning of a rehearsed motion to start it: it must stand in the same posture,
+/// as steadily as a body stands.
 struct StartTolerance {
     /// Turn of the pelvis, rad.
     turn: f64,
-    /// Its place, m.
+    /// Distance of the pelvis, m.
     place: f64,
     /// Root of the sum of the squared errors of all joints, rad.
     joints: f64,
@@ -45,7 +45,7 @@ const NEAR: StartTolerance = StartTolerance {
 /// Longest rehearsed motion, ticks: ten minutes at 60 a second.
 pub const MAX_TICKS: usize = 36_000;
 
-/// The world that a motion is rehearsed in. It is played in no other.
+/// The world that a motion is rehearsed in. It is not played in any other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RehearsalWorld {
     /// Length of a tick, s.
@@ -57,7 +57,7 @@ pub struct RehearsalWorld {
 }
 
 impl RehearsalWorld {
-    /// The stage that a tick is on.
+    /// The world of a tick.
     pub fn of(world: &TickContext) -> Self {
         Self {
             dt: world.dt,
@@ -67,24 +67,24 @@ impl RehearsalWorld {
     }
 }
 
-/// A recording with what makes it possible. Immutable.
+/// A recording with the data that make it playable. Immutable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RehearsedMotion {
     /// The world that it is for.
     pub stage: RehearsalWorld,
     /// How motors follow it.
     pub motors: MotorLaw,
-    /// What leads back to its path; with largest force and moment 0 nothing does.
+    /// The spring that leads back to its path; with largest force and moment 0 there is none.
     pub hold: PelvisHold,
     /// Ticks before the first frame of the recording.
     pub lead: usize,
-    /// Ticks of a window.
+    /// Length of a window, ticks.
     pub window: usize,
     /// The recording with the ways in and out at the start of each tick, and at the end of the last one.
     pub desired: Vec<Target>,
-    /// What is added to the desired joints, rad, by window.
+    /// Offsets of the desired joints, rad, by window.
     pub offsets: Vec<JointOffset>,
-    /// The pelvis, by substep.
+    /// The path of the pelvis, by substep.
     pub path: Vec<RootStep>,
 }
 
@@ -110,7 +110,7 @@ impl JointOffset {
 }
 
 impl RehearsedMotion {
-    /// Ticks that it takes.
+    /// Number of ticks.
     pub fn ticks(&self) -> usize {
         self.desired.len().saturating_sub(1)
     }
@@ -130,7 +130,7 @@ impl RehearsedMotion {
         self.desired[0].state()
     }
 
-    /// True if its parts fit each other and can be played: what a rehearsal makes always does.
+    /// Whether its parts fit each other and can be played. The result of a rehearsal always does.
     pub fn is_valid(&self) -> bool {
         let Self {
             stage,
@@ -178,9 +178,9 @@ pub struct RehearsedPlayback {
     pub motion: Arc<RehearsedMotion>,
     /// World time at which its first tick begins, s.
     pub start: f64,
-    /// Where it lies in the world.
+    /// Its place in the world.
     pub origin: PlanarTransform,
-    /// Help is part of it.
+    /// Whether it contains help.
     helped: bool,
 }
 
@@ -195,19 +195,19 @@ impl RehearsedPlayback {
         }
     }
 
-    /// The same at another place.
+    /// The same motion at another place.
     #[must_use]
     pub fn at(mut self, origin: PlanarTransform) -> Self {
         self.origin = origin;
         self
     }
 
-    /// True if help is part of it.
+    /// Whether it contains help.
     pub fn is_helped(&self) -> bool {
         self.helped
     }
 
-    /// Ticks since its start that world time `t` is nearest to.
+    /// World time `t` as the nearest number of ticks since its start.
     fn ticks_at(&self, t: f64) -> f64 {
         ((t - self.start) / self.motion.stage.dt).round()
     }
@@ -217,7 +217,7 @@ impl RehearsedPlayback {
         (self.ticks_at(t).max(0.0) as usize).min(self.motion.ticks() - 1)
     }
 
-    /// True if no tick of it begins at world time `t`.
+    /// Whether no tick of it begins at world time `t`.
     pub fn is_over(&self, t: f64) -> bool {
         self.ticks_at(t) >= self.motion.ticks() as f64
     }
@@ -232,7 +232,7 @@ impl RehearsedPlayback {
         target
     }
 
-    /// What is added to the joints in the tick that begins at world time `t`, s.
+    /// The joint offsets of the tick that begins at world time `t`, s.
     pub fn offset(&self, t: f64) -> &JointOffset {
         &self.motion.offsets[self.tick(t) / self.motion.window]
     }
@@ -247,14 +247,14 @@ impl RehearsedPlayback {
         }
     }
 
-    /// What helps the pelvis in the tick that begins at world time `t`, s, if anything can.
+    /// The help for the pelvis in the tick that begins at world time `t`, s, if there is any.
     pub(in crate::figure) fn help(&self, t: f64) -> Option<PelvisHelp<'_>> {
         let (hold, path) = (self.motion.hold, self.path(t));
         let acts = hold.most.iter().any(|m| *m > 0.0) || path.steps.iter().any(RootStep::is_helped);
         acts.then_some(PelvisHelp::Rehearsed(hold, path))
     }
 
-    /// True if a figure in `state` is where it begins: what is left the hold can mend.
+    /// Whether a figure in `state` can start it: the hold can correct the remaining difference.
     pub(in crate::figure) fn begins_at(&self, state: &State) -> bool {
         let first = self.sample(self.start);
         let off = state.posture.difference(&first.posture);
@@ -266,7 +266,7 @@ impl RehearsedPlayback {
             && length(&rate) < NEAR.speed
     }
 
-    /// True if a figure in `state` at the start of the tick at `t` can go on with it in this world.
+    /// Whether a figure in `state` at the start of the tick at `t` can continue with it in this world.
     pub(in crate::figure) fn goes_on(&self, t: f64, state: &State, world: &TickContext) -> bool {
         let path = self.path(t).step(0).position;
         !self.is_over(t)

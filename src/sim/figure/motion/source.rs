@@ -1,4 +1,4 @@
-//! Where a figure's desired motion comes from.
+//! The source of a figure's desired motion.
 
 use crate::body::{Body, Posture};
 use crate::figure::motion::plan_task::{PlanRequest, PlanTask};
@@ -23,28 +23,29 @@ pub struct ClipPlayback {
     pub start: f64,
     /// Clip seconds per world second, 0.1…10.
     pub speed: f64,
-    /// Start over at the end, with the displacement of the root carried on.
+    /// Starts over at the end, with the displacement of the root carried on.
     pub looped: bool,
-    /// Where the clip's origin lies in the world.
+    /// Place of the clip's origin in the world.
     pub origin: PlanarTransform,
-    /// How the figure came into it, if that was out of another motion without standing in between, or from a stand that
-    /// is not like its beginning.
+    /// How the figure came into it, if it came from another motion without standing in between, or from a stand unlike
+    /// its beginning.
     #[serde(with = "crate::saved::definition::option")]
     pub way_in: Option<Arc<TransitionClip>>,
-    /// What a figure that stands where the clip begins does instead: a rehearsal of it, in the same coordinates.
+    /// A rehearsal of this clip, played in its place if the figure stands where the clip starts. Same coordinates as
+    /// the clip.
     #[serde(with = "crate::saved::definition::option")]
     pub rehearsed: Option<Arc<RehearsedMotion>>,
-    /// Most help while it is being lost, if the figure's own is less: force over the weight, 0…2.
+    /// Largest help while the motion is being lost, if the figure's own limit is lower: force over the weight, 0…2.
     pub max_help: f64,
 }
 
-/// A stream that is prepared while it comes.
+/// A stream that is prepared while it arrives.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct LivePlayback {
     /// The stream.
     pub motion: StreamPlan,
-    /// Time of the stream minus world time, s. The caller that feeds the stream keeps it so that the window lies behind
-    /// what has come.
+    /// Time of the stream minus world time, s. The caller that feeds the stream sets it so that the window lies within
+    /// the part that has arrived.
     pub offset: f64,
 }
 
@@ -63,11 +64,11 @@ pub enum MotionSource {
     Hold(Posture),
     /// Play a clip.
     Clip(ClipPlayback),
-    /// Whatever the caller sets before each step (live streams).
+    /// Targets that the caller sets before each step (live streams).
     External(Box<TargetPair>),
     /// A stream with a window: its feet are locked, its balance is kept, and its steps follow events.
     Live(Box<LivePlayback>),
-    /// A motion that was rehearsed, with motors alone.
+    /// A rehearsed motion, with motors alone.
     Rehearsed(RehearsedPlayback),
 }
 
@@ -86,7 +87,7 @@ impl ClipPlayback {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     fn is_valid(&self) -> bool {
         self.start.is_finite()
             && self.origin.is_finite()
@@ -137,20 +138,20 @@ pub(in crate::figure) struct QueuedClip {
     pub plan: StepPlan,
     /// Clip time at which it begins, s.
     pub first: f64,
-    /// World time before which it does not, s.
+    /// World time before which it does not begin, s.
     pub from: f64,
-    /// Where its feet stand then, in clip coordinates: the middle between them, and their heading. `None`: the caller
-    /// fixed its origin.
+    /// Stance of its feet at that time, in clip coordinates: the middle between them, and their heading. `None`: the
+    /// caller fixed its origin.
     pub stance: Option<(Vec3, f64)>,
-    /// When the figure should stand, s.
+    /// Time at which the figure should stand, s.
     pub due: f64,
-    /// It begins standing, where its figure is.
+    /// Whether it begins standing, at the place of its figure.
     pub led: bool,
-    /// The way from that stand into the clip, if it does not begin so.
+    /// The way from that stand into the clip, if the clip does not begin with it.
     pub entry: Option<ClipEntry>,
 }
 
-/// The way from a stand into a clip, while it is planned.
+/// The way from a stand into a clip, while it is being planned.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(from = "ClipEntryProblem")]
 pub(in crate::figure) struct ClipEntry {
@@ -158,7 +159,7 @@ pub(in crate::figure) struct ClipEntry {
     pub task: PlanTask<Option<TransitionClip>>,
 }
 
-/// What [`ClipEntry`] is planned from.
+/// The input from which [`ClipEntry`] is planned.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct ClipEntryProblem {
     #[serde(with = "crate::saved::definition")]
@@ -170,12 +171,12 @@ pub(in crate::figure) struct ClipEntryProblem {
 }
 
 impl ClipEntryProblem {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     fn is_valid(&self) -> bool {
         self.next.is_valid() && self.first.is_finite()
     }
 
-    /// True if the clip begins as the figure stands: there is nothing to plan.
+    /// Whether the clip begins as the figure stands, so that there is nothing to plan.
     pub fn begins(&self) -> bool {
         self.next.begins_as(&self.body, self.first, &self.stand)
     }
@@ -198,7 +199,7 @@ impl Serialize for ClipEntry {
 }
 
 impl QueuedClip {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let times = [self.first, self.from, self.due];
         self.play.is_valid()
@@ -207,7 +208,7 @@ impl QueuedClip {
             && self.entry.as_ref().is_none_or(|e| e.problem.is_valid())
     }
 
-    /// Asks for the way into the clip, if it is to be planned.
+    /// Requests the way into the clip, if it has to be planned.
     pub fn request(&self) -> Option<PlanRequest> {
         self.entry.as_ref()?.task.request()
     }
@@ -223,7 +224,7 @@ impl QueuedClip {
 }
 
 impl MotionSource {
-    /// False if it cannot be what was written into a checkpoint. Whether a stream can be shows when it is completed.
+    /// Whether this value is one that a checkpoint could hold. A stream is checked later, when it is completed.
     pub(in crate::figure) fn is_valid(&self) -> bool {
         match self {
             Self::Hold(posture) => posture.is_valid(),
@@ -241,7 +242,7 @@ impl MotionSource {
         self.pair(t, t + dt)
     }
 
-    /// Desired motion at the world times `now` and `next`, s. What the caller sets is the same at all times.
+    /// Desired motion at the world times `now` and `next`, s. Targets set by the caller are the same at all times.
     pub fn pair(&self, now: f64, next: f64) -> TargetPair {
         match self {
             Self::Hold(posture) => {

@@ -4,7 +4,7 @@ use crate::figure::motion::plan_task::{PlanRequest, PlanTask};
 use crate::plan::motion_transition::{StreamBeginning, StreamEntry};
 use serde::{Deserialize, Serialize, Serializer};
 
-/// The way into a stream, while it is planned.
+/// The way into a stream, while it is being planned.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(from = "StreamEntryProblem")]
 pub(in crate::figure) struct StreamEntryPlan {
@@ -12,13 +12,13 @@ pub(in crate::figure) struct StreamEntryPlan {
     pub task: PlanTask<Option<StreamEntry>>,
 }
 
-/// What it is planned from.
+/// The input from which it is planned.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct StreamEntryProblem {
     pub beginning: StreamBeginning,
     /// World time at which it is taken, s.
     pub due: f64,
-    /// It can be taken.
+    /// Whether it can be taken.
     pub settled: bool,
 }
 
@@ -39,12 +39,12 @@ impl Serialize for StreamEntryPlan {
 }
 
 impl StreamEntryPlan {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         self.problem.due.is_finite() && self.problem.beginning.is_valid()
     }
 
-    /// Asks for the way.
+    /// Requests the way.
     pub fn request(&self) -> Option<PlanRequest> {
         self.task.request()
     }

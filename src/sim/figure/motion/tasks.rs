@@ -1,4 +1,4 @@
-//! Where the desired motion puts the centre of mass, the hands and the feet, with the present loads.
+//! Places of the centre of mass, the hands and the feet in the desired motion, with the present loads.
 
 use crate::body::topology::{L_FOOT, L_HAND, R_FOOT, R_HAND};
 use crate::body::{Body, Links, NV, SegmentId, State};
@@ -44,13 +44,13 @@ impl TaskPoints {
     }
 }
 
-/// Where a load is held: the middle of the hand.
+/// The point at which a load is held: the middle of the hand.
 pub fn grip(body: &Body, hand: SegmentId) -> Vec3 {
     body.segment(hand).tip * 0.5
 }
 
-/// Point of a segment that a constraint holds unless it names one, segment frame, m: the middle of a hand, else the
-/// centre of mass.
+/// Point of a segment that a constraint holds unless it names one, segment frame, m: the middle of a hand, otherwise
+/// the centre of mass.
 pub fn held_point(body: &Body, segment: SegmentId) -> Vec3 {
     if segment == L_HAND || segment == R_HAND {
         grip(body, segment)
@@ -90,7 +90,7 @@ pub struct TaskWorkspace {
 }
 
 impl TaskWorkspace {
-    /// Where the desired motion has a point (segment frame, m) at the start of the tick, world, m; after
+    /// Place of a point (segment frame, m) in the desired motion at the start of the tick, world, m; call after
     /// [`points`](Self::points).
     pub fn desired_point(&self, target: &TargetPair, s: SegmentId, point: Vec3) -> Vec3 {
         let root = target.now.posture.root_position;

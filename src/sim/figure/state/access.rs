@@ -1,4 +1,4 @@
-//! A figure from outside: what it is, what it does, and changes between ticks.
+//! The outside view of a figure: its properties, its activity, and changes between ticks.
 
 use crate::body::topology::{DOF_COUNT, NV};
 use crate::body::{Body, Links, SegmentId, State};
@@ -29,7 +29,7 @@ use crate::track::{PlacedPlan, StepPlan, StepTracker};
 use std::sync::Arc;
 
 impl Figure {
-    /// Name, for people.
+    /// Display name.
     pub fn name(&self) -> &str {
         &self.setup.name
     }
@@ -37,7 +37,7 @@ impl Figure {
     pub fn body(&self) -> &Arc<Body> {
         &self.setup.body
     }
-    /// What it was made of, with later changes.
+    /// Its setup, with later changes.
     pub fn setup(&self) -> &FigureSetup {
         &self.setup
     }
@@ -73,15 +73,15 @@ impl Figure {
     pub fn shape(&self) -> &BodyShape {
         &self.constants.shape
     }
-    /// True while it is frozen after trouble.
+    /// Whether it is frozen after an error.
     pub(crate) fn is_frozen(&self) -> bool {
         self.physical.frozen
     }
-    /// Where its segments are in the present substep.
+    /// Poses of its segments in the present substep.
     pub(crate) fn substep_dynamics(&self) -> &Dynamics {
         &self.workspace.steppers.torque.dynamics
     }
-    /// Where its segments were at the start of the tick.
+    /// Poses of its segments at the start of the tick.
     pub(crate) fn placement(&self) -> &Placement {
         &self.scratch.placement
     }
@@ -89,7 +89,7 @@ impl Figure {
     pub fn events(&self) -> &[FigureEvent] {
         self.outcome.watcher.events()
     }
-    /// Problems that are to be planned and that no thread has accepted.
+    /// Problems to be planned that no thread has accepted.
     pub(crate) fn plan_requests(&self) -> impl Iterator<Item = PlanRequest> + '_ {
         let exit = self.motion.exit().into_iter().flat_map(ExitPlan::requests);
         let entry = self.motion.next().and_then(QueuedClip::request);
@@ -97,11 +97,11 @@ impl Figure {
         exit.chain(entry)
             .chain(stream.and_then(StreamEntryPlan::request))
     }
-    /// Plans that the last tick needed and that were not there.
+    /// Plans that the last tick needed and that were missing.
     pub fn late_plans(&self) -> LatePlans {
         self.outcome.late
     }
-    /// The next tick does without these plans, as if they were late: a replay repeats what threads have decided.
+    /// Makes the next tick do without these plans, as if they were late: a replay repeats the decisions of threads.
     pub(crate) fn delay_plans(&mut self, late: LatePlans) {
         self.outcome.told_late = late;
     }
@@ -109,20 +109,20 @@ impl Figure {
     pub fn rising(&self) -> Option<&'static str> {
         self.motion.gets_up().then(|| self.desired.get_up.stage())
     }
-    /// True once it lies on the ground, until it has risen again.
+    /// Whether it has fallen and not yet stood up again.
     pub fn is_fallen(&self) -> bool {
         self.motion.has_fallen()
     }
-    /// Where the desired motion comes from.
+    /// The source of the desired motion.
     pub fn drive(&self) -> &MotionSource {
         self.motion.source()
     }
-    /// How it follows its motion, as of the last tick.
+    /// How it followed its motion in the last tick.
     pub fn following(&self) -> &Following {
         self.motion.following()
     }
-    /// Replaces the source of the desired motion from the next tick on, whatever the figure does. What waits is
-    /// forgotten.
+    /// Replaces the source of the desired motion from the next tick on, whatever the present activity. Queued motions
+    /// are forgotten.
     pub fn set_drive(&mut self, drive: MotionSource) {
         self.desired.tracker.follow(match &drive {
             MotionSource::Clip(play) => {
@@ -142,7 +142,8 @@ impl Figure {
         self.desired.get_up.reset();
         self.motion.follow(drive);
     }
-    /// The stream that drives it with a window, if one does: to feed it. One that is being stopped has ended.
+    /// The windowed stream that drives it, if there is one, so that the caller can feed it. A stream that is being
+    /// stopped counts as ended.
     pub fn stream_mut(&mut self) -> Option<&mut LivePlayback> {
         let stops = self.motion.exit().is_some();
         match self.motion.source_mut() {
@@ -158,25 +159,25 @@ impl Figure {
     pub fn perturbations(&self) -> impl Iterator<Item = &Perturbation> {
         self.surroundings.disturbances.scheduled()
     }
-    /// What segments hold at `time`, s: segment, point (segment frame, m), mass (kg). A load in two hands is there
-    /// twice, with the share of each.
+    /// The loads that segments hold at `time`, s: segment, point (segment frame, m), mass (kg). A load in two hands
+    /// appears twice, with the share of each.
     pub fn held(&self, time: f64) -> impl Iterator<Item = (SegmentId, Vec3, f64)> + '_ {
         self.surroundings.disturbances.held(time)
     }
-    /// What the other hand does for a load, while it holds it.
+    /// The other hand's part in a load, while it holds it.
     pub fn help(&self) -> Option<LoadShare> {
         self.surroundings.disturbances.present_help()
     }
-    /// Lets go of all loads and stops all pushes at the next tick.
+    /// Releases all loads and stops all pushes at the next tick.
     pub fn clear_perturbations(&mut self) {
         self.surroundings.disturbances.clear();
     }
-    /// Schedules a checked perturbation; false if there is no room.
+    /// Schedules a checked perturbation; returns `false` without room for it.
     pub(crate) fn schedule(&mut self, what: Perturbation) -> bool {
         self.surroundings.disturbances.add(what)
     }
     /// Puts the figure into a state and forgets its past; loads stay. A stop or transition that is being planned is
-    /// followed at once, and worked out here if it is not there.
+    /// followed at once, and worked out here if it is missing.
     pub fn reset(&mut self, state: State) {
         self.follow_exit();
         self.physical.state = state;
@@ -189,15 +190,14 @@ impl Figure {
         self.forget();
         self.physical.fatigue = rested(&self.setup.options);
         self.outcome.report.joints.remaining = [[1.0; 2]; DOF_COUNT];
-        // What the last tick said of the centre of mass was of another state. Loads that were taken off go with the
-        // next tick.
+        // The last tick's centre of mass belongs to another state. Loads that were removed go with the next tick.
         let links = self.surroundings.disturbances.loaded(&self.setup.body);
         (
             self.outcome.report.balance.com,
             self.outcome.report.balance.com_velocity,
         ) = TaskWorkspace::default().center_of_mass(&links, &state);
     }
-    /// Forgets what passes from tick to tick but state, motion and fatigue.
+    /// Forgets everything that passes from tick to tick except state, motion and fatigue.
     pub(in crate::figure) fn forget(&mut self) {
         self.desired.get_up.reset();
         self.desired.tracker.reset();
@@ -221,7 +221,7 @@ impl Figure {
         }
         self.setup.strength = scale;
     }
-    /// Changes fatigue and assist. Fatigue that goes on keeps its state; turned off it is forgotten.
+    /// Changes fatigue and assist. Fatigue that stays on keeps its state; when turned off it is forgotten.
     pub fn set_options(&mut self, options: FigureOptions) {
         match (&mut self.physical.fatigue, options.fatigue_time_scale > 0.0) {
             (Some(fatigue), true) => fatigue.time_scale = options.fatigue_time_scale,
@@ -232,7 +232,7 @@ impl Figure {
         }
         self.setup.options = options;
     }
-    /// Constraints from outside, in the order in which they were given; those that have ended are gone.
+    /// Constraints that a client set, in order; those that have ended are gone.
     pub fn constraints(&self) -> &[Constraint] {
         self.desired.constraints.given()
     }
@@ -240,7 +240,7 @@ impl Figure {
     pub(crate) fn set_constraints(&mut self, constraints: &[Constraint], time: f64) {
         self.desired.constraints.replace(constraints, time);
     }
-    /// Takes all constraints off at once, without fading.
+    /// Removes all constraints at once, without fading.
     pub fn clear_constraints(&mut self) {
         self.desired.constraints.forget();
     }

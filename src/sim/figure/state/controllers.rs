@@ -1,4 +1,4 @@
-//! The controllers of a workspace and the modes that belong to them: the one place that knows them by name.
+//! The controllers of a workspace and their modes: the only place that knows them by name.
 
 use crate::control::mode::{MotorsMode, WholeBodyMode};
 use crate::control::{Controller, Mode, Modern, MotorsAlone};
@@ -43,7 +43,7 @@ impl Controllers {
         }
     }
 
-    /// The controller of a kind, to decide.
+    /// The controller of a kind, ready to decide.
     pub fn get_mut(&mut self, kind: ControllerKind) -> &mut dyn Controller {
         match kind {
             ControllerKind::Paper => &mut *self.paper,

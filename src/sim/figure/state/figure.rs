@@ -1,4 +1,4 @@
-//! A figure: everything that passes from tick to tick, and what its stages hand on.
+//! A figure: everything that passes from tick to tick, and the results that its stages pass on.
 
 use crate::figure::constraints::MAX_CONSTRAINTS;
 use crate::figure::events::Watcher;
@@ -22,7 +22,7 @@ pub struct FigureKey(pub u64);
 /// One figure of a world.
 #[derive(Debug)]
 pub struct Figure {
-    /// What it was made of, with later changes.
+    /// Its setup, with later changes.
     pub(in crate::figure) setup: FigureSetup,
     pub(in crate::figure) constants: BodyConstants,
     pub(in crate::figure) physical: PhysicalState,

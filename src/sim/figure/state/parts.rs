@@ -1,8 +1,8 @@
-//! What a figure consists of. [`PhysicalState`], [`MotionState`](crate::figure::motion::activity::MotionState),
-//! [`DesiredMotion`], [`Surroundings`] and [`HandOver`](crate::paper::hand_over::HandOver) are its state: they pass
-//! from tick to tick and decide what comes next, with what controllers and steppers remember
-//! ([`Loan`](crate::figure::state::workspace::Loan)). [`Scratch`] holds what stages hand on; of it, only dynamics and
-//! state at the start of a tick are looked at after it.
+//! The parts of a figure. [`PhysicalState`], [`MotionState`](crate::figure::motion::activity::MotionState),
+//! [`DesiredMotion`], [`Surroundings`] and [`HandOver`](crate::paper::hand_over::HandOver) are its state: together with
+//! the memory of controllers and steppers ([`Loan`](crate::figure::state::workspace::Loan)), they pass from tick to
+//! tick and decide what comes next. [`Scratch`] holds the results that stages pass on; after the tick, only its
+//! dynamics and its state at the start of the tick are read.
 
 use crate::body::angles::{Swings, anatomical_angles, swings};
 use crate::body::topology::DOF_COUNT;
@@ -37,7 +37,7 @@ use crate::track::StepTracker;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// What follows from the body alone.
+/// Values that follow from the body alone.
 #[derive(Debug)]
 pub(in crate::figure) struct BodyConstants {
     /// Strength curves.
@@ -62,14 +62,14 @@ impl BodyConstants {
     }
 }
 
-/// Body and muscles: where they are, and what they can give.
+/// Body and muscles: their state, and the torque that they can give.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct PhysicalState {
     /// Positions and velocities.
     pub state: State,
     /// The last one that was finite.
     pub last_good: State,
-    /// The state was not finite: the figure stays at its last good one.
+    /// Whether the state was not finite: the figure stays at its last good one.
     pub frozen: bool,
     /// Mass properties with the present loads.
     pub links: Links,
@@ -101,7 +101,7 @@ pub(in crate::figure) fn rested(options: &FigureOptions) -> Option<Box<Fatigue>>
     (scale > 0.0).then(|| Box::new(Fatigue::rested(scale)))
 }
 
-/// The desired motion of a tick, and what changes it from what its source says.
+/// The desired motion of a tick, and everything that changes it from its source.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct DesiredMotion {
     /// Desired motion of the tick.
@@ -110,11 +110,11 @@ pub(in crate::figure) struct DesiredMotion {
     pub com: PointTarget,
     /// Steps: contact by events, and footholds.
     pub tracker: Box<StepTracker>,
-    /// What a load changes.
+    /// The effect of loads.
     pub load_compensation: Box<LoadCompensation>,
-    /// What the other hand does for a load.
+    /// The other hand's part in a load.
     pub second_hand: HelpingHand,
-    /// Constraints that clients gave.
+    /// Constraints that clients set.
     pub constraints: Constraints,
     /// Getting up from the floor.
     pub get_up: Box<GetUp>,
@@ -138,33 +138,33 @@ impl DesiredMotion {
     }
 }
 
-/// What acts on the figure from outside, and how it stands on it.
+/// External effects on the figure, and its support.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(in crate::figure) struct Surroundings {
     /// Loads and pushes.
     pub disturbances: Disturbances,
-    /// What it stands on.
+    /// Its support.
     pub support: Support,
     /// What it touches besides the ground.
     pub touches: Touches,
-    /// Whether its balance is lost.
+    /// Watches whether its balance is lost.
     pub balance: BalanceWatch,
-    /// Whether its motion is being lost, and what helps then.
+    /// Decides whether its motion is being lost, and helps then.
     pub help: LiveHelp,
 }
 
-/// Buffers of a tick, and what its stages hand on to each other.
+/// Buffers of a tick, and the results that its stages pass to each other.
 #[derive(Debug)]
 pub(in crate::figure) struct Scratch {
-    /// Where the segments are at the start of the tick.
+    /// Poses of the segments at the start of the tick.
     pub placement: Placement,
     /// Velocity of the centre of mass then, m/s.
     pub com_velocity: Vec3,
     /// Inverse kinematics of getting up.
     pub get_up: Box<GetUpSolver>,
-    /// Heights at which getting up has the contact points, m.
+    /// Heights of the contact points while getting up, m.
     pub floor: Box<[f64; MAX_CONTACTS]>,
-    /// What later stages need of earlier ones.
+    /// Results of earlier stages that later ones need.
     pub results: StageResults,
 }
 
@@ -180,7 +180,7 @@ impl Scratch {
     }
 }
 
-/// What the stages of a tick hand on.
+/// The results that the stages of a tick pass on.
 #[derive(Debug)]
 pub(in crate::figure) struct StageResults {
     /// Swings, anatomical angles, rad, and rates of the joints, rad/s, at the start of the tick.
@@ -191,11 +191,11 @@ pub(in crate::figure) struct StageResults {
     pub available: TorqueRange,
     /// Stretched tissue, where it acts.
     pub tissue: Option<Tissue>,
-    /// What the motors are asked to do.
+    /// The command to the motors.
     pub command: MotorCommand,
-    /// The controller found nothing to ask for: numbers of the desired motion or of the state are out of hand.
+    /// The controller found no command: numbers of the desired motion or of the state are out of range.
     pub undecided: bool,
-    /// LiveHelp towards the desired pose of the pelvis, if it is on.
+    /// Assist towards the desired pose of the pelvis, if it is on.
     pub assist: Option<Assist>,
     /// State at the start of the tick.
     pub before: State,
@@ -222,27 +222,27 @@ impl StageResults {
     }
 }
 
-/// What the last tick showed.
+/// The results of the last tick.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct TickOutcome {
     pub report: TickReport,
-    /// There was a tick.
+    /// Whether there was a tick.
     pub reported: bool,
     /// Events.
     pub watcher: Watcher,
-    /// Plans that it needed and that were not there.
+    /// Plans that it needed and that were missing.
     pub late: LatePlans,
-    /// Plans that the next tick is to do without.
+    /// Plans that the next tick has to do without.
     pub told_late: LatePlans,
 }
 
-/// What the world notes of the figure when it looks for neighbours.
+/// The world's notes on the figure when it looks for neighbours.
 #[derive(Debug)]
 pub(crate) struct Neighbours {
     /// The cluster of figures and obstacles that it is near in this tick.
     pub cluster: usize,
-    /// It has moved in this tick, before those who are moved together.
+    /// Whether it has moved in this tick, ahead of the figures that are moved together.
     pub moved_alone: bool,
-    /// Put where it is since the last tick.
+    /// Whether it was put in its place since the last tick.
     pub is_new: bool,
 }

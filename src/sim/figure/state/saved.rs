@@ -1,6 +1,6 @@
-//! A figure as it is written into a checkpoint, and made again from one.
+//! A figure as it is written into a checkpoint, and restored from one.
 //!
-//! What passes from tick to tick is written. What follows from the body, and buffers, are made anew.
+//! Everything that passes from tick to tick is written. Buffers, and values that follow from the body, are made again.
 
 use crate::body::State;
 use crate::dynamics::Terms;
@@ -16,7 +16,7 @@ use crate::setup::FigureSetup;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// What a figure consists of from tick to tick.
+/// The parts of a figure that pass from tick to tick.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct SavedFigure<'a> {
     pub setup: Cow<'a, FigureSetup>,
@@ -27,14 +27,14 @@ pub(crate) struct SavedFigure<'a> {
     stepping: HandOver,
     memory: Cow<'a, Memory>,
     outcome: Cow<'a, TickOutcome>,
-    /// State at the start of the last tick: commands look at the dynamics of it.
+    /// State at the start of the last tick: commands read its dynamics.
     before: Cow<'a, State>,
-    /// Put where it is since the last tick.
+    /// Whether it was put in its place since the last tick.
     is_new: bool,
 }
 
 impl Figure {
-    /// What passes on to the next tick. Every part is named here, so that none that is added is forgotten.
+    /// Everything that passes on to the next tick. Every part is named here, so that a new part cannot be forgotten.
     pub(crate) fn saved(&self) -> SavedFigure<'_> {
         let Self {
             setup,
@@ -71,7 +71,7 @@ impl Figure {
     /// The figure that [`Self::saved`] described, in a world with this gravity (m/s²). The setup was checked.
     ///
     /// # Errors
-    /// What cannot have been written.
+    /// Fails for values that no checkpoint could hold.
     pub(crate) fn restored(saved: SavedFigure<'_>, gravity: f64) -> Result<Self, &'static str> {
         let SavedFigure {
             setup,

@@ -1,7 +1,7 @@
-//! What a tick computes in: controllers and steppers with their buffers, several hundred kB.
+//! The workspace of a tick: controllers and steppers with their buffers, several hundred kB.
 //!
 //! No figure owns one. The thread that steps a world lends a [`Workspace`] to a figure for a tick, so that the next
-//! figure finds it in the cache. What controllers and steppers remember from tick to tick is a few kB, and stays with
+//! figure finds it in the cache. The memory of controllers and steppers from tick to tick is a few kB, and stays with
 //! the figure ([`Memory`]).
 
 use crate::control::{Controller, ModernMemory};
@@ -17,7 +17,7 @@ use crate::stepper::torque_step::TorqueStepper;
 use serde::{Deserialize, Serialize};
 use std::ops::{Deref, DerefMut};
 
-/// Controllers and steppers, and what they read of the figure whose tick it is.
+/// Controllers and steppers, and their input from the figure whose tick it is.
 #[derive(Debug)]
 pub(crate) struct Workspace {
     /// Dynamics of the state at the start of the tick.
@@ -36,7 +36,7 @@ pub(in crate::figure) struct Steppers {
 }
 
 impl Steppers {
-    /// The result of the tick, which accelerations moved or torques.
+    /// The result of the tick, whether accelerations moved the figure or torques did.
     pub fn result(&self, prescribed: bool) -> StepResult<'_> {
         if prescribed {
             StepResult {
@@ -62,7 +62,7 @@ pub(in crate::figure) struct StepResult<'a> {
 }
 
 impl Default for Workspace {
-    /// Of no figure yet; each that borrows it sets the friction of its ground. Allocates.
+    /// A workspace without a figure. Each figure that borrows it sets the friction of its ground. Allocates.
     fn default() -> Self {
         Self {
             terms: Terms::default(),
@@ -76,12 +76,13 @@ impl Default for Workspace {
     }
 }
 
-/// The place for a workspace: a thread's while none of its figures has it, a figure's during its tick.
+/// The place for a workspace: belongs to a thread while none of its figures has the workspace, and to a figure during
+/// its tick.
 #[derive(Debug, Default)]
 pub(crate) struct WorkspaceSlot(Option<Box<Workspace>>);
 
 impl WorkspaceSlot {
-    /// With a workspace in it, a new one if there was none.
+    /// Fills it with a new workspace if it is empty.
     pub fn fill(&mut self) {
         self.0.get_or_insert_default();
     }
@@ -103,7 +104,7 @@ impl DerefMut for WorkspaceSlot {
     }
 }
 
-/// What controllers and steppers remember of a figure from tick to tick.
+/// The memory that controllers and steppers keep of a figure from tick to tick.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(in crate::figure) struct Memory {
     pub paper: PaperMemory,
@@ -111,14 +112,14 @@ pub(in crate::figure) struct Memory {
     pub steppers: StepperMemory,
 }
 
-/// What the steppers remember.
+/// The memory of the steppers.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct StepperMemory {
     /// Impulse along the bar between two hands, N·s: first guess of the next substep.
     pub bar_impulse: f64,
     /// Its mean force in the last tick, N.
     pub bar_force: Vec3,
-    /// Where the support of prescribed accelerations stands.
+    /// Place of the support of prescribed accelerations.
     pub anchor: Option<SupportAnchor>,
 }
 
@@ -132,8 +133,8 @@ impl Default for StepperMemory {
     }
 }
 
-/// What controllers and steppers remember of a figure, and the workspace that it is lent for a tick. The memory is in
-/// the workspace during a tick, and here between two.
+/// The memory that controllers and steppers keep of a figure, and the workspace that it is lent for a tick. The memory
+/// is in the workspace during a tick, and here between ticks.
 #[derive(Debug, Default)]
 pub(in crate::figure) struct Loan {
     memory: Memory,
@@ -141,7 +142,7 @@ pub(in crate::figure) struct Loan {
 }
 
 impl Loan {
-    /// With what was read from a checkpoint.
+    /// With a memory that was read from a checkpoint.
     pub fn remembering(memory: Memory) -> Self {
         Self {
             memory,
@@ -149,7 +150,7 @@ impl Loan {
         }
     }
 
-    /// What is remembered between two ticks.
+    /// The memory between two ticks.
     pub fn memory(&self) -> &Memory {
         &self.memory
     }
@@ -173,8 +174,8 @@ impl Loan {
         kinematic.set_friction(friction);
     }
 
-    /// Gives the workspace back to `slot`; not if it has computed with numbers that are not `finite`: they must not
-    /// reach another figure.
+    /// Returns the workspace to `slot`, unless it has computed with numbers that are not `finite`: they must not reach
+    /// another figure.
     pub fn give_back(&mut self, slot: &mut WorkspaceSlot, finite: bool) {
         let Workspace {
             controllers,
@@ -195,7 +196,7 @@ impl Loan {
         }
     }
 
-    /// The modern controller forgets the last tick; during a tick or between two.
+    /// Makes the modern controller forget the last tick; may be called during a tick or between two.
     pub fn reset_modern(&mut self) {
         match &mut self.slot.0 {
             Some(workspace) => workspace.controllers.modern.reset(),
@@ -203,7 +204,7 @@ impl Loan {
         }
     }
 
-    /// The controllers forget the last tick; during a tick or between two.
+    /// Makes the controllers forget the last tick; may be called during a tick or between two.
     pub fn reset_controllers(&mut self) {
         self.reset_modern();
         match &mut self.slot.0 {
@@ -212,7 +213,7 @@ impl Loan {
         }
     }
 
-    /// A bar between two hands pushes with nothing; during a tick or between two.
+    /// Resets the force of a bar between two hands to zero; may be called during a tick or between two.
     pub fn forget_bar(&mut self) {
         match &mut self.slot.0 {
             Some(workspace) => workspace.steppers.torque.remember(0.0, Vec3::zero()),
@@ -223,7 +224,7 @@ impl Loan {
         }
     }
 
-    /// Prescribed accelerations forget where their support stands; during a tick or between two.
+    /// Makes prescribed accelerations forget the place of their support; may be called during a tick or between two.
     pub fn reset_anchor(&mut self) {
         match &mut self.slot.0 {
             Some(workspace) => workspace.steppers.kinematic.reset(),

@@ -1,4 +1,4 @@
-//! Stages 4 and 5: what the muscles can give, what the motion asks for, and the controller's answer.
+//! Stages 4 and 5: the torque that the muscles can give, the demands of the motion, and the controller's answer.
 
 use crate::body::topology::DOF_COUNT;
 use crate::control::{CentroidalTarget, ContactTargets, ControlInput, MomentumTarget, StancePhase};
@@ -25,7 +25,7 @@ struct UnledMotors {
     params: ControlParams,
     /// Target that braces a fall, in place of the motion's.
     braced: Option<TargetPair>,
-    /// Rate error at which a motor gives all it has, rad/s, if not that of the mode.
+    /// Rate error at which a motor gives its full torque, rad/s, if it differs from that of the mode.
     saturation_speed: Option<f64>,
 }
 
@@ -57,8 +57,8 @@ impl Figure {
         tracker.targets(time, dt, terms, clip_time, pair, carried)
     }
 
-    /// Whether steps follow events: a mode that makes steps, and a figure that is up. Full assist pins the pelvis to
-    /// its path, so the motion keeps its clock and its place there.
+    /// Whether steps follow events: the mode makes steps, and the figure is up. Full assist pins the pelvis to its
+    /// path, so the motion keeps its clock and its place there.
     pub(in crate::figure) fn steps(&self) -> bool {
         !self.motion.has_fallen()
             && !self.surroundings.balance.lost()
@@ -67,8 +67,8 @@ impl Figure {
             && self.setup.options.assist < 1.0
     }
 
-    /// Angular momentum that the motion has in its next flight, to be reached at lift-off; `None` if no flight begins
-    /// soon, or if its momentum is not known.
+    /// Angular momentum of the motion in its next flight, which must be reached at lift-off; `None` if no flight begins
+    /// soon, or if its momentum is unknown.
     pub(in crate::figure) fn lift_off_momentum(&mut self) -> Option<MomentumTarget> {
         let flight = self.desired.tracker.next_flight()?;
         let spin = match self.motion.source() {
@@ -87,7 +87,7 @@ impl Figure {
         })
     }
 
-    /// Factors on the muscles: a fallen figure relaxes, a tired one has less.
+    /// Factors on the muscles: a fallen figure relaxes, and a tired one is weaker.
     pub(in crate::figure) fn available_strength(&self) -> MuscleScale {
         let fallen = if self.motion.is_limp() && !self.braces() {
             fall::STRENGTH
@@ -104,7 +104,8 @@ impl Figure {
         out
     }
 
-    /// Fatigue of a tick of `dt` seconds: loads are torques over what the rested person could give at full effort.
+    /// Fatigue of a tick of `dt` seconds: loads are torques over those that the rested person could give at full
+    /// effort.
     pub(in crate::figure) fn update_fatigue(&mut self, dt: f64) {
         let Some(fatigue) = &mut self.physical.fatigue else {
             return;
@@ -199,7 +200,7 @@ impl Figure {
         out
     }
 
-    /// What motors without a controller follow: a fallen figure is limp, and one that falls braces itself.
+    /// The target of motors without a controller: a fallen figure is limp, and a falling one braces itself.
     fn unled(&self, gravity: f64) -> UnledMotors {
         let braces = self.braces();
         let limp = self.motion.is_limp() && !braces;

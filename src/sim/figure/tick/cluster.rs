@@ -22,24 +22,24 @@ impl Articulated for (FigureKey, Box<Figure>) {
 }
 
 impl Figure {
-    /// True if accelerations move it in this tick, whatever it meets.
+    /// Whether accelerations move it in this tick, regardless of collisions.
     pub(crate) fn is_prescribed(&self) -> bool {
         self.stepping.is_prescribed()
     }
-    /// True if what it meets in this tick is met in the two stages of §3 of the paper.
+    /// Whether its collisions in this tick are resolved in the two stages of §3 of the paper.
     pub(crate) fn meets_in_stages(&self) -> bool {
         self.stepping.is_prescribed() && self.setup.stepper == StepperKind::Staged
     }
-    /// Moves on as if it were alone; [`Self::moved_alone`] says so until the end of the tick.
+    /// Moves as if it were alone; [`Self::moved_alone`] reports this until the end of the tick.
     pub(crate) fn integrate_alone(&mut self, world: &TickContext) {
         self.integrate(world);
         self.neighbours.moved_alone = true;
     }
-    /// True if it has moved in this tick: its accelerations did it, or torques that had to take over.
+    /// Whether it has moved in this tick: by its accelerations, or by torques that had to take over.
     pub(crate) fn moved_alone(&self) -> bool {
         self.neighbours.moved_alone
     }
-    /// Shows where the segments are now that it has moved.
+    /// Shows the poses of the segments after the move.
     pub(crate) fn show_moved(&mut self, world: &TickContext) {
         let applied = self.surroundings.disturbances.applied();
         self.workspace.steppers.torque.dynamics.compute(
@@ -49,8 +49,8 @@ impl Figure {
             world.gravity,
         );
     }
-    /// What holds still in an impact: feet that lie flat and that the motion does not lift, as a whole, or the point
-    /// about which the support tips.
+    /// The parts that hold still in an impact: feet that lie flat and that the motion does not lift, as a whole, or the
+    /// point about which the support tips.
     pub(crate) fn held_still(&self) -> [Option<(SegmentId, Option<Vec3>)>; 2] {
         let support = &self.surroundings.support;
         let controller = self.workspace.controllers.get(self.setup.controller);
@@ -76,7 +76,7 @@ impl Figure {
         }
         out
     }
-    /// Velocity that an impact leaves.
+    /// Sets the velocity after an impact.
     pub(crate) fn set_velocity(&mut self, velocity: &[f64; NV]) {
         self.physical.state.velocity = *velocity;
     }
@@ -91,11 +91,11 @@ impl Figure {
             .add(&self.workspace.steppers.torque.dynamics, what, dt);
     }
 
-    /// Something will be met, and contact acts by forces: torques take over before the tick begins.
+    /// A collision is coming, and contact acts by forces: torques take over before the tick begins.
     pub(crate) fn hand_over(&mut self) {
         self.stepping.take_over();
     }
-    /// Shows where the segments are before it is known which stepper moves them.
+    /// Shows the poses of the segments before it is known which stepper moves them.
     pub(crate) fn show(&mut self) {
         let Workspace {
             terms, steppers, ..
@@ -109,7 +109,7 @@ impl Figure {
         self.workspace.steppers.torque.begin(&self.physical.state);
         self.surroundings.touches.begin();
     }
-    /// Substep `i` as if nothing but the ground were touched.
+    /// Opens substep `i` as if only the ground were touched.
     pub(crate) fn open_substep(&mut self, world: &TickContext, i: u32) {
         let Integration {
             input,

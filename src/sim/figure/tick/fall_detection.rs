@@ -26,8 +26,8 @@ use crate::tick_context::TickContext;
 pub(in crate::figure) const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 
 impl Figure {
-    /// Is balance lost? Full assist holds the pelvis, so there is none to lose; and prescribed accelerations fall by
-    /// themselves.
+    /// Decides whether balance is lost. Full assist holds the pelvis, so there is none to lose; and prescribed
+    /// accelerations fall by themselves.
     pub(in crate::figure) fn watch_balance(&mut self, world: &TickContext) {
         let s = &self.setup;
         let falls = self.may_prescribe();
@@ -56,7 +56,7 @@ impl Figure {
         }
     }
 
-    /// Controllers and steps forget what they knew of a figure that has fallen or stumbled since.
+    /// Makes controllers and steps forget a figure that has fallen or stumbled since.
     pub(in crate::figure) fn start_afresh(&mut self) {
         self.workspace.reset_controllers();
         self.desired.tracker.reset();
@@ -72,7 +72,7 @@ impl Figure {
         mode(self.controller_in_charge())
     }
 
-    /// Whether accelerations are to move the figure, and torques have not taken over.
+    /// Whether accelerations should move the figure, and torques have not taken over.
     fn may_prescribe(&self) -> bool {
         self.setup.stepper.prescribes() && !self.stepping.is_handed_over()
     }
@@ -88,10 +88,10 @@ impl Figure {
         }
     }
 
-    /// True while it falls as a person does ([`bracing`](crate::figure::balance::bracing)): from the loss of balance
-    /// until neither body nor head go down any more. Not where its motion goes to the floor by itself, or has lost
-    /// balance as the figure has, as one that sits down on a seat; nor with the paper's controller, whose falls are
-    /// those of the paper, nor where feet have to stay.
+    /// Whether it falls as a person does ([`bracing`](crate::figure::balance::bracing)): from the loss of balance until
+    /// neither body nor head move down any more. Not if its motion goes to the floor by itself, or has lost balance as
+    /// the figure has, like one that sits down on a seat; nor with the paper's controller, whose falls are those of the
+    /// paper; nor where the feet have to stay.
     pub(in crate::figure) fn braces(&self) -> bool {
         let s = &self.setup;
         let person = self.mode().braces_falls(&s.params);
@@ -108,8 +108,8 @@ impl Figure {
         person && falls && self.motion.rehearsed().is_none() && height > RISEN_HEIGHT
     }
 
-    /// True if accelerations are to be applied as they are. A load held in two hands and the assist act by forces,
-    /// which need torques.
+    /// Whether accelerations are applied as they are. A load held in two hands and the assist act by forces, which need
+    /// torques.
     pub(in crate::figure) fn prescribes(&self) -> bool {
         self.may_prescribe()
             && self.setup.options.assist == 0.0
@@ -119,7 +119,7 @@ impl Figure {
             && !self.motion.gets_up()
     }
 
-    /// Lets torques take over from prescribed accelerations, or give back.
+    /// Lets torques take over from prescribed accelerations, or hand back to them.
     pub(in crate::figure) fn update_hand_over(&mut self, dt: f64) {
         let upright = !self.motion.has_fallen() && !self.surroundings.balance.lost();
         let seen = HandOverView {
@@ -135,8 +135,8 @@ impl Figure {
         self.stepping.update(&seen, dt);
     }
 
-    /// Freezes a figure whose state or desired motion is not finite, or for which no finite decision was found, at its
-    /// last good state; the world goes on.
+    /// Freezes a figure at its last good state if its state or desired motion is not finite, or if no finite decision
+    /// was found for it; the rest of the world continues.
     pub(in crate::figure) fn contain(&mut self) -> bool {
         let asked = [&self.desired.target.now, &self.desired.target.next];
         let good = self.physical.state.is_finite()
@@ -154,8 +154,8 @@ impl Figure {
         !good
     }
 
-    /// Forgets what a frozen figure remembers of its last ticks: numbers that are not finite could not be read back
-    /// from a checkpoint, and would freeze it again when it is reset.
+    /// Forgets the memory that a frozen figure has of its last ticks: numbers that are not finite could not be read
+    /// back from a checkpoint, and would freeze it again after a reset.
     pub(in crate::figure) fn forget_numbers(&mut self) {
         self.forget();
         self.desired.tracker.reset_clock();
@@ -174,7 +174,7 @@ impl Figure {
         self.empty_report();
     }
 
-    /// What a frozen figure is asked to do is to stay as it is. A motion that cannot be is forgotten.
+    /// Commands a frozen figure to stay as it is. A motion with numbers out of range is forgotten.
     fn forget_what_was_asked(&mut self) {
         let posture = self.physical.state.posture;
         let still = Target::still(posture);
@@ -188,8 +188,8 @@ impl Figure {
         }
     }
 
-    /// What the last tick of a frozen figure came to is not to be read as physics: only that it was set aside, and
-    /// where it is.
+    /// Empties the report of a frozen figure's last tick, which must not be read as physics: only that it was set
+    /// aside, and its place, remain.
     fn empty_report(&mut self) {
         let com = self.outcome.report.balance.com;
         let mut empty = TickReport::empty(&self.physical.state, MAX_CONSTRAINTS, MAX_APPLIED);
@@ -201,7 +201,7 @@ impl Figure {
         self.outcome.report = empty;
     }
 
-    /// Falls and rises.
+    /// Detects falls and recoveries from them.
     pub(in crate::figure) fn detect_fall(&mut self) {
         let height = self.workspace.terms.com.z / self.constants.standing_com_height;
         let on_other = self

@@ -1,4 +1,4 @@
-//! Help within the tick: when it begins and ends, and what stiff motors do meanwhile.
+//! Help within the tick: when it begins and ends, and the command of the stiff motors in between.
 
 use crate::figure::balance::live_help::{LossForecast, Situation};
 use crate::figure::motion::source::MotionSource;
@@ -12,17 +12,17 @@ use crate::stepper::pelvis_wrench::pull;
 use crate::tick_context::TickContext;
 
 impl Figure {
-    /// True while stiff motors and a pull on the pelvis keep it with its motion.
+    /// Whether stiff motors and a pull on the pelvis keep it with its motion.
     pub fn is_carried(&self) -> bool {
         self.surroundings.help.carries()
     }
 
-    /// True if it is helped, not let fall, should it lose its motion.
+    /// Whether it would be helped, rather than left to fall, if it lost its motion.
     pub(in crate::figure) fn is_held_up(&self) -> bool {
         self.may_be_helped() && self.surroundings.help.is_ready()
     }
 
-    /// Largest force of its help over the weight: its own, or what its clip is played with.
+    /// Largest force of its help over the weight: its own setting, or that of its clip.
     fn most_help(&self) -> f64 {
         let own = self.setup.options.max_help;
         match self.motion.source() {
@@ -31,7 +31,7 @@ impl Figure {
         }
     }
 
-    /// Largest force over the weight of the help that it gets if its motion is being lost; 0: none.
+    /// Largest force over the weight of the help that it gets if its motion is being lost; 0 disables help.
     pub fn allowed_help(&self) -> f64 {
         if self.may_be_helped() {
             self.most_help()
@@ -48,7 +48,7 @@ impl Figure {
             && !self.motion.has_fallen()
     }
 
-    /// Stage 3: is the motion being lost, and is the figure to be helped?
+    /// Stage 3: decides whether the motion is being lost, and whether to help the figure.
     pub(in crate::figure) fn update_help(&mut self, world: &TickContext) {
         let before = self.is_carried();
         if !self.may_be_helped() {
@@ -71,7 +71,7 @@ impl Figure {
         }
     }
 
-    /// True if the centre of mass is low and something else than feet touches.
+    /// Whether the centre of mass is low and something other than the feet touches.
     fn lies(&self) -> bool {
         let height = self.workspace.terms.com.z / self.constants.standing_com_height;
         height < FALLEN_HEIGHT && !self.only_feet_touch()
@@ -83,21 +83,21 @@ impl Figure {
         points.iter().all(|p| FEET.contains(&p.segment)) && support.rests().is_empty()
     }
 
-    /// True if the figure is up and on its feet, and its motion has it so.
+    /// Whether the figure is up and on its feet, and its motion is too.
     fn is_on_feet(&self) -> bool {
         let standing = self.constants.standing_com_height;
         let is_up = |height: f64| height > RISEN_HEIGHT * standing;
         is_up(self.workspace.terms.com.z) && is_up(self.desired.com.now.z) && self.only_feet_touch()
     }
 
-    /// What leads the pelvis back to the motion, if anything does.
+    /// The spring that leads the pelvis back to the motion, if there is one.
     pub(in crate::figure) fn pull(&self) -> Option<PelvisHold> {
         let help = &self.surroundings.help;
         let most = self.most_help() * help.share();
         (most > 0.0).then(|| pull(&self.setup.body, most))
     }
 
-    /// What motors are asked to do while the figure is carried; `None` if it is not. No allocation.
+    /// The command to the motors while the figure is carried; `None` if it is not. No allocation.
     pub(in crate::figure) fn carried_command(
         &mut self,
         world: &TickContext,

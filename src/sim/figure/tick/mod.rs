@@ -3,13 +3,13 @@
 //! then [`Figure::finish`]. Their bodies are the list of stages:
 //!
 //! 1. `commands`: loads and pushes that are due.
-//! 2. `sense`: dynamics of the present state; `update_activity` and `update_desired_motion`: what it is to do.
-//! 3. `update_support`: what it stands on, and whether its balance is lost; `update_help`: whether its motion is.
-//! 4. `limit_torques`: what muscles and tissue can give.
+//! 2. `sense`: dynamics of the present state; `update_activity` and `update_desired_motion`: its activity and target.
+//! 3. `update_support`: its support, and whether its balance is lost; `update_help`: whether its motion is being lost.
+//! 4. `limit_torques`: the torque that muscles and tissue can give.
 //! 5. `solve_control`: tasks, then accelerations and torques within strength.
 //! 6. `integrate`: motors, joint limits and contact move the body.
-//! 7. `contain`: a state that is not finite is frozen, and one for which nothing finite could be decided.
-//! 8. `write_report`: what the tick showed.
+//! 7. `contain`: freezes a state that is not finite, or for which no finite decision was found.
+//! 8. `write_report`: the results of the tick.
 
 mod actuation;
 mod cluster;
@@ -47,7 +47,7 @@ use crate::stepper::torque_step::{Accuracy, TorqueStepper};
 use crate::support::Support;
 use crate::track::TaskTargets;
 
-/// What moves the body in a tick: the steppers, what they read, and the state that they move.
+/// Everything that moves the body in a tick: the steppers, their input, and the state that they move.
 struct Integration<'a> {
     input: StepInput<'a>,
     torque: &'a mut TorqueStepper,
@@ -57,7 +57,7 @@ struct Integration<'a> {
     state: &'a mut State,
 }
 
-/// What steps ask of the controller.
+/// The demands of the steps on the controller.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::figure) struct StepDemand {
     /// Horizontal acceleration of the centre of mass that keeps the balance, world axes, m/s².
@@ -67,8 +67,8 @@ pub(in crate::figure) struct StepDemand {
 }
 
 impl Figure {
-    /// Stage 1, and the dynamics of the present state: what has to be known of every figure before it is known which
-    /// are near each other. The tick of a frozen figure ends here.
+    /// Stage 1, and the dynamics of the present state: these must be known for every figure before it is known which
+    /// figures are near each other. The tick of a frozen figure ends here.
     pub(crate) fn begin(&mut self, world: &TickContext) {
         self.neighbours.moved_alone = false;
         self.outcome.watcher.begin();
@@ -88,12 +88,12 @@ impl Figure {
         self.workspace.borrow(slot, friction);
     }
 
-    /// Gives it back.
+    /// Returns it.
     pub(crate) fn give_back(&mut self, slot: &mut WorkspaceSlot) {
         self.workspace.give_back(slot, !self.physical.frozen);
     }
 
-    /// Stages 2–5 of a tick: the rest of what comes before the body moves.
+    /// Stages 2–5 of a tick: the rest of the work before the body moves.
     pub(crate) fn decide(&mut self, world: &TickContext) {
         self.sense(world);
         self.update_activity(world);
@@ -158,7 +158,7 @@ impl Figure {
     fn update_desired_motion(&mut self, world: &TickContext) {
         self.desired.target = self.sample_motion(world.time(), world.dt);
         let steps = self.steps() && self.desired.tracker.is_walking();
-        // A rehearsal knew the loads.
+        // A rehearsal already took the loads into account.
         if self.motion.rehearsed().is_none() {
             self.desired.load_compensation.compensate(
                 &self.setup.body,
@@ -175,7 +175,7 @@ impl Figure {
         }
     }
 
-    /// Stage 3: what it holds, what it stands and rests on, and whether it keeps its balance.
+    /// Stage 3: its grips and supports, and whether it keeps its balance.
     fn update_support(&mut self, world: &TickContext) {
         let bar = self.workspace.steppers.torque.forces.bar;
         let least = self.least_rest(world);
@@ -200,8 +200,8 @@ impl Figure {
         REST_SHARE * self.workspace.terms.mass * world.gravity
     }
 
-    /// Stage 4: what the muscles can give at these angles and rates, and what stretched tissue gives. A mode may
-    /// do without tissue.
+    /// Stage 4: the torque of the muscles at these angles and rates, and of stretched tissue. A mode may do without
+    /// tissue.
     fn limit_torques(&mut self, world: &TickContext) {
         let has_tissue = self.mode().has_tissue();
         let strength = &self.constants.strength;
@@ -224,8 +224,8 @@ impl Figure {
         );
     }
 
-    /// Stage 5: tasks of the tick, then the controller's decision. The controller counts on what the figure leans on
-    /// and on its stretched tissue.
+    /// Stage 5: tasks of the tick, then the controller's decision. The controller relies on the figure's supports and
+    /// on its stretched tissue.
     fn solve_control(&mut self, world: &TickContext) {
         let bias = self.workspace.terms.h;
         let least = self.least_rest(world);
@@ -240,7 +240,7 @@ impl Figure {
         let mut command = self.control(world, &tasks, steps);
         self.scratch.results.undecided = !command.is_finite();
         if self.scratch.results.undecided {
-            // The tick ends with `contain`; until then the numbers must reach nobody who is near.
+            // The tick ends with `contain`; until then the numbers must not reach any figure nearby.
             command.acceleration.fill(0.0);
             command.torque.fill(0.0);
         }
@@ -333,7 +333,7 @@ impl Figure {
         torque.step(&input, state);
     }
 
-    /// Applies the controller's accelerations. False if they are to be within strength and are not.
+    /// Applies the controller's accelerations. Returns `false` if they must be within strength and are not.
     fn integrate_accelerations(&mut self, world: &TickContext) -> bool {
         let as_commanded = self.mode().keeps_torques(self.setup.params.share);
         let within_strength = self.setup.params.hand_over;
@@ -357,12 +357,12 @@ impl Figure {
         kinematic.step(&input, &decision, state)
     }
 
-    /// True if the body does not pass through itself in this tick. A rehearsed motion was found without.
+    /// Whether the body cannot pass through itself in this tick. A rehearsed motion was found without self-collision.
     fn meets_itself(&self) -> bool {
         self.setup.options.self_contact && self.motion.rehearsed().is_none()
     }
 
-    /// What the steppers read, the steppers, and the state they move.
+    /// The steppers, their input, and the state that they move.
     fn integration<'a>(&'a mut self, world: &'a TickContext) -> Integration<'a> {
         let (carried, pull) = (self.is_carried(), self.pull());
         let meets_itself = self.meets_itself();

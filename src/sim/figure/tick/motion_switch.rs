@@ -1,5 +1,5 @@
-//! How what is under way is left: over to another clip from step to step, or by the steps that bring it to a stand.
-//! Both are worked out aside, and taken in a tick that is fixed when they are asked for.
+//! The exit from the motion under way: directly to another clip, by steps, or by the steps that bring it to a stand.
+//! Both are worked out aside, and taken in a tick that is fixed when they are requested.
 
 use crate::figure::events::FigureEvent;
 use crate::figure::motion::exit::{ExitGoal, ExitPlan, ExitProblem};
@@ -16,12 +16,12 @@ use crate::tick_context::{Planning, TickContext};
 use crate::track::{PlacedPlan, StepPlan};
 use std::sync::Arc;
 
-/// What a stop is planned from.
+/// The input from which a stop is planned.
 struct Given {
     /// World time of the first sample, and time of the present motion then, s.
     begin: f64,
     before: f64,
-    /// Sample up to which it still plays.
+    /// Sample up to which the motion still plays.
     now: usize,
     streamed: bool,
 }
@@ -38,10 +38,10 @@ struct Times {
 }
 
 impl Figure {
-    /// Begins to work out how the motion is left for a clip that is to play from world time `from` on: over to it,
-    /// unless its place is `fixed`, or to a stand at ease, or like `goal` if it hardly moves or stands in another way.
-    /// A motion that ends already does not end anew. Returns when it should stand and, if it is expected to go over,
-    /// when the clip's time 0 plays, s.
+    /// Begins to work out the exit from the motion for a clip that should play from world time `from` on: directly to
+    /// the clip, unless its place is `fixed`, or to a stand. The stand is at ease, or like `goal` if the figure hardly
+    /// moves or stands in another way. A motion that is already ending is not ended again. Returns when the figure
+    /// should stand and, if a direct switch is expected, when the clip's time 0 plays, s.
     pub(in crate::figure) fn leave(
         &mut self,
         play: &ClipPlayback,
@@ -96,8 +96,8 @@ impl Figure {
         (stands, entered)
     }
 
-    /// The ways from the clip that plays into another one that begins in full stride, if there are moments at which
-    /// they are alike.
+    /// The ways from the playing clip into another one that begins in full stride, if there are moments at which they
+    /// are alike.
     fn ways_over(&self, play: &ClipPlayback, times: Times) -> Option<Arc<TransitionCandidates>> {
         let Times {
             now: time,
@@ -140,14 +140,14 @@ impl Figure {
         self.motion.plan_exit(Some(ExitPlan::of(leaving)));
     }
 
-    /// True if it hardly moves, or stands in its motion.
+    /// Whether the motion hardly moves, or stands.
     pub(in crate::figure) fn is_slow(&self) -> bool {
         self.scratch.com_velocity.level() < SLOW || !self.desired.tracker.is_walking()
     }
 
     /// States the ends of the motion.
     fn plan_stops(&mut self, leaving: &mut ExitProblem, time: f64) {
-        // Never more than the longest lead, whatever a state that was read says.
+        // Never more than the longest lead, whatever a checkpoint says.
         let after = ((leaving.due - time) * splice::RATE).round() as usize;
         let after = after.min(MOST_LEAD);
         let (given, so_far) = self.motion_until_stop(time, after);
@@ -161,7 +161,7 @@ impl Figure {
         leaving.ends = Some(Arc::new(ends));
     }
 
-    /// A stream that breaks off in the middle of a step, its last posture held, is left by the steps to a stand.
+    /// A stream that breaks off in the middle of a step, with its last posture held, is left by the steps to a stand.
     /// Allocates.
     pub(in crate::figure) fn leave_broken_stream(&mut self, time: f64) {
         let broken = |live: &LivePlayback| live.motion.breaks_off();
@@ -172,9 +172,9 @@ impl Figure {
         }
     }
 
-    /// Comes to a stand where its way is barred: what presses on it from aside has taken it so far off its motion that
-    /// its steps have to change, and going on would only press more. A clip ends so; one that waits begins from that
-    /// stand, and so does what comes of a stream. Allocates then.
+    /// Comes to a stand where its way is barred: something that presses from the side has pushed it too far off its
+    /// motion to keep its steps, and continuing would only increase the pressure. A clip ends in this way; a queued one
+    /// begins from that stand, and so does the rest of a stream. Allocates then.
     pub(in crate::figure) fn break_off_if_barred(&mut self, world: &TickContext) {
         let (least, tracker) = (self.least_rest(world), &self.desired.tracker);
         let pressed = (self.surroundings.touches).press_aside(least, tracker.is_on_plan());
@@ -194,8 +194,8 @@ impl Figure {
     }
 
     /// Leaves the motion in the last tick that begins before its exit differs from it. A tick that does not wait for
-    /// plans goes on without one that is not there: the way out begins with samples that the motion has passed by then,
-    /// so it is planned anew from a later one.
+    /// plans continues without a missing one: the exit begins with samples that the motion has passed by then, so it is
+    /// planned again from a later one.
     pub(in crate::figure) fn follow_exit_if_due(&mut self, world: &TickContext) {
         let due = |l: &&ExitPlan| world.time() + world.dt > l.problem.due + 1e-9;
         let Some(exit) = self.motion.exit().filter(due) else {
@@ -222,7 +222,7 @@ impl Figure {
         }
     }
 
-    /// Follows the exit that is planned now, if one is.
+    /// Follows the exit that is planned now, if there is one.
     pub(in crate::figure) fn follow_exit(&mut self) {
         let Some(leaving) = self.motion.take_exit() else {
             return;
@@ -245,7 +245,7 @@ impl Figure {
             self.go_over(way, place, known_from);
             return;
         }
-        // One that ends already goes on to do so.
+        // A motion that is already ending continues to do so.
         if stops.is_empty() {
             self.plan_entry(due);
             return;
@@ -261,8 +261,8 @@ impl Figure {
         self.plan_entry(due);
     }
 
-    /// Switches to the clip that waits, with its origin at `place`. World time of the first sample of the way is
-    /// `begin`, s.
+    /// Switches to the queued clip, with its origin at `place`. World time of the first sample of the way is `begin`,
+    /// s.
     fn go_over(&mut self, way: TransitionClip, place: PlanarTransform, begin: f64) {
         let next = self.motion.take_next();
         let (Some(next), MotionSource::Clip(now)) = (next, self.motion.source()) else {
@@ -280,8 +280,8 @@ impl Figure {
         self.motion.enter(MotionSource::Clip(play));
     }
 
-    /// Turns to a clip that begins at world time `begin`, s, which is `before` of the present motion. Without one holds
-    /// the motion as it is: a stand takes no movement, or is not possible.
+    /// Turns to a clip that begins at world time `begin`, s, which is `before` in the present motion. Without a clip,
+    /// holds the motion as it is: standing takes no movement, or is not possible.
     fn follow_end(&mut self, clip: Option<Clip>, begin: f64, before: f64) {
         let Some(clip) = clip else {
             let (next, posture) = (self.motion.take_next(), self.desired.target.next.posture);
@@ -300,8 +300,8 @@ impl Figure {
         self.motion.follow_to_stand(MotionSource::Clip(steps));
     }
 
-    /// The motion under way, by the rate of joins, from the run-up that planning a stop at world time `time` needs to
-    /// as far ahead as it is known. It still plays for `after` samples.
+    /// The motion under way, at the rate of joins: from the run-up that a stop planned at world time `time` needs, to
+    /// the end of what is known. It still plays for `after` samples.
     fn motion_until_stop(&mut self, time: f64, after: usize) -> (Given, Vec<Sample>) {
         let from = time - self.desired.tracker.lag();
         let (begin, so_far) = self.motion_around(from, after as f64 / splice::RATE);
@@ -316,7 +316,7 @@ impl Figure {
         let given = Given {
             begin,
             before,
-            // It goes on at least that far, also where a state that was read says otherwise.
+            // It continues at least to that sample, even if a checkpoint says otherwise.
             now: now.saturating_add(after).min(so_far.len()),
             streamed,
         };
@@ -337,7 +337,7 @@ impl Figure {
                 (at(0), so_far)
             }
             MotionSource::Live(live) => {
-                // What still plays is prepared now, so that the way to the stand begins with it.
+                // The part that still plays is prepared now, so that the way to the stand begins with it.
                 let (t, came) = (live.stream_time(from), live.motion.moved());
                 live.motion.advance(t + still);
                 let (first, so_far) = live.motion.known(t - RUN_UP, came);

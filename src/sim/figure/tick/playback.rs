@@ -1,5 +1,5 @@
-//! From one motion to another while the figure moves: from step to step where they fit, else by a stand for which what
-//! was asked for waits.
+//! Switches motions while the figure is moving: directly, at a matching step, or else through a stand, after which the
+//! queued clip starts.
 
 use crate::body::Posture;
 use crate::figure::motion::exit::ExitGoal;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 /// How a clip begins.
 struct Beginning {
-    /// Clip time at which it does, s, and the posture then.
+    /// Clip time at which it begins, s, and the posture then.
     first: f64,
     posture: Posture,
     /// Standing, on one foot or both.
@@ -29,15 +29,15 @@ struct Beginning {
 }
 
 impl Figure {
-    /// Plays a clip from world time `time` on. A figure that walks, or is in the middle of another clip, goes over to
-    /// it from step to step where the one is like the beginning of the other; else it finishes its step and stands
-    /// first, as the clip begins. Then the clip begins where its feet are, unless `fixed` says that its origin is
-    /// meant: by a way of its own, if it begins neither as the figure stands nor with steps from there. One that stands
-    /// already as the clip begins, has fallen, or makes no steps begins at once.
+    /// Plays a clip from world time `time` on. A figure that walks, or is in the middle of another clip, switches
+    /// directly at a matching step if the two motions have one; otherwise it first finishes its step and stands as the
+    /// clip begins. The clip then begins at the place of the feet, unless `fixed` says that its origin stays; a way of
+    /// its own leads into it if it begins neither as the figure stands nor with steps from there. A figure that already
+    /// stands as the clip begins, has fallen, or makes no steps, begins at once.
     ///
-    /// Returns the world time at which the clip's time 0 plays, s. If the figure goes over, has to stand first, or
-    /// needs a way into the clip, that is expected: ways are worked out aside, and taken in a tick that is fixed now.
-    /// Allocates.
+    /// Returns the world time at which the clip's time 0 plays, s. It is an estimate if the figure switches directly,
+    /// has to stand first, or needs a way into the clip: ways are worked out aside, and taken in a tick that is fixed
+    /// now. Allocates.
     pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: f64) -> f64 {
         if self.motion.rehearsed().is_some() {
             self.leave_rehearsal();
@@ -103,7 +103,7 @@ impl Figure {
         expected
     }
 
-    /// How a clip begins, if it is to play from world time `time` on.
+    /// How a clip begins, if it should play from world time `time` on.
     fn beginning(&self, play: &ClipPlayback, time: f64) -> Beginning {
         let first = play.clip_time(time).clamp(-play.clip.lead_in(), 0.0);
         let Target {
@@ -119,7 +119,7 @@ impl Figure {
         }
     }
 
-    /// True if it does not stand upright when its motion is over.
+    /// Whether it does not stand upright when its motion is over.
     pub(in crate::figure) fn crouches(&self) -> bool {
         self.comes_to().root_position.z < UPRIGHT * self.setup.body.standing_root_height()
     }
@@ -138,7 +138,7 @@ impl Figure {
         }
     }
 
-    /// True if the motion that ends moves no joint any more.
+    /// Whether the motion that is ending has stopped moving any joint.
     fn has_come(&self, time: f64) -> bool {
         let MotionSource::Clip(end) = self.motion.source() else {
             return true;
@@ -148,7 +148,7 @@ impl Figure {
         self.desired.tracker.stop_posture().is_some() || left.iter().all(|e| e.abs() < STILL)
     }
 
-    /// Begins to work out the way from the stand that its motion leads to into the clip that waits, if it takes one.
+    /// Begins to work out the way into the queued clip from the stand to which the motion leads, if the clip needs one.
     pub(in crate::figure) fn plan_entry(&mut self, time: f64) {
         let Some(q) = self.motion.next() else { return };
         let stands = !self.motion.has_fallen() && !self.crouches();
@@ -169,7 +169,7 @@ impl Figure {
         });
     }
 
-    /// The clip that is to begin, if one waits or is gone over to.
+    /// The next clip, if one is queued or being switched to.
     pub fn next_clip(&self) -> Option<&Arc<Clip>> {
         let coming = |play: &ClipPlayback| {
             let way = play.way_in.as_ref();
@@ -182,13 +182,13 @@ impl Figure {
         }
     }
 
-    /// True once nothing of a clip is left to be played at world time `time`, s.
+    /// Whether nothing of a clip is left to play at world time `time`, s.
     fn is_over(&self, play: &ClipPlayback, time: f64) -> bool {
         let end = play.clip.duration() + play.clip.lead_out();
         !play.looped && play.clip_time(time - self.desired.tracker.lag()) >= end
     }
 
-    /// True while there is something to follow: a clip that has begun and is not over, or a stream.
+    /// Whether there is a motion to follow: a clip that has begun and is not over, or a stream.
     pub(in crate::figure) fn has_motion(&self, time: f64) -> bool {
         let moves = match self.motion.source() {
             MotionSource::Clip(play) => {
@@ -201,7 +201,7 @@ impl Figure {
         moves && !self.motion.has_fallen()
     }
 
-    /// True in the middle of a clip or of a step.
+    /// Whether it is in the middle of a clip or of a step.
     fn is_busy(&self, time: f64) -> bool {
         let plays = match self.motion.source() {
             MotionSource::Clip(play) => !self.is_over(play, time),
@@ -211,7 +211,7 @@ impl Figure {
         plays || self.motion.exit().is_some() || self.desired.tracker.recovery_step().is_some()
     }
 
-    /// True while it is in the middle of a clip or a step, or on its way to a stand. One that has fallen is not.
+    /// Whether it is in the middle of a clip or a step, or on its way to a stand. False for a fallen figure.
     pub fn comes_to_stand(&self, time: f64) -> bool {
         let ends = || {
             self.desired
@@ -221,7 +221,7 @@ impl Figure {
         self.steps() && !self.motion.has_fallen() && (self.is_busy(time) || ends())
     }
 
-    /// Begins the clip that waits, once the figure stands.
+    /// Begins the queued clip, once the figure stands.
     pub(in crate::figure) fn begin_next_if_ready(&mut self, world: &TickContext) {
         let time = world.time();
         let Some(q) = self.motion.next() else { return };
@@ -267,8 +267,8 @@ impl Figure {
         }
     }
 
-    /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. What it is
-    /// asked to do meanwhile waits.
+    /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. Requests
+    /// in between are queued.
     pub(in crate::figure) fn update_get_up(&mut self, time: f64) {
         let able = self.mode().gets_up();
         if !self.motion.has_fallen() || !able || self.setup.options.assist >= 1.0 {
@@ -297,7 +297,7 @@ impl Figure {
         }
     }
 
-    /// It stands: it holds what it has come to.
+    /// It stands, and holds the posture that it has reached.
     fn stand_up(&mut self) {
         self.motion.stand_up(self.desired.target.next.posture);
         self.desired.get_up.reset();
@@ -305,7 +305,7 @@ impl Figure {
         self.start_afresh();
     }
 
-    /// True if only its feet touch, as its way has it, and it is up.
+    /// Whether only its feet touch, as its way has it, and it is up.
     fn stands_on_feet(&self) -> bool {
         let points = self.surroundings.support.points();
         self.workspace.terms.com.z > UP_HEIGHT * self.constants.standing_com_height
@@ -314,15 +314,15 @@ impl Figure {
             && self.surroundings.support.rests().is_empty()
     }
 
-    /// Comes to a stand from world time `time` on: a walk is ended by the steps that takes, everything else is held as
-    /// it is. The steps are worked out aside, while the motion goes on. Allocates.
+    /// Comes to a stand from world time `time` on: a walk ends with the steps that this takes, and any other motion is
+    /// held as it is. The steps are worked out aside, while the motion continues. Allocates.
     pub fn stop(&mut self, time: f64) {
         self.motion.take_next();
         self.motion.take_stream_entry();
-        // Stops may have been left out for a way over.
+        // Stops may have been left out in favour of a direct switch.
         let exit = self.motion.take_exit().filter(|l| !l.leads_over());
         self.motion.plan_exit(exit);
-        // It does so already: a step that is under way is finished.
+        // It is stopping already: a step that is under way is finished.
         if self.motion.stops()
             || self.motion.exit().is_some()
             || matches!(self.motion.source(), MotionSource::Hold(_))

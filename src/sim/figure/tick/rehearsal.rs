@@ -12,7 +12,7 @@ use crate::track::planned_to_world::Anchor;
 use std::sync::Arc;
 
 impl Figure {
-    /// The clip that it was asked to play last it does as it was rehearsed, if it begins standing.
+    /// Plays the most recently requested clip from its rehearsal, provided that the clip starts from a stand.
     pub fn rehearse(&mut self, motion: Arc<RehearsedMotion>) {
         if self.motion.next().is_some() {
             self.motion.update_next(|q| q.play.rehearsed = Some(motion));
@@ -21,8 +21,8 @@ impl Figure {
         }
     }
 
-    /// Begins the rehearsal of a clip in the tick in which the clip begins, if the figure stands as that does; else the
-    /// clip is tracked as it is.
+    /// Begins the rehearsal of a clip in the tick in which the clip begins, if the figure stands as the rehearsal does;
+    /// otherwise the clip is tracked as it is.
     pub(in crate::figure) fn begin_rehearsal_if_due(&mut self, world: &TickContext) {
         let MotionSource::Clip(play) = self.motion.source() else {
             return;
@@ -35,7 +35,7 @@ impl Figure {
         if late < -1e-9 {
             return;
         }
-        // Where the clip lies, or where the feet are: prepared clip and recording need not begin in one place.
+        // The place of the clip, or of the feet: prepared clip and recording need not begin in one place.
         let (tracker, state) = (&self.desired.tracker, &self.physical.state);
         let first = tracker.stance_of(&self.setup.body, &motion.start().posture);
         let feet = Anchor::between(first, tracker.stance(&self.scratch.placement)).transform();
@@ -52,7 +52,7 @@ impl Figure {
         }
     }
 
-    /// Leaves a rehearsed motion that is over, that this world is not for, or whose path is out of reach.
+    /// Leaves a rehearsed motion that is over, is for another world, or has a path out of reach.
     pub(in crate::figure) fn leave_rehearsal_if_over(&mut self, world: &TickContext) {
         let MotionSource::Rehearsed(play) = self.motion.source() else {
             return;
@@ -64,12 +64,13 @@ impl Figure {
         }
     }
 
-    /// Stands as the motion does now, or recovers or falls on the way there: what comes next is as after any motion.
+    /// Stands as the motion does now, or recovers or falls on the way there: the sequel is the same as after any
+    /// motion.
     pub(in crate::figure) fn leave_rehearsal(&mut self) {
         let mut next = self.desired.target.next.clone();
         let tracker = &self.desired.tracker;
         let asked = tracker.stance_of(&self.setup.body, &next.posture);
-        // Where its feet are: they need not have come down where the recording has them.
+        // The place of its feet, which need not have come down where the recording has them.
         let feet = Anchor::between(asked, tracker.stance(&self.scratch.placement)).transform();
         feet.apply_to(&mut next);
         let posture = next.posture;
@@ -78,7 +79,7 @@ impl Figure {
         self.start_afresh();
     }
 
-    /// What a rehearsed motion asks of the motors; `None` if none is played. No allocation.
+    /// The command of a rehearsed motion to the motors; `None` if none is played. No allocation.
     pub(in crate::figure) fn rehearsed_command(
         &mut self,
         world: &TickContext,
@@ -90,7 +91,7 @@ impl Figure {
         Some(self.stiff_command(motors, &target, world.dt))
     }
 
-    /// What stiff motors are asked to do, so that they follow a target in a tick of `dt` s: no controller decides.
+    /// The command that makes stiff motors follow a target in a tick of `dt` s, without a controller's decision.
     pub(in crate::figure) fn stiff_command(
         &mut self,
         motors: MotorLaw,

@@ -1,4 +1,4 @@
-//! Stage 8: what a tick showed.
+//! Stage 8: the report of a tick.
 
 use crate::body::topology::{DOF_COUNT, NV};
 use crate::figure::motion::following::FollowMode;
@@ -11,7 +11,7 @@ use crate::stepper::command::TorqueRange;
 use crate::support::zmp_above;
 use crate::tick_context::TickContext;
 
-/// DOFs whose torque is at its limit, a bit each. Limits follow angles and rates within the tick.
+/// DOFs whose torque is at its limit, one bit each. Limits follow angles and rates within the tick.
 fn at_limit(torque: &[f64; DOF_COUNT], available: &TorqueRange) -> u64 {
     (0..DOF_COUNT)
         .filter(|d| torque[*d] >= available.upper[*d] || torque[*d] <= available.lower[*d])
@@ -19,7 +19,7 @@ fn at_limit(torque: &[f64; DOF_COUNT], available: &TorqueRange) -> u64 {
 }
 
 impl Figure {
-    /// What the tick showed, for everyone outside.
+    /// Writes the results of the tick, for readers outside.
     pub(in crate::figure) fn write_report(&mut self, world: &TickContext, frozen: bool) {
         let PhysicalState { links, state, .. } = &self.physical;
         let com = self.workspace.tasks.center_of_mass(links, state);
@@ -100,7 +100,7 @@ impl Figure {
         self.note_following(world, frozen);
     }
 
-    /// How the motion was followed, and what helped.
+    /// Notes how the motion was followed, and the help that it took.
     fn note_following(&mut self, world: &TickContext, frozen: bool) {
         if frozen {
             self.motion.note(FollowMode::Nothing, 0.0, 0.0, world.dt);

@@ -1,4 +1,4 @@
-//! Stage 2: what the other hand does for a load that is too heavy for one arm.
+//! Stage 2: the other hand's part in a load that is too heavy for one arm.
 
 use crate::body::SegmentId;
 use crate::figure::loads::second_hand::Sight;
@@ -48,7 +48,7 @@ impl Figure {
         );
     }
 
-    /// True if an arm of a figure that stands or moves holds nothing of its own, touches nothing, and is not led from
+    /// Whether an arm of a figure that stands or moves holds nothing of its own, touches nothing, and is not led from
     /// outside.
     fn has_nothing_to_do(&self, arm: [SegmentId; 3]) -> bool {
         let s = &self.surroundings;

@@ -1,5 +1,5 @@
 //! From a stand into a stream that begins in motion. The way is worked out aside, and taken in a tick that is fixed
-//! when it is asked for; whoever feeds the stream puts it before what comes.
+//! when it is requested; the caller that feeds the stream puts it before the stream's first sample.
 
 use crate::body::Posture;
 use crate::figure::motion::stream_entry::{StreamEntryPlan, StreamEntryProblem};
@@ -11,7 +11,7 @@ use crate::tick_context::Planning;
 use crate::tick_context::TickContext;
 
 impl Figure {
-    /// True if it stands and can be led into a stream by steps.
+    /// Whether it stands and can be led into a stream by steps.
     pub fn can_be_led(&self) -> bool {
         self.steps() && !self.crouches()
     }
@@ -24,7 +24,7 @@ impl Figure {
         self.motion.plan_stream_entry(
             StreamEntryProblem {
                 beginning: StreamBeginning::new(&self.setup.body, came, stand),
-                // It stands meanwhile: nothing is lost but time.
+                // It stands in the meantime: only time is lost.
                 due: time + MOST_LEAD as f64 / splice::RATE,
                 settled: false,
             }
@@ -32,12 +32,12 @@ impl Figure {
         );
     }
 
-    /// True while the way into a stream is planned.
+    /// Whether the way into a stream is being planned.
     pub fn plans_stream_entry(&self) -> bool {
         self.motion.stream_entry().is_some()
     }
 
-    /// The way into a stream, once it was worked out: `Some(None)` if there is none.
+    /// The way into a stream, once it has been worked out: `Some(None)` if there is none.
     pub fn take_stream_entry(&mut self) -> Option<Option<StreamEntry>> {
         self.motion
             .stream_entry()
@@ -45,7 +45,7 @@ impl Figure {
         Some(self.motion.take_stream_entry()?.task.take())
     }
 
-    /// Lets the way into a stream be taken when it is due. A tick that does not wait for plans puts that off.
+    /// Lets the way into a stream be taken when it is due. A tick that does not wait for plans postpones that.
     pub(in crate::figure) fn settle_stream_entry_if_due(&mut self, world: &TickContext) {
         let open = |e: &&StreamEntryPlan| !e.problem.settled;
         let Some(entry) = self.motion.stream_entry().filter(open) else {

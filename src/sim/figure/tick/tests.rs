@@ -1,4 +1,4 @@
-//! What a figure does when its numbers break, and when its plans are late.
+//! Figures whose numbers break, and figures whose plans are late.
 
 use super::*;
 use crate::body::{Body, Posture};
@@ -12,7 +12,7 @@ use crate::tick_context::Planning;
 use crate::world::{World, WorldParams};
 use std::sync::Arc;
 
-/// What is shown of a figure has no number that is not finite.
+/// Every number shown of a figure is finite.
 fn tells_finite_numbers(f: &Figure) {
     let told = format!("{:?} {:?} {:?}", f.report(), f.target(), f.following());
     let broken = ["NaN", "inf"].map(|word| told.contains(word));
@@ -60,7 +60,7 @@ fn a_figure_that_is_not_finite_is_frozen_reported_once_and_changes_no_other() {
     let (beside, told, mut world, victim) = hashes(true);
     assert_eq!(alone, beside);
     assert_eq!(told, 1);
-    // A reset takes it back into the world.
+    // A reset brings it back into the world.
     let mut state = State::default();
     state.posture.root_position.z = body.standing_root_height();
     world.reset_figure(victim, state).unwrap();
@@ -71,7 +71,7 @@ fn a_figure_that_is_not_finite_is_frozen_reported_once_and_changes_no_other() {
     assert!(!f.report().unwrap().flags.has(Flags::QUARANTINED) && !f.is_fallen());
 }
 
-/// A desired motion that asks for numbers out of hand, one each.
+/// Desired motions that ask for numbers out of range, one each.
 fn absurd(body: &Body) -> Vec<TargetPair> {
     let mut posture = Posture::default();
     posture.root_position.z = body.standing_root_height();
@@ -94,7 +94,7 @@ fn absurd(body: &Body) -> Vec<TargetPair> {
     ]
 }
 
-/// Whatever is asked of it, a figure keeps a finite state, the others go on, and its world can be stored.
+/// Whatever the request, a figure keeps a finite state, the others continue, and its world can be stored.
 #[test]
 fn a_figure_whose_desired_motion_is_out_of_hand_is_set_aside() {
     let body = Arc::new(Body::adult_man());
@@ -137,7 +137,7 @@ fn a_figure_whose_desired_motion_is_out_of_hand_is_set_aside() {
             assert!(!frozen(&world, other), "{kind:?} {case}");
             assert!(asked.is_some() || !frozen(&world, victim));
             set_aside += usize::from(frozen(&world, victim));
-            // What it remembers is not refused, and a reset takes it back if it is asked for something else.
+            // Its memory is not refused, and a reset brings it back if it gets a different command.
             let drive = MotionSource::Hold(held);
             world.figure_mut(victim).unwrap().set_drive(drive);
             let capture = world.capture();
@@ -177,8 +177,8 @@ fn walking(planning: Planning) -> (World, FigureKey, Arc<Clip>) {
     (world, key, clip)
 }
 
-/// Stops it, and steps on; requests of the ticks from `solved` on are solved. Plans that were late, and the tick in
-/// which it turned to its way to a stand.
+/// Stops it, and steps on; requests of the ticks from `solved` on are solved. Returns the number of plans that were
+/// late, and the tick in which it turned to its way to a stand.
 fn stopped(planning: Planning, solved: usize) -> (usize, Option<usize>, u64) {
     let (mut world, key, clip) = walking(planning);
     let time = world.time();

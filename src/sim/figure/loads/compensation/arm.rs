@@ -1,8 +1,8 @@
-//! What an arm does of a motion with a load in its hand.
+//! The movement of an arm with a load in its hand.
 //!
-//! The motion was made by an empty hand. The same path with 10 kg would take several times the force, which a shoulder
-//! does not have, and the body would have to stand against it. So the arm moves the load about with the force of the
-//! motion: what it does slowly stays as it is, what it does quickly becomes the less the more it carries.
+//! The motion was made by an empty hand. Moving 10 kg along the same path would take several times the force, which a
+//! shoulder does not have, and the body would have to resist it. So the arm moves the load with the force of the
+//! motion: slow movements stay as they are, and quick ones become smaller the more it carries.
 
 use crate::body::topology::{PARENT, SEGMENT_COUNT};
 use crate::body::{Body, Posture, SegmentId};
@@ -19,22 +19,22 @@ use serde::{Deserialize, Serialize};
 /// Positions and rotations of all segments, m.
 pub(super) type ArmPoses = [(Vec3, Quat); SEGMENT_COUNT];
 
-/// What an arm has done lately.
+/// The recent movement of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Habit {
-    /// How much it is used to hang, 0…1.
+    /// How much it usually hangs, 0…1.
     pub(super) hangs: f64,
-    /// How it has been held.
+    /// How it has been held on average.
     held: Arm,
 }
 
 impl Habit {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub(super) fn is_valid(&self) -> bool {
         (0.0..=1.0).contains(&self.hangs) && self.held.is_finite()
     }
 
-    /// Of an arm that has always been as in `posture`.
+    /// For an arm that has always been as in `posture`.
     pub(super) fn of(body: &Body, posture: &Posture, arm: [SegmentId; 3]) -> Self {
         let (_, [elbow, _]) = joints(arm);
         Self {
@@ -43,7 +43,7 @@ impl Habit {
         }
     }
 
-    /// What it is `seconds` later, when the motion has the arm `held` like this and, all the time, hanging by so much.
+    /// The habit `seconds` later, if the motion has had the arm `held` like this and hanging by `hung` all that time.
     pub(super) fn after(&self, seconds: f64, hung: f64, held: Arm) -> Self {
         Self {
             hangs: hung + (self.hangs - hung) * exp(-seconds / HABIT_TIME),
@@ -52,20 +52,20 @@ impl Habit {
     }
 }
 
-/// Share of what an arm does quickly that it leaves undone with a load, kg.
+/// Share of an arm's quick movement that it leaves out with a load, kg.
 fn left_undone(load: f64) -> f64 {
     load / (load + HALF_SWING)
 }
 
-/// Takes from what an arm does quickly as much as its load, kg, asks for.
+/// Reduces the quick movement of an arm according to its load, kg.
 pub(super) fn slow(posture: &mut Posture, arm: [SegmentId; 3], load: f64, habit: &Habit) {
     let planned = Arm::of(posture, arm);
     let held = planned.toward(&habit.held, left_undone(load));
     held.hold(posture, arm);
 }
 
-/// Lets an arm that hangs in the motion, and is used to it, hang straighter and swing less, by what its hand carries,
-/// kg.
+/// Makes an arm that hangs in the motion, and usually does, hang straighter and swing less, according to the load in
+/// its hand, kg.
 pub(super) fn hang(
     body: &Body,
     posture: &mut Posture,
@@ -93,13 +93,13 @@ fn hanging(swing: f64, elbow: f64) -> f64 {
     fall(swing.abs(), (HANGS_SWING, RAISED_SWING)) * fall(elbow.abs(), (HANGS_ELBOW, BENT_ELBOW))
 }
 
-/// Angle of an arm before the vertical through its shoulder, rad, as the pelvis looks.
+/// Angle of an arm in front of the vertical through its shoulder, rad, in the direction of the pelvis.
 fn swing(poses: &ArmPoses, [upper, _, hand]: [SegmentId; 3]) -> f64 {
     let line = poses[hand.index()].0 - poses[upper.index()].0;
     trig::atan2(line.dot(ahead(poses)), -line.z)
 }
 
-/// Where the pelvis looks, level.
+/// The direction in which the pelvis faces, level.
 fn ahead(poses: &ArmPoses) -> Vec3 {
     let x = poses[0].1.rotate(Vec3::X);
     Vec3 { z: 0.0, ..x }.normalized_or(Vec3::X)
@@ -113,7 +113,7 @@ mod tests {
 
     const RIGHT: [SegmentId; 3] = ARMS[1];
 
-    /// A figure at ease with its right arm swung by `swing` rad from where it hangs, forwards if it is positive.
+    /// A figure at ease with its right arm swung by `swing` rad from hanging, positive forwards.
     fn swung(body: &Body, swing: f64) -> Posture {
         let mut out = at_ease(body);
         let (shoulder, _) = joints(RIGHT);
@@ -126,8 +126,8 @@ mod tests {
         poses[RIGHT[2].index()].0 - poses[RIGHT[0].index()].0
     }
 
-    /// How far the hand of an arm with 5 kg is from where the motion has it as the arm comes down once more after
-    /// `raised` seconds, m.
+    /// Distance, m, between the hand of an arm with 5 kg and its place in the motion, as the arm comes down again after
+    /// being raised for `raised` seconds.
     fn let_down(raised: f64) -> f64 {
         let body = Body::adult_man();
         let up = Habit::of(&body, &swung(&body, 2.0), RIGHT);
@@ -155,8 +155,8 @@ mod tests {
         assert!(busy < 0.03 * used, "{busy} of {used}");
     }
 
-    /// Furthest that the hand gets up from where it is with the arm level when the arm swings by ±`most` rad about
-    /// there in `period` seconds, m.
+    /// The greatest height, m, of the hand above its place with the arm level, when the arm swings by ±`most` rad about
+    /// level in `period` seconds.
     fn swings(load: f64, most: f64, period: f64) -> f64 {
         let body = Body::adult_man();
         let at = |t: f64| {
@@ -184,8 +184,7 @@ mod tests {
         let empty = swings(0.0, 0.4, 1.0);
         assert!(empty > 0.2, "{empty}");
         for load in [4.0, 12.0] {
-            // 1 − less · iωτ/(1 + iωτ): what is left of a swing whose quick part, a high-pass of the first order,
-            // becomes less.
+            // 1 − less · iωτ/(1 + iωτ): the remainder of a swing whose quick part, a first-order high-pass, is reduced.
             let less = load / (load + HALF_SWING);
             let x = std::f64::consts::TAU * QUICK;
             let quick = [x * x, x].map(|part| part / (1.0 + x * x));

@@ -1,4 +1,4 @@
-//! What two arms need to hold a load still in a posture, as shares of their strength, and how they best share it.
+//! The effort of two arms to hold a load still in a posture, as shares of their strength, and the best way to share it.
 
 use crate::body::angles::anatomical_angles;
 use crate::body::topology::{DOF_COUNT, DOF_SEGMENT, DOF_START};
@@ -16,16 +16,16 @@ const ARM_DOFS: usize = 7;
 /// Torques of the joints of one arm, N·m.
 #[derive(Clone, Copy, Debug)]
 struct LoadedArm {
-    /// To hold itself, and what else it carries.
+    /// To hold the arm itself and anything else that it carries.
     own: [f64; ARM_DOFS],
-    /// More for each kilogram of the load.
+    /// In addition, for each kilogram of the load.
     per_kg: [f64; ARM_DOFS],
     lower: [f64; ARM_DOFS],
     upper: [f64; ARM_DOFS],
 }
 
 impl LoadedArm {
-    /// Share of its strength that the hardest joint needs with so much of the load, kg.
+    /// Share of its strength that the hardest-working joint needs with a load of `mass` kg.
     fn need(&self, mass: f64) -> f64 {
         (0..ARM_DOFS).fold(0.0, |most, k| {
             let torque = self.own[k] + mass * self.per_kg[k];
@@ -38,8 +38,8 @@ impl LoadedArm {
         })
     }
 
-    /// Σ (a/R)² and Σ a b/R², a the torque per kilogram, b that of `mass` kg with the arm's own, R the strength in the
-    /// direction in which the load asks for it.
+    /// Σ (a/R)² and Σ a b/R², where a is the torque per kilogram, b the torque with `mass` kg and the arm's own, and R
+    /// the strength in the direction in which the load acts.
     fn squares(&self, mass: f64) -> (f64, f64) {
         (0..ARM_DOFS).fold((0.0, 0.0), |(square, product), k| {
             let a = self.per_kg[k];
@@ -54,7 +54,7 @@ impl LoadedArm {
     }
 }
 
-/// What both arms need for a load.
+/// The needs of both arms for a load.
 pub(super) struct Efforts {
     carrying: LoadedArm,
     other: LoadedArm,
@@ -73,7 +73,7 @@ pub(super) struct Grasp<'a> {
 }
 
 impl Efforts {
-    /// In a posture in which both hands are at the load.
+    /// For a posture in which both hands are at the load.
     ///
     /// * `other`: index in [`ARMS`] of the arm that helps.
     /// * `hold`: how the two hands hold the load.
@@ -94,7 +94,7 @@ impl Efforts {
             let first = DOF_START[segments[0].index()];
             let hand = segments[2].index();
             let at = kin.position[hand] + kin.rotation[hand] * point;
-            // Torque that holds a moment of mass (kg·m about the joint) against gravity.
+            // Torque that holds a first moment of mass (kg·m about the joint) against gravity.
             let torque = |d: usize, moment: Vec3| see.gravity * kin.axis[d].cross(moment).z;
             let per_kg: [f64; ARM_DOFS] = std::array::from_fn(|k| {
                 let d = first + k;
@@ -129,15 +129,15 @@ impl Efforts {
         self.carrying.need(self.mass)
     }
 
-    /// Share of its strength that the harder of both arms needs when the other takes `share` of the load.
+    /// Share of its strength that the harder-working arm needs when the other takes `share` of the load.
     pub fn together(&self, share: f64) -> f64 {
         let other = share * self.mass;
         let carrying = self.carrying.need(self.mass - other);
         carrying.max(self.other.need(other))
     }
 
-    /// The share of the other arm that makes the sum of the squares of torque over strength, over the joints of both
-    /// arms, least: a convex problem with one unknown.
+    /// The share of the other arm that minimizes the sum of squares of torque over strength, over the joints of both
+    /// arms: a convex problem with one unknown.
     pub fn best_share(&self) -> f64 {
         let (a, b) = self.carrying.squares(self.mass);
         let (c, d) = self.other.squares(0.0);

@@ -4,18 +4,18 @@ use crate::body::{Body, Links, Posture, State};
 use crate::collide::shape::BodyShape;
 use crate::strength::{MuscleScale, Strength};
 
-/// What is known of the figure and its motion.
+/// The facts known about the figure and its motion.
 pub(in crate::figure) struct Sight<'a> {
     pub body: &'a Body,
     pub shape: &'a BodyShape,
     pub strength: &'a Strength,
     pub muscles: &'a MuscleScale,
     pub links: &'a Links,
-    /// Where the body is.
+    /// State of the body.
     pub state: &'a State,
-    /// Desired posture so many seconds from now.
+    /// Desired posture the given number of seconds from now.
     pub ahead: &'a dyn Fn(f64) -> Posture,
-    /// Left and right hand have nothing else to do.
+    /// Whether each hand (left, right) is free.
     pub free: [bool; 2],
     /// Beginning and length of the tick, s.
     pub time: f64,
