@@ -13,7 +13,7 @@ use crate::strength::{MuscleScale, Strength};
 use crate::tick_context::TickContext;
 use serde::{Deserialize, Serialize};
 
-/// What a stepper reads in one tick.
+/// The input of a stepper in one tick.
 #[derive(Clone, Copy, Debug)]
 pub struct StepInput<'a> {
     /// The body.
@@ -24,30 +24,30 @@ pub struct StepInput<'a> {
     pub strength: &'a Strength,
     /// Factors on the muscles.
     pub scale: &'a MuscleScale,
-    /// What is known of the state at the start of the tick.
+    /// The known state at the start of the tick.
     pub start: TickStart<'a>,
     /// Acceleration in the last substep of the tick before, from which the first solve starts; zeros without one.
     pub last_acceleration: &'a [f64; NV],
-    /// What the motors are asked to do.
+    /// The command to the motors.
     pub command: &'a MotorCommand,
-    /// Stretched tissue as the controller counts on it; without it none acts.
+    /// Stretched tissue on which the controller relies; `None` if none acts.
     pub tissue: Option<&'a Tissue>,
-    /// Forces that neither muscles nor contact give.
+    /// Forces other than those of muscles and contact.
     pub forces: StepForces<'a>,
-    /// What the body needs to meet itself; without it it passes through itself.
+    /// Data for contact of the body with itself; without them it passes through itself.
     pub own: Option<OwnBody<'a>>,
     /// Tick, substeps and gravity.
     pub world: &'a TickContext,
 }
 
-/// What is known of the state at the start of a tick: the first substep takes it from here.
+/// Known facts about the state at the start of a tick: the first substep takes them from here.
 #[derive(Clone, Copy, Debug)]
 pub struct TickStart<'a> {
-    /// Its terms, those the controller used.
+    /// Its terms, the same that the controller used.
     pub terms: &'a Terms,
     /// Swings and twists of its joints.
     pub swings: &'a Swings,
-    /// Torque that is available there: the strength, with the factors of [`StepInput::scale`].
+    /// Torque that is available in this state: the strength, with the factors of [`StepInput::scale`].
     pub available: &'a TorqueRange,
 }
 
@@ -60,7 +60,7 @@ pub struct TorqueRange {
     pub upper: [f64; DOF_COUNT],
 }
 
-/// Forces on the body that neither muscles nor contact give.
+/// Forces on the body other than those of muscles and contact.
 #[derive(Clone, Copy, Debug)]
 pub struct StepForces<'a> {
     /// Forces of perturbations, constant over the tick.
@@ -71,25 +71,25 @@ pub struct StepForces<'a> {
     pub assist: Option<PelvisHelp<'a>>,
 }
 
-/// What moves the body.
+/// Moves the body.
 pub trait Stepper {
     /// Advances `state` by one tick. Allocates nothing.
     fn step(&mut self, input: &StepInput<'_>, state: &mut State);
 }
 
-/// What the motors are asked to do during one tick.
+/// The command to the motors for one tick.
 #[derive(Clone, Debug)]
 pub struct MotorCommand {
     /// Commanded joint acceleration, rad/s².
     pub acceleration: [f64; DOF_COUNT],
     /// Feed-forward torque, N·m.
     pub torque: [f64; DOF_COUNT],
-    /// Speed error at which a motor gives all it has, rad/s: 1 with a feed-forward torque, 0.005 for motors alone.
+    /// Rate error at which a motor gives its full torque, rad/s: 1 with a feed-forward torque, 0.005 for motors alone.
     pub saturation_speed: f64,
 }
 
 impl MotorCommand {
-    /// True if every number is finite.
+    /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         let numbers = self.acceleration.iter().chain(&self.torque);
         numbers

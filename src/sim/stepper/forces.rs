@@ -22,7 +22,7 @@ pub struct TickForces {
     pub assist: [f64; 6],
     /// Mean force of the bar on its second end, N; the first end feels the opposite.
     pub bar: Vec3,
-    /// Mean contact force by segment and vertex; zero where nothing touched.
+    /// Mean contact force by segment and vertex; zero at points that did not touch.
     pub contact: Vec<ContactPoint>,
     /// Largest relative violation of strength by any substep.
     pub over_limit: f64,
@@ -35,7 +35,7 @@ pub struct TickForces {
 }
 
 impl TickForces {
-    /// Nothing, with room for so many contacts and applied forces.
+    /// No forces, with room for the given numbers of contacts and applied forces.
     pub fn new(contacts: usize, applied: usize) -> Self {
         Self {
             torque: [0.0; DOF_COUNT],

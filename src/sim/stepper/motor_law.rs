@@ -13,18 +13,19 @@ use serde::{Deserialize, Serialize};
 pub struct MotorLaw {
     /// Time constant of the demand, s.
     pub horizon: f64,
-    /// Rate error at which a motor gives all it has, rad/s.
+    /// Rate error at which a motor gives its full torque, rad/s.
     pub saturation_speed: f64,
 }
 
 impl MotorLaw {
-    /// Stiff motors: they give all they have at a tenth of a rad/s, so that joints follow within strength.
+    /// Stiff motors: they give their full torque at an error of a tenth of a rad/s, so that joints follow within
+    /// strength.
     pub const STIFF: Self = Self {
         horizon: 0.03,
         saturation_speed: 0.1,
     };
 
-    /// As the law of tracking, for ticks of `dt` s.
+    /// The law of tracking, for ticks of `dt` s.
     pub fn law(&self, dt: f64) -> Law {
         let params = ControlParams {
             horizon: Some(self.horizon),
@@ -33,7 +34,7 @@ impl MotorLaw {
         Law::new(&params, dt)
     }
 
-    /// What the motors of a body in `state` are asked to do, so that its joints follow `target`. No allocation.
+    /// The command that makes the joints of a body in `state` follow `target`. No allocation.
     pub fn command(
         &self,
         law: &Law,

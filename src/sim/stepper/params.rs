@@ -1,4 +1,4 @@
-//! Tunable numbers of what moves a body in a tick.
+//! Tunable numbers of everything that moves a body in a tick.
 
 use crate::params::Param;
 
@@ -34,7 +34,7 @@ pub mod contact {
     }
 }
 
-/// A body that meets itself.
+/// Contact of a body with itself.
 pub mod self_contact {
     crate::params::params! {
         /// Most solves of one substep after its first, each with corrected impulses.
@@ -65,7 +65,7 @@ pub mod bar {
     }
 }
 
-/// Help on the pelvis that physics does not give.
+/// Non-physical help on the pelvis.
 pub mod assist {
     crate::params::params! {
         /// κ of the force over the body mass at assist 1.

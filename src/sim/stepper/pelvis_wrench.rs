@@ -1,14 +1,13 @@
-//! Help that physics does not give: a bounded wrench on the pelvis towards its desired pose, off unless asked for and
-//! always reported.
+//! Non-physical help: a bounded wrench on the pelvis towards its desired pose, off by default and always reported.
 //!
-//! An implicit spring on the velocity of the pelvis, solved together with motors, joint limits and contacts.
-//! Its impulse over a substep is `κ (v* − v⁺)`, where v* brings the pelvis back to the desired pose,
-//! and it is cut in norm. Force and moment, and their bounds, grow with the figure's `assist` (0…1); at 1 they hold the
-//! pelvis on its path within millimetres whatever the legs do.
+//! It is an implicit spring on the velocity of the pelvis, solved together with motors, joint limits and contacts. Its
+//! impulse over a substep is `κ (v* − v⁺)`, where v* brings the pelvis back to the desired pose, and its norm is
+//! limited. Force and moment, and their bounds, grow with the figure's `assist` (0…1); at 1 they hold the pelvis on its
+//! path within millimetres, whatever the legs do.
 //!
-//! A rehearsed motion ([`crate::figure::motion::rehearsed`]) is helped in another way, with the same books: by the
-//! impulses that its rehearsal found, if it found any, and by a weak spring towards the path that the pelvis took
-//! there.
+//! A rehearsed motion ([`crate::figure::motion::rehearsed`]) is helped in another way but reported alike: by the
+//! impulses that its rehearsal found, if it found any, and by a weak spring towards the path of the pelvis in the
+//! rehearsal.
 
 use crate::body::{Body, State};
 use crate::math::{Quat, Vec3};
@@ -21,7 +20,7 @@ use crate::stepper::params::assist::{
 use crate::stepper::params::pull::{FREQUENCY, LEVER};
 use serde::{Deserialize, Serialize};
 
-/// What an assisted figure is given in one tick.
+/// The help of an assisted figure in one tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assist {
     /// Share, 0…1.
@@ -42,18 +41,18 @@ pub struct Spring {
     pub rest: [Vec3; 2],
     /// Largest impulse, N·m·s and N·s.
     pub most: [f64; 2],
-    /// Impulse that acts besides the spring, N·m·s and N·s.
+    /// Impulse that acts in addition to the spring, N·m·s and N·s.
     pub given: Option<[Vec3; 2]>,
 }
 
-/// What helps the pelvis in a tick.
+/// The help for the pelvis in a tick.
 #[derive(Clone, Copy, Debug)]
 pub enum PelvisHelp<'a> {
     /// A spring towards its desired pose.
     Desired(&'a Assist, &'a TargetPair),
-    /// A pull towards its desired pose, worked out from where it is at the start of a substep.
+    /// A pull towards its desired pose, computed from its pose at the start of a substep.
     Pull(PelvisHold, &'a TargetPair),
-    /// The help of a rehearsal, and a spring towards the path that the pelvis took there.
+    /// The help of a rehearsal, and a spring towards the path of the pelvis in that rehearsal.
     Rehearsed(PelvisHold, PelvisPath<'a>),
 }
 
@@ -76,7 +75,7 @@ impl PelvisHelp<'_> {
 }
 
 impl Assist {
-    /// The help a body gets at `share`; `None` at 0.
+    /// The help that a body gets at `share`; `None` at 0.
     pub fn new(body: &Body, share: f64) -> Option<Self> {
         let p = body.profile;
         let weight = p.mass * GRAVITY;
@@ -91,7 +90,7 @@ impl Assist {
         })
     }
 
-    /// Compliance that a plan may count on: moment and force that [`PLANNED_COST`] buys, `½ f²/κ`.
+    /// Compliance that a plan may assume: moment and force that [`PLANNED_COST`] buys, `½ f²/κ`.
     pub fn planned(&self) -> [f64; 2] {
         let per_cost = 0.125 / PLANNED_COST;
         [self.most_moment, self.most_force].map(|most| per_cost * most * most)
@@ -112,7 +111,8 @@ impl Assist {
     }
 }
 
-/// What the pelvis lacks to its desired motion: turn, rad, and way, m; and the rates that are desired, rad/s and m/s.
+/// Error of the pelvis against its desired motion: turn, rad, and displacement, m; and the desired rates, rad/s and
+/// m/s.
 pub(crate) struct Missing {
     pub off: [Vec3; 2],
     pub rate: [Vec3; 2],
@@ -137,7 +137,7 @@ impl Missing {
 }
 
 impl Spring {
-    /// Impulse of part `k` at the velocity `v` of the pelvis, uncut.
+    /// Impulse of part `k` at the velocity `v` of the pelvis, without the limit.
     pub fn impulse(&self, k: usize, v: &[f64; 6]) -> Vec3 {
         let now = Vec3 {
             x: v[3 * k],
@@ -147,7 +147,7 @@ impl Spring {
         (self.rest[k] - now) * self.gain[k]
     }
 
-    /// The same, cut to the bound, and whether it was.
+    /// The same, cut to the bound, and whether it was cut.
     pub fn cut(&self, k: usize, v: &[f64; 6]) -> (Vec3, bool) {
         let p = self.impulse(k, v);
         let bounded = p.capped(self.most[k]);
@@ -155,23 +155,24 @@ impl Spring {
     }
 }
 
-/// The spring that leads the pelvis back to the path of the rehearsal: `k x + c ẋ`, critically damped, cut in norm.
+/// The spring that leads the pelvis back to the path of the rehearsal: `k x + c ẋ`, critically damped, with limited
+/// norm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PelvisHold {
     /// Angular frequency of the body on the spring, rad/s.
     pub frequency: f64,
-    /// Mass that it counts on, kg, and moment of inertia about the pelvis, kg·m².
+    /// Mass, kg, and moment of inertia about the pelvis, kg·m², that it assumes.
     pub inertia: [f64; 2],
     /// Largest force, N, and moment, N·m.
     pub most: [f64; 2],
-    /// Farther from the path than this, m, the motion is over.
+    /// Distance from the path beyond which the motion is over, m.
     pub reach: f64,
 }
 
 /// The pelvis in one substep of the rehearsal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RootStep {
-    /// Where it was at the start.
+    /// Position at the start.
     pub position: Vec3,
     /// World from pelvis, at the start.
     pub rotation: Quat,
@@ -187,7 +188,7 @@ impl RootStep {
     }
 }
 
-/// The substeps of a tick, and where the path lies in the world.
+/// The substeps of a tick, and the place of the path in the world.
 #[derive(Clone, Copy, Debug)]
 pub struct PelvisPath<'a> {
     /// One for each substep.
@@ -220,8 +221,8 @@ impl PelvisHold {
             && self.most.iter().all(|x| (0.0..=1e5).contains(x))
     }
 
-    /// What it gives at once, towards a desired pose, in a substep of `h` s that begins at share `s` of the tick of
-    /// `dt` s: as an impulse that does not depend on how the substep ends, so that nothing has to be solved with it.
+    /// Its explicit impulse towards a desired pose in a substep of `h` s that begins at share `s` of the tick of `dt`
+    /// s. It does not depend on the end of the substep, so that nothing has to be solved with it.
     pub(crate) fn impulse(
         &self,
         target: &TargetPair,
@@ -276,8 +277,8 @@ impl PelvisHold {
     }
 }
 
-/// A pull on the pelvis of `body` towards a desired pose: a critically damped spring, with so much force over the
-/// weight at most.
+/// A pull on the pelvis of `body` towards a desired pose: a critically damped spring with the given largest force over
+/// the weight.
 pub fn pull(body: &Body, most: f64) -> PelvisHold {
     let p = body.profile;
     let force = most * p.mass * GRAVITY;

@@ -1,21 +1,21 @@
 //! A body does not pass through itself: arms against trunk, head and legs, arms against each other, legs against each
 //! other.
 //!
-//! Segments are the capsules that they collide with elsewhere ([`BodyShape`]). Where two of them would come nearer in a
-//! substep than they may, equal and opposite impulses act at their nearest points, without friction. They only push,
-//! and as they act at one point, they change neither momentum nor angular momentum.
+//! Segments are the capsules with which they collide elsewhere ([`BodyShape`]). If two of them would come closer in a
+//! substep than they may, equal and opposite impulses act at their nearest points, without friction. The impulses only
+//! push, and as they act at one point, they change neither momentum nor angular momentum.
 //!
-//! How near a pair may come is what the desired motion itself does: no nearer than touching, or than in the desired
-//! posture at the beginning or end of the tick and `SLACK` deeper, whichever is nearest. What a recording asks for is
-//! not fought.
+//! The permitted distance of a pair depends on the desired motion: no closer than touching, or than `SLACK` deeper than
+//! in the desired posture at the beginning or end of the tick, whichever is closer. Overlaps that a recording contains
+//! are not resisted.
 //!
-//! Between them is soft tissue: a spring with a damper, whose force is that at the end of the substep, so that no
-//! stiffness is too much for the length of a step. The impulses are part of the momentum with which a substep is
-//! solved, so that motors, limits and contacts answer to them. Each is found from the velocity at the end, and the
-//! substep is solved again, as long as a pair is pushed too little or too much and at most three times. A correction
-//! counts on the mass that the pair feels, for all pairs at once: first with motors, limits and floor as they were in
-//! the solve before, at last with every joint free. Motors and floor only add to that mass, so the last correction does
-//! not overshoot. Nothing passes from one substep to the next.
+//! Between the two lies soft tissue: a spring with a damper, whose force is that at the end of the substep, so that the
+//! step is stable at any stiffness. The impulses are part of the momentum with which a substep is solved, so that
+//! motors, limits and contacts respond to them. Each is found from the velocity at the end. While a pair is pushed too
+//! little or too much, the substep is solved again, at most three times. A correction uses the mass that resists the
+//! pair, for all pairs at once: first with motors, limits and floor as they were in the previous solve, and in the end
+//! with every joint free. Motors and floor only add to that mass, so the last correction does not overshoot. Nothing
+//! passes from one substep to the next.
 
 use crate::body::topology::{
     ABDOMEN, CHEST, HEAD, L_FOOT, L_FOREARM, L_HAND, L_SHANK, L_THIGH, L_TOES, L_UPPER_ARM, NV,
@@ -33,7 +33,7 @@ use crate::motion::leg_ik::forward;
 use crate::stepper::params::contact::SPECULATIVE_HEIGHT;
 use crate::stepper::params::self_contact::{RELAXATION, SLACK, STIFFNESS, TOLERANCE};
 
-/// Most pairs that are near each other in one substep; more do not meet.
+/// Most pairs that are near each other in one substep; further pairs do not collide.
 pub const MAX_PAIRS: usize = 32;
 
 /// Segments that can meet. A joint's own two segments overlap and are left out.
@@ -58,12 +58,12 @@ const PAIRS: &[(&[SegmentId], &[SegmentId])] = &[
     ),
 ];
 
-/// What a body needs to be known of so that it can meet itself.
+/// Facts about a body that contact with itself requires.
 #[derive(Clone, Copy, Debug)]
 pub struct OwnBody<'a> {
     /// Capsules of its segments.
     pub shape: &'a BodyShape,
-    /// Desired motion of the tick: it may be in itself as far as this is.
+    /// Desired motion of the tick: the body may overlap itself as deeply as this does.
     pub desired: &'a TargetPair,
 }
 
@@ -79,15 +79,15 @@ struct SegmentPair {
     gap: f64,
     /// Derivative of the distance by the velocity.
     row: [f64; NV],
-    /// The two have come nearer than they may, in one of the solves of the substep.
+    /// Whether the two have come closer than they may, in one of the solves of the substep.
     met: bool,
-    /// What an impulse between them does to the velocity.
+    /// Change of the velocity per impulse between them.
     answer: [f64; NV],
-    /// Rate of the distance below which the two push each other, m/s; once it is asked for.
+    /// Rate of the distance below which the two push each other, m/s; computed on demand.
     least_rate: Option<f64>,
-    /// By how much the rate is too low, m/s.
+    /// Amount by which the rate is too low, m/s.
     missing: f64,
-    /// Impulse that parts the two, N·s.
+    /// Impulse that separates the two, N·s.
     impulse: f64,
 }
 
@@ -101,7 +101,7 @@ fn product(a: &[f64; NV], b: &[f64; NV]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Where the segments of a posture are.
+/// Poses of the segments of a posture.
 #[derive(Clone, Debug)]
 struct PlacedCapsules {
     position: [Vec3; SEGMENT_COUNT],
@@ -109,7 +109,7 @@ struct PlacedCapsules {
 }
 
 impl PlacedCapsules {
-    /// Seen from the pelvis, so that nothing depends on where in the world the figure is.
+    /// Relative to the pelvis, so that nothing depends on the figure's place in the world.
     fn of(body: &Body, posture: &Posture) -> Self {
         let poses = forward(
             body,
@@ -126,8 +126,8 @@ impl PlacedCapsules {
     }
 }
 
-/// True if only the half of a limb that is away from the trunk meets the other segment: thighs are side by side where
-/// they come from the pelvis, and shoulders are part of the trunk. A force there would turn nothing.
+/// Whether only the distal half of a limb collides with the other segment: thighs are side by side where they come from
+/// the pelvis, and shoulders are part of the trunk. A force there would turn nothing.
 fn meets_with_half(limb: SegmentId, other: SegmentId) -> bool {
     let of = |all: [SegmentId; 2]| all.contains(&limb);
     let thighs = [L_THIGH, R_THIGH];
@@ -159,7 +159,8 @@ fn nearest(
     least
 }
 
-/// Calls `each` with the nearest points of every pair of segments that can meet, seen from the pelvis. No allocation.
+/// Calls `each` with the nearest points of every pair of segments that can collide, relative to the pelvis. No
+/// allocation.
 pub fn distances(
     body: &Body,
     shape: &BodyShape,
@@ -182,7 +183,7 @@ pub fn distances(
 #[derive(Clone, Debug)]
 pub(crate) struct SelfContact {
     pairs: Vec<SegmentPair>,
-    /// The desired postures at both ends of the tick, once they are asked for.
+    /// The desired postures at both ends of the tick, computed on demand.
     desired: Option<[PlacedCapsules; 2]>,
     /// Factor of the inertia matrix, if it is that of this substep.
     free: MassMatrix<f64>,
@@ -209,7 +210,7 @@ impl SelfContact {
         self.desired = None;
     }
 
-    /// Starts a substep of `h` s: finds the pairs that are near each other or could meet. No allocation.
+    /// Starts a substep of `h` s: finds the pairs that are near each other or could collide. No allocation.
     pub fn open(&mut self, own: Option<&OwnBody<'_>>, terms: &Dynamics, h: f64) {
         self.pairs.clear();
         self.factored = false;
@@ -241,7 +242,7 @@ impl SelfContact {
         }
     }
 
-    /// Adds a pair if it is near or comes near.
+    /// Adds a pair if it is near or approaching.
     fn look_at(&mut self, shape: &BodyShape, terms: &Dynamics, segments: [SegmentId; 2]) {
         let kin = &terms.kin;
         let Some(near) = nearest(shape, &kin.position, &kin.rotation, segments) else {
@@ -276,12 +277,12 @@ impl SelfContact {
         });
     }
 
-    /// Corrects the impulses for a substep at whose end the velocity would be `v`. False if that changes nothing: no
-    /// pair comes nearer than it may, and none is pushed more than it takes. No allocation.
+    /// Corrects the impulses for a substep at whose end the velocity would be `v`. Returns `false` if that changes
+    /// nothing: no pair comes closer than it may, and none is pushed more than necessary. No allocation.
     ///
     /// * `own`: shape and desired posture of the body; without it the body passes through itself.
     /// * `mass`: inertia matrix of the substep.
-    /// * `solved`: factor of the matrix that the substep was solved with, stiffness of motors, limits and contacts
+    /// * `solved`: factor of the matrix with which the substep was solved, stiffness of motors, limits and contacts
     ///   included; without it every joint counts as free.
     pub fn correct(
         &mut self,
@@ -315,13 +316,14 @@ impl SelfContact {
         off
     }
 
-    /// Rate by which tissue gives way per impulse, 1/kg. Its force is that at the end of the substep: stiffness times
+    /// Rate at which tissue yields per impulse, 1/kg. Its force is that at the end of the substep: stiffness times
     /// depth, and damping times rate.
     fn compliance(&self) -> f64 {
         1.0 / (STIFFNESS * self.h * (self.h + RELAXATION))
     }
 
-    /// Rate of the distance of pair `k` below which its tissue pushes, m/s: what is left may close within the substep.
+    /// Rate of the distance of pair `k` below which its tissue pushes, m/s: the remaining gap may close within the
+    /// substep.
     fn least_rate(&mut self, own: &OwnBody<'_>, body: &Body, k: usize) -> f64 {
         let SegmentPair {
             segments,
@@ -351,8 +353,8 @@ impl SelfContact {
         rate
     }
 
-    /// Corrects the impulses of all pairs that have met. Each counts on the mass from the sum of its row of
-    /// `J M⁻¹ Jᵀ`, so that all of them together are no more than each takes.
+    /// Corrects the impulses of all pairs in contact. Each uses the mass from the sum of its row of `J M⁻¹ Jᵀ`, so that
+    /// together they give no pair more than it needs.
     fn push(&mut self, mass: &MassMatrix<f64>, solved: Option<&MassMatrix<f64>>) {
         if solved.is_none() && !self.factored {
             self.free.rows = mass.rows;

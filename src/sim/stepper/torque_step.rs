@@ -3,8 +3,8 @@
 //! One substep solves, implicitly and all at once, for the velocity at its end: motors that pull towards the commanded
 //! motion within the strength of that instant, unilateral joint limits, and speculative frictional contact with the
 //! ground. Then the step is *closed*: the velocity is recomputed from the impulses of the last iterate, so that
-//! torques, contact forces and accelerations satisfy the equations of motion to rounding whatever residual the
-//! iteration stopped at.
+//! torques, contact forces and accelerations satisfy the equations of motion to rounding, regardless of the residual at
+//! which the iteration stopped.
 
 mod bar;
 mod solve;
@@ -31,21 +31,22 @@ use crate::tick_context::TickContext;
 use bar::BarRow;
 use multiversion::multiversion;
 
-/// How exactly a substep is solved. Whatever it is, the step is closed: what acts is within strength and friction.
+/// Accuracy with which a substep is solved. At any accuracy the step is closed: all forces are within strength and
+/// friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
     /// Residual at which a substep counts as solved, N·m·s.
     pub tolerance: f64,
-    /// Most solves for points that slide, after the first.
+    /// Most additional solves for points that slide.
     pub slide_rounds: u32,
-    /// Newton's method begins with the joints at the rates that the motors want, instead of where the last acceleration
-    /// leads: stiff motors get there, and it need not find out which of them do. After the first substep of a tick the
-    /// pelvis, and joints whose motors gave all they had, begin where their last acceleration leads.
+    /// Newton's method begins with the joints at the rates that the motors demand, instead of extrapolating the last
+    /// acceleration: stiff motors reach them, and it need not find out which ones do. After the first substep of a
+    /// tick, the pelvis, and joints whose motors gave their full torque, are still extrapolated.
     pub motors_first: bool,
 }
 
 impl Accuracy {
-    /// That of rehearsals, and of figures that play what was rehearsed: looser, half as fast again.
+    /// The accuracy of rehearsals, and of figures that play a rehearsed motion: looser, and 1.5 times as fast.
     pub const REHEARSED: Self = Self {
         tolerance: 3e-4,
         slide_rounds: 0,
@@ -54,7 +55,7 @@ impl Accuracy {
 }
 
 impl Default for Accuracy {
-    /// That of every figure.
+    /// The accuracy of every other figure.
     fn default() -> Self {
         Self {
             tolerance: contact::TOLERANCE,
@@ -82,7 +83,7 @@ pub struct TorqueStepper {
     pub forces: TickForces,
 }
 
-/// What a substep solves.
+/// The problem of a substep.
 #[derive(Clone, Debug)]
 struct SubstepProblem {
     contacts: ContactRows,
@@ -105,7 +106,7 @@ struct SubstepSolver {
     accuracy: Accuracy,
 }
 
-/// What solves a substep.
+/// The solution of a substep.
 #[derive(Clone, Debug)]
 struct SubstepSolution {
     /// Velocity at its end.
@@ -115,8 +116,8 @@ struct SubstepSolution {
     /// Impulse of the assist.
     assist: [f64; 6],
     outcome: SolveOutcome,
-    /// Joints whose motors gave all they had in the last substep that was closed, by bit; `None` before the first
-    /// substep of a tick.
+    /// Joints whose motors gave their full torque in the last closed substep, by bit; `None` before the first substep
+    /// of a tick.
     saturated: Option<u64>,
 }
 
@@ -129,23 +130,23 @@ struct ExternalContacts {
     forces: Vec<(SegmentId, Vec3, Vec3)>,
 }
 
-/// What a bar between two points gives.
+/// The effect of a bar between two points.
 #[derive(Clone, Copy, Debug, Default)]
 struct BarImpulse {
     /// Impulse along the bar, N·s; positive pushes its ends apart.
     impulse: f64,
-    /// That of the last substep that was closed: first guess of the next one.
+    /// That of the last closed substep: first guess of the next one.
     start: f64,
     /// Its forces in the last substep of a tick: segment, world point, world force, N.
     forces: Option<[(SegmentId, Vec3, Vec3); 2]>,
 }
 
-/// What is collected over the substeps of a tick.
+/// Sums over the substeps of a tick.
 #[derive(Clone, Debug)]
 struct TickMeans {
     /// Joint rates at the start of the tick.
     start: [f64; DOF_COUNT],
-    /// Sum of contact impulses by segment × 8 + vertex, N·s, and where the point was when it first touched.
+    /// Sum of contact impulses by segment × 8 + vertex, N·s, and the place of the point when it first touched.
     impulse: Box<[(Vec3, Vec3); MAX_CONTACTS]>,
     penetration: f64,
 }
@@ -189,7 +190,7 @@ impl TorqueStepper {
         }
     }
 
-    /// Solves with another accuracy from now on.
+    /// Uses another accuracy from now on.
     pub fn set_accuracy(&mut self, accuracy: Accuracy) {
         self.solver.accuracy = accuracy;
         self.problem.slides.limit_rounds(accuracy.slide_rounds);
@@ -200,12 +201,12 @@ impl TorqueStepper {
         self.problem.contacts.friction = friction;
     }
 
-    /// What it remembers from tick to tick: impulse along the bar between two hands, N·s, and its mean force, N.
+    /// Its memory from tick to tick: impulse along the bar between two hands, N·s, and its mean force, N.
     pub(crate) fn memory(&self) -> (f64, Vec3) {
         (self.bar.start, self.forces.bar)
     }
 
-    /// Remembers what it did of this figure.
+    /// Takes on the memory of this figure.
     pub(crate) fn remember(&mut self, impulse: f64, force: Vec3) {
         self.bar.start = impulse;
         self.forces.bar = force;
@@ -248,8 +249,7 @@ impl TorqueStepper {
         self.means.penetration = 0.0;
     }
 
-    /// Substep `i`: everything that depends on the state, and the velocity at its end if nothing but the ground is
-    /// touched.
+    /// Substep `i`: everything that depends on the state, and the velocity at its end if only the ground is touched.
     pub(crate) fn open_substep(&mut self, input: &StepInput<'_>, state: &State, i: u32) {
         let StepInput {
             body,
@@ -291,7 +291,7 @@ impl TorqueStepper {
         collect_limits(body, tissue, (state, swings), h, &mut self.problem.limits);
         let TorqueRange { lower, upper } = &self.problem.range;
         for j in 0..DOF_COUNT {
-            // The gain follows strength: a motor gives all it has when it is `saturation_speed` off.
+            // The gain follows strength: a motor gives its full torque at an error of `saturation_speed`.
             let k = 0.5 * (start.available.upper[j] - start.available.lower[j])
                 / command.saturation_speed;
             let aim = self.means.start[j] + f64::from(i + 1) * h * command.acceleration[j];
@@ -315,7 +315,7 @@ impl TorqueStepper {
         self.solve_substep(input, h, state, spring.as_ref());
     }
 
-    /// What other bodies give in this substep, after an island has been solved for the velocity that it left in
+    /// The impulse of other bodies in this substep, after an island has been solved for the velocity left in
     /// [`Self::parts`].
     pub(crate) fn touch(&mut self, impulse: [f64; NV], outcome: SolveOutcome) {
         self.external.impulse = Some(impulse);
@@ -376,8 +376,8 @@ impl TorqueStepper {
     /// Rows for every contact point that is low or arrives within the substep.
     ///
     /// A point with velocity Jv moves by h(Jv + ½h J̇v): limbs turn, and a foot that rolls over its toes with Jv = 0
-    /// would creep by ½h²J̇v, 0.3 mm a tick. What rests is therefore held where it is, not at rest. What lands or
-    /// slides moves otherwise after the substep than before, and its J̇v says nothing.
+    /// would creep by ½h²J̇v, 0.3 mm a tick. A resting point is therefore held in place, not at zero velocity. A point
+    /// that lands or slides moves differently after the substep than before, so its J̇v is of no use.
     ///
     /// Problem 14.3.
     fn collect_contacts(&mut self, body: &Body, h: f64) {
@@ -450,7 +450,7 @@ impl TorqueStepper {
         }
     }
 
-    /// Adds a substep to the means of the tick, and keeps the last one.
+    /// Adds a substep to the means of the tick, and stores the last one.
     ///
     /// Problem 14.3.
     fn account(&mut self, h: f64, dt: f64, last: bool, applied: &[AppliedForce]) {

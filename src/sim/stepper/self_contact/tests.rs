@@ -1,6 +1,6 @@
-//! Goal: bodies stay out of themselves, by forces that change no momentum, add no energy, and are not there for what
-//! the desired motion does. Method: the stepper alone, with and without self-contact; limp bodies thrown about, and
-//! motors at full strength that drive arms through the trunk.
+//! Goal: bodies do not pass through themselves. The forces that ensure it change no momentum, add no energy, and do not
+//! act on overlaps of the desired motion. Method: the stepper alone, with and without self-contact; limp bodies thrown
+//! about, and motors at full strength that drive arms through the trunk.
 
 use super::*;
 use crate::body::State;
@@ -38,11 +38,11 @@ struct Rig {
     world: TickContext,
     /// Share of its strength.
     share: f64,
-    /// What motors are to reach.
+    /// The target posture of the motors.
     aim: Posture,
-    /// What it may be in itself as far as.
+    /// The posture whose overlaps are permitted.
     desired: Posture,
-    /// It meets itself.
+    /// Whether it collides with itself.
     meets: bool,
 }
 
@@ -131,7 +131,7 @@ impl Rig {
         self.stepper.step(&input, state);
     }
 
-    /// How much deeper than desired the body is in itself, m, and where.
+    /// Depth by which the body overlaps itself more than desired, m, and where.
     fn depth(&self, posture: &Posture) -> (f64, [&'static str; 2]) {
         let mut allowed = Vec::new();
         distances(&self.body, &self.shape, &self.desired, |_, near| {
@@ -148,7 +148,7 @@ impl Rig {
         worst
     }
 
-    /// Kinetic energy, with that of stretched tissue, J.
+    /// Kinetic energy plus that of stretched tissue, J.
     fn energy(&self, state: &State) -> f64 {
         let mut kin = Kinematics::default();
         kin.set_state(&self.links, state);
@@ -220,7 +220,7 @@ fn capsules_of_a_body_at_rest_are_as_near_as_expected() {
     assert_eq!(name(&apart()), []);
 }
 
-/// Deepest in 2 s.
+/// Largest depth within 2 s.
 fn driven(meets: bool) -> (f64, [&'static str; 2]) {
     let mut rig = Rig::new(1.0, 0.0, meets);
     rig.aim = folded();
@@ -291,7 +291,7 @@ fn a_limp_body_thrown_down_stays_out_of_itself() {
     let deep = |all: &[(f64, [&str; 2])]| all.iter().filter(|d| d.0 > 0.07).count();
     let deepest = with.iter().fold(0.0f64, |m, d| m.max(d.0));
     println!("{deepest}, {} instead of {}", deep(&with), deep(&without));
-    // One comes down with its trunk on an arm, at several metres per second.
+    // One lands with its trunk on an arm, at several metres per second.
     assert!(deepest < 0.1 && deep(&with) <= 1 && deep(&without) >= 6);
 }
 
@@ -313,7 +313,7 @@ fn arms_that_press_on_the_trunk_change_no_momentum() {
         }
         pressed = pressed.max(size);
         assert!(force.norm() <= 1e-9 && moment.norm() <= 1e-9 * size.max(1.0));
-        // What the motion of the step asks for from outside.
+        // The external forces that the motion of the step requires.
         let mut terms = Terms::default();
         terms.compute(&rig.links, &audit.state, &[], 0.0);
         let (force, moment) = terms.ground_wrench(&audit.acceleration);
@@ -472,7 +472,7 @@ fn the_same_is_found_again_and_nothing_breaks_where_a_body_is_turned_inside_out(
     let run = || {
         let mut rig = Rig::new(1.0, 9.81, true);
         rig.aim = folded();
-        // It begins deep in itself, and fast.
+        // It begins with a deep overlap, and fast.
         let mut state = State::at_rest(folded());
         state.posture.root_position.z = 1.0;
         for (i, v) in state.velocity.iter_mut().enumerate() {

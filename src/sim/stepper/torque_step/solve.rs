@@ -1,4 +1,4 @@
-//! How a substep is solved: once, again for points that slide, with the springs of an assist, with softer motors.
+//! The ways to solve a substep: once, again for points that slide, with the springs of an assist, with softer motors.
 
 use crate::body::State;
 use crate::body::topology::{DOF_COUNT, NV};
@@ -80,8 +80,8 @@ impl TorqueStepper {
         (self.solution.velocity, self.solution.pushed) = (v, x);
     }
 
-    /// What the next substep starts from. It is kept when a substep is closed: a figure that is near others opens it
-    /// twice, and is to have the same bits as if it were alone.
+    /// Stores the starting values of the next substep. This happens when a substep is closed: a figure near others
+    /// opens it twice, and must have the same bits as if it were alone.
     pub(super) fn keep_starts(&mut self) {
         let motors = &self.problem.motors;
         let given = self.solver.newton.motor.iter().enumerate();
@@ -90,7 +90,7 @@ impl TorqueStepper {
         self.bar.start = self.bar.impulse;
     }
 
-    /// Solves as often as points that slide take.
+    /// Repeats the solve as often as sliding points require.
     fn solve_sliding(&mut self, momentum: &[f64; NV], spring: Option<&Spring>, v: &mut [f64; NV]) {
         loop {
             let outcome = match self.problem.row {
@@ -111,7 +111,8 @@ impl TorqueStepper {
         }
     }
 
-    /// Where Newton's method begins if the motors come first: `v` is the velocity at the start of the substep of `h` s.
+    /// Starting point of Newton's method if the motors come first: `v` is the velocity at the start of the substep of
+    /// `h` s.
     fn begin_at_motors(&self, h: f64, v: &mut [f64; NV]) {
         let saturated = self.solution.saturated.unwrap_or(0);
         let acceleration = &self.forces.audit.acceleration;
@@ -183,8 +184,8 @@ impl TorqueStepper {
         substep_kernel(matrix, &self.problem, momentum, stop, v, hessian, newton)
     }
 
-    /// Solves with the springs of the assist; a part whose impulse exceeds its bound becomes a constant one at the
-    /// bound, and the rest is solved again. Leaves the impulse in `solution.assist`.
+    /// Solves with the springs of the assist. A part whose impulse exceeds its bound is replaced by a constant impulse
+    /// at the bound, and the rest is solved again. Leaves the impulse in `solution.assist`.
     fn solve_assisted(
         &mut self,
         momentum: &[f64; NV],
@@ -236,8 +237,8 @@ impl TorqueStepper {
         }
     }
 
-    /// Second try of a substep whose stiff motors, limits and contacts kept Newton's method zigzagging: the same
-    /// strength and friction with motors that saturate later. Closing an unconverged step would turn its residual into
+    /// Second try of a substep in which stiff motors, limits and contacts kept Newton's method zigzagging: the same
+    /// strength and friction, with motors that saturate later. Closing an unconverged step would turn its residual into
     /// the speed of a light joint.
     fn solve_softer(
         &mut self,
@@ -247,7 +248,7 @@ impl TorqueStepper {
         assisted: bool,
     ) -> SolveOutcome {
         for j in 0..DOF_COUNT {
-            // The same torque at the speed the joint has now, and a hundredth of the gain around it.
+            // The same torque at the joint's present rate, and a hundredth of the gain around it.
             let (m, now) = (
                 &mut self.problem.motors,
                 self.dynamics.state.velocity[6 + j],
@@ -264,7 +265,7 @@ impl TorqueStepper {
     }
 }
 
-/// The kernel of one substep, compiled for the vector instructions at hand.
+/// The kernel of one substep, compiled for the available vector instructions.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn substep_kernel(
     m: &MassMatrix<f64>,
@@ -321,9 +322,9 @@ impl TorqueStepper {
         total
     }
 
-    /// How much a unit impulse along the bar changes the rate of its length: by the last matrix that Newton's method
-    /// has factored, with motors, limits and contacts as they stood then. If nothing was `factored` in this substep,
-    /// what is there is of another one, and maybe of another figure: then by the mass matrix.
+    /// Change of the rate of the bar's length per unit impulse along it: by the last matrix that Newton's method has
+    /// factored, with motors, limits and contacts in their state at that time. If nothing was `factored` in this
+    /// substep, the stored factor belongs to another substep, maybe of another figure; then the mass matrix is used.
     fn slope(&mut self, bar: &BarRow, factored: bool) -> f64 {
         if !factored {
             self.solver.hessian.rows = self.dynamics.mass_matrix.rows;
