@@ -1,12 +1,12 @@
-//! The controller of Oshita & Makinouchi 2000, Eqs. (4)–(17): track, stay within strength, keep centre of mass and
-//! hands.
+//! The controller of Oshita & Makinouchi 2000, Eqs. (4)–(17): tracks the motion, stays within strength, and controls
+//! the centre of mass and the hands.
 //!
 //! Two passes (`docs/tick.md`, stage 5): first with the support at rest; if the zero-moment point of that solution
 //! leaves the support polygon, once more with the support free to tip about its edge (S1).
 //!
-//! [`Paper::decide`] chooses the pass that counts; [`Paper::pass`] is the list of equations. Beside it: `supports`
-//! (which feet carry, and how they share), `targets` (centre of mass, hands and other points), and the siblings of this
-//! module for (4), (7)–(11) and (16).
+//! [`Paper::decide`] chooses the pass that counts; [`Paper::pass`] is the list of equations. The rest is in `supports`
+//! (which feet carry, and how they share), in `targets` (centre of mass, hands and other points), and in the siblings
+//! of this module for (4), (7)–(11) and (16).
 
 mod planned;
 mod supports;
@@ -31,16 +31,16 @@ use crate::touch::MAX_TOUCHES;
 use planned::Planned;
 use serde::{Deserialize, Serialize};
 
-/// Overload: more members of K and L together than this (0.6 n).
+/// Overload begins when K and L together have more members than this (0.6 n).
 const OVERLOAD_ENTER: u32 = 23;
-/// Overload ends below this many members (0.3 n).
+/// Overload ends below this number of members (0.3 n).
 const OVERLOAD_LEAVE: u32 = 12;
 /// A support that turns faster than this is tipping, rad/s (`docs/equations.md#repairs`).
 const AT_REST: f64 = 1e-3;
 /// Clamped torques beyond this relative excess are worth a flag.
 const CLAMP_NOTICE: f64 = 1e-6;
 
-/// What the support does in a pass.
+/// The behaviour of the support in a pass.
 #[derive(Clone, Copy, Debug)]
 enum SupportMotion {
     Rest(SegmentId),
@@ -100,18 +100,18 @@ struct Pass {
     second: LimitOutcome,
 }
 
-/// How the figure stands by the pass with its support at rest.
+/// The figure's stance according to the pass with its support at rest.
 #[derive(Default)]
 struct Stand {
     flags: Flags,
     zmp: Option<Vec3>,
     /// Distance of the zero-moment point from the edge of the support, m.
     margin: Option<f64>,
-    /// What it tips about.
+    /// The pivot of its tipping.
     pivot: Option<Pivot>,
 }
 
-/// What [`Paper`] remembers from tick to tick.
+/// The memory of [`Paper`] from tick to tick.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct PaperMemory {
     anchors: [Option<(Vec3, Quat)>; 2],
@@ -130,12 +130,12 @@ impl PaperMemory {
 }
 
 impl Paper {
-    /// Exchanges what it remembers for `memory`: that of a figure when its tick begins, the same back when it ends.
+    /// Exchanges its memory for `memory`: that of a figure when its tick begins, and the same back when it ends.
     pub fn swap_memory(&mut self, memory: &mut PaperMemory) {
         std::mem::swap(&mut self.memory, memory);
     }
 
-    /// A controller that has seen nothing yet.
+    /// A controller without a memory.
     pub fn new() -> Self {
         Self::default()
     }
@@ -145,8 +145,8 @@ impl Paper {
         &self.map
     }
 
-    /// The pass that counts: with the support at rest, or tipping, or in flight, as the zero-moment point of the first
-    /// one says.
+    /// The pass that counts: with the support at rest, tipping, or in flight, depending on the zero-moment point of the
+    /// first one.
     fn decide(&mut self, input: &ControlInput<'_>, law: &Law, initial: &JointRow) -> (Pass, Stand) {
         let (terms, support) = (input.terms, input.support);
         let mut stand = Stand::default();
@@ -155,9 +155,9 @@ impl Paper {
             return (self.pass(input, law, initial, SupportMotion::Flight), stand);
         };
         let first = self.pass(input, law, initial, SupportMotion::Rest(main));
-        // Decide with the support at rest: when it tips, the zero-moment point lies on the pivot by construction. One
-        // that tips already can do nothing for the balance any more: what counts there is where the joints alone,
-        // holding their posture, would put it.
+        // Decided with the support at rest, because when it tips, the zero-moment point lies on the pivot by
+        // construction. A figure that tips already can do nothing more for its balance: its test is the zero-moment
+        // point for joints that only hold their posture.
         let tilted = Self::tilted(input, main);
         let qdd = if tilted { initial } else { &first.qdd };
         let (force, moment) = self.map.ground_wrench_world(terms, qdd);
@@ -191,7 +191,7 @@ impl Paper {
         let tilting = self.pass(input, law, initial, SupportMotion::Tilt(main, p));
         let (f, _) = self.map.ground_wrench_world(terms, &tilting.qdd);
         if input.kinematic && f.z <= LEAST_NORMAL_FORCE {
-            // The floor cannot pull: the edge leaves it.
+            // The floor cannot pull, so the edge leaves it.
             stand.flags.set(Flags::FLIGHT);
             stand.pivot = None;
             return (self.pass(input, law, initial, SupportMotion::Flight), stand);
@@ -265,7 +265,8 @@ impl Paper {
                 } else {
                     OVERLOAD_ENTER
                 };
-        // Motors clip what a tipping figure cannot have: to spread it would bend a body that only falls.
+        // Motors clip torques that a tipping figure cannot have: spreading the excess would bend a body that only
+        // falls.
         let clip = match mode {
             SupportMotion::Tilt(..) => {
                 !input.kinematic && first.set != 0 && !input.support.polygon().has_area()
@@ -284,15 +285,16 @@ impl Paper {
         }
     }
 
-    /// True if a support under prescribed accelerations tips already: what it stands on has no area, or it turns.
+    /// Whether a support under prescribed accelerations tips already: its contact has no area, or it turns.
     fn tilted(input: &ControlInput<'_>, main: SegmentId) -> bool {
         let spin = input.terms.kin.omega[main.index()].norm();
         !input.support.polygon().has_area() || (input.kinematic && spin > AT_REST)
     }
 
-    /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is looked at.
-    /// Without saturation the result is the same. With it, (7)–(11) would otherwise act on a demand whose zero-moment
-    /// point may be far outside the foot: ankle and toes saturate, and the least change spreads over the whole body.
+    /// With the ZMP-feasible demand, θ̈_initial gets the centre-of-mass part of (12) before strength is considered.
+    /// Without saturation the result is the same. With saturation, (7)–(11) would otherwise act on a demand whose
+    /// zero-moment point may be far outside the foot: ankle and toes saturate, and the least change spreads over the
+    /// whole body.
     fn balance_first(
         &mut self,
         input: &ControlInput<'_>,
@@ -315,9 +317,9 @@ impl Paper {
         (0..ROW).for_each(|d| initial[d] += x[d]);
     }
 
-    /// The overload rule (`docs/equations.md#repairs`). With motors behind it, the intent of (4) and (12) as it is, to
-    /// be clipped; for accelerations that are applied as they are, those of the clipped torques (W = H²) without
-    /// secondary constraints.
+    /// The overload rule (`docs/equations.md#repairs`). With motors behind it, it returns the intent of (4) and (12)
+    /// unchanged, to be clipped; for accelerations that are applied as they are, those of the clipped torques (W = H²)
+    /// without secondary constraints.
     fn overloaded(
         &mut self,
         input: &ControlInput<'_>,
@@ -405,7 +407,8 @@ impl Controller for Paper {
         &self.command
     }
 
-    /// Touching points that carry nothing in the last decision, by index; `None` unless it balances several supports.
+    /// Touching points that carry nothing in the last decision, by index; `None` unless the controller balances several
+    /// supports.
     fn left_out(&self) -> Option<&[bool; MAX_CONTACTS]> {
         self.left_out.as_ref()
     }

@@ -1,12 +1,12 @@
-//! Keeps the demanded acceleration of the centre of mass within what the support polygon can give
+//! Keeps the demanded acceleration of the centre of mass within the range that the support polygon allows
 //! (`docs/equations.md#repairs`, safeguard).
 
 use crate::math::Vec3;
 use crate::support::Polygon;
 
-/// How far inside the polygon the demanded zero-moment point is kept, m.
+/// Distance inside the polygon at which the demanded zero-moment point is kept, m.
 pub const INSET: f64 = 0.02;
-/// Height below which the centre of mass is not taken, m (a lying figure).
+/// Smallest height that is assumed for the centre of mass, m (a lying figure).
 const LEAST_HEIGHT: f64 = 0.1;
 
 /// Horizontal acceleration of the centre of mass closest to `demand` whose cart-table zero-moment point lies in
@@ -14,7 +14,7 @@ const LEAST_HEIGHT: f64 = 0.1;
 ///
 /// p = c_xy − (c_z/g) c̈;  c̈ = (g/c_z)(c_xy − p), with p replaced by its closest point of the polygon.
 ///
-/// * `com`: world, m. `demand`: m/s². `inset`: the polygon, inset already. `gravity`: magnitude, m/s².
+/// * `com`: world, m. `demand`: m/s². `inset`: the polygon, already inset. `gravity`: magnitude, m/s².
 /// * Without polygon or gravity the demand is returned as it is.
 pub fn feasible(com: Vec3, demand: [f64; 2], inset: &Polygon, gravity: f64) -> [f64; 2] {
     if gravity <= 0.0 {
@@ -41,7 +41,7 @@ mod tests {
         inset.set_inset(&feet, INSET);
         let com = vec3(0.03, 0.0, 0.981);
         assert_eq!(feasible(com, [0.2, -0.3], &inset, 9.81), [0.2, -0.3]);
-        // A strong push back asks for a zero-moment point in front of the toes: it stops 2 cm short of them.
+        // A strong push back asks for a zero-moment point in front of the toes: it is limited to 2 cm short of them.
         let a = feasible(com, [-5.0, 0.0], &inset, 9.81);
         assert!((a[0] - (0.03 - 0.13) / 0.1).abs() < 1e-12 && a[1].abs() < 1e-12);
         assert_eq!(

@@ -1,8 +1,8 @@
 //! The hand-over between prescribed accelerations and torques.
 //!
-//! Prescribed accelerations on a tilting support create energy once joints saturate, and they know nothing of parts
-//! other than feet: there torques take over, until the figure has stood calmly for a while. The state is the same for
-//! both.
+//! Prescribed accelerations on a tilting support create energy once joints saturate, and they do not account for parts
+//! other than feet. In these cases torques take over, until the figure has stood calmly for a while. The state is the
+//! same for both.
 
 use crate::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::body::{Body, SegmentId, State};
@@ -18,7 +18,7 @@ const FEET: [SegmentId; 4] = [L_FOOT, L_TOES, R_FOOT, R_TOES];
 /// The stepper of a figure whose accelerations can be prescribed.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct HandOver {
-    /// Torques move the figure though accelerations should: for how long it has been calm since, s.
+    /// Torques move the figure although accelerations should: time that it has been calm since, s.
     handed_over: Option<f64>,
     /// Accelerations move it in this tick.
     prescribed: bool,
@@ -26,7 +26,7 @@ pub struct HandOver {
     tips: bool,
 }
 
-/// The part of a figure's state that decides over the hand-over.
+/// The part of a figure's state that decides on the hand-over.
 #[derive(Clone, Copy, Debug)]
 pub struct HandOverView<'a> {
     /// Torques may take over.
@@ -35,7 +35,7 @@ pub struct HandOverView<'a> {
     pub body: &'a Body,
     /// Dynamics at the start of the tick.
     pub terms: &'a Terms,
-    /// State then.
+    /// State at that time.
     pub state: &'a State,
     /// Supports.
     pub support: &'a Support,
@@ -58,7 +58,7 @@ impl HandOver {
         self.handed_over.is_some()
     }
 
-    /// Begins a tick that accelerations move, or torques.
+    /// Begins a tick, moved by accelerations or by torques.
     pub fn prescribe(&mut self, prescribed: bool) {
         self.prescribed = prescribed;
     }

@@ -19,7 +19,8 @@ pub const MOST_ROWS: usize = 64;
 const ROUNDS: usize = 32;
 /// Added to the diagonal, relative to its largest element: rows of one face depend on each other.
 const RIDGE: f64 = 1e-10;
-/// A row counts as violated by more than this, m/s; an impulse counts as pulling below minus this, N·s.
+/// Tolerance, m/s, by which a row must be missed to count as violated; an impulse below minus this, N·s, counts as
+/// pulling.
 const TOLERANCE: f64 = 1e-9;
 
 #[derive(Clone, Debug)]
@@ -200,7 +201,7 @@ impl Impact {
                 None => break,
             }
         }
-        // Whichever round was the last: no impulse pulls, and both sides get equal and opposite impulses.
+        // Applies to the last round, too: no impulse pulls, and both sides get equal and opposite impulses.
         for k in 0..n {
             if self.rows[k].one_sided {
                 self.impulse[k] = self.impulse[k].max(0.0);
@@ -236,7 +237,7 @@ impl Impact {
         }
         factor_rows(&mut self.work[..], count);
         solve_rows(&self.work[..], count, &mut x[..count]);
-        // Solve once more for the residual that the ridge leaves.
+        // Solve once more for the residual left by the ridge.
         let mut rest = [0.0; MOST_ROWS];
         for (i, &k) in index[..count].iter().enumerate() {
             let given: f64 = (index[..count].iter().zip(&x))

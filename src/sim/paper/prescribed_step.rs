@@ -1,8 +1,9 @@
-//! The paper's own way to move a figure: the controller's accelerations are applied as they are,
-//! and the support holds still, rotates about the minimum-moment point, or flies.
+//! The paper's own way to move a figure: the controller's accelerations are applied as they are, and the support holds
+//! still, rotates about the minimum-moment point, or flies.
 //!
-//! Nothing here can push back: what the ground would have to give follows from inverse dynamics and is shared among the
-//! touching points. What they cannot give shows as a residual of the audit; it is not hidden.
+//! Nothing here can push back: the forces that the ground would have to give follow from inverse dynamics and are
+//! shared among the touching points. Forces that the points cannot give appear as a residual of the audit, which is not
+//! hidden.
 
 use crate::body::topology::{DOF_COUNT, L_FOOT, L_TOES, NV, R_FOOT, R_TOES, SEGMENT_COUNT};
 use crate::body::{Posture, SegmentId, State};
@@ -28,21 +29,21 @@ use crate::support::{NO_VERTEX, Pivot, Sharing, Support, SupportPoint, tipping_a
 use crate::touch::MAX_TOUCHES;
 use serde::{Deserialize, Serialize};
 
-/// What this stepper reads beside the common input.
+/// Input of this stepper besides the common input.
 #[derive(Clone, Copy, Debug)]
 pub struct Decision<'a> {
     /// The controller's decision for the tick.
     pub command: &'a Command,
-    /// Accelerations whose torques are beyond strength are not applied.
+    /// Whether accelerations are rejected if their torques exceed strength.
     pub within_strength: bool,
     /// Supports at the start of the tick.
     pub support: &'a Support,
-    /// Which feet the desired motion keeps on the floor.
+    /// The feet that the desired motion keeps on the floor.
     pub planted: [bool; 2],
     /// Touching points that carry nothing by the controller's decision, by index, if it has decided.
     pub left_out: Option<&'a [bool; MAX_CONTACTS]>,
-    /// Torques are the controller's, whatever the ground forces found here say: its sharing has no point forces (ratios
-    /// (2)).
+    /// Reports the controller's torques regardless of the ground forces found here: its sharing has no point forces
+    /// (ratios (2)).
     pub as_commanded: bool,
 }
 
@@ -57,7 +58,7 @@ pub struct SupportAnchor {
     pub rotation: Quat,
 }
 
-/// Applies accelerations; remembers where the support stands.
+/// Applies accelerations; remembers the place of the support.
 #[derive(Clone, Debug)]
 pub struct KinematicStepper {
     anchor: Option<SupportAnchor>,
@@ -74,7 +75,7 @@ pub struct KinematicStepper {
     pub forces: TickForces,
 }
 
-/// Where the support is and how it moves.
+/// Place and motion of the support.
 #[derive(Clone, Copy)]
 struct Rigid {
     position: Vec3,
@@ -104,7 +105,7 @@ impl KinematicStepper {
         }
     }
 
-    /// Forgets where the support stands (after a reset, or when torques moved the figure).
+    /// Forgets the place of the support (after a reset, or when torques moved the figure).
     pub fn reset(&mut self) {
         self.anchor = None;
     }
@@ -114,12 +115,12 @@ impl KinematicStepper {
         self.contacts.friction = friction;
     }
 
-    /// What it remembers from tick to tick: the segment that supports, and where it stands.
+    /// Its memory from tick to tick: the supporting segment, and its place.
     pub(crate) fn memory(&self) -> Option<SupportAnchor> {
         self.anchor
     }
 
-    /// Remembers what it did of this figure.
+    /// Takes on the memory of this figure.
     pub(crate) fn remember(&mut self, anchor: Option<SupportAnchor>) {
         self.anchor = anchor;
     }
@@ -129,8 +130,8 @@ impl KinematicStepper {
         self.penetration
     }
 
-    /// Advances `state` by one tick: the commanded accelerations, the support as the decision has it, impacts of points
-    /// that arrive. False if the decision is to be within strength and is not: then nothing has moved. Allocates
+    /// Advances `state` by one tick: the commanded accelerations, the support as decided, and impacts of points that
+    /// arrive. Returns `false`, with nothing moved, if the decision must be within strength and is not. Allocates
     /// nothing.
     #[must_use]
     pub fn step(
@@ -152,7 +153,7 @@ impl KinematicStepper {
             .support
             .main()
             .filter(|_| !command.flags.has(Flags::FLIGHT));
-        // A support that is to hold but still moves has just come down: it stops inelastically.
+        // A support that should hold but still moves has just come down: it stops inelastically.
         if let (Some(s), None) = (main, command.pivot)
             && touching_speed(input.start.terms, decision.support.points(), s) > IMPACT_SPEED
         {
@@ -169,7 +170,7 @@ impl KinematicStepper {
         self.advance(input, main, command.pivot, &start, input.world.dt, state);
         let arrival = self.arrival(input, &start.posture, &state.posture);
         if let Some(fraction) = arrival {
-            // Up to the moment of arrival, the impact, and the rest of the tick with what it leaves.
+            // The tick up to the moment of arrival, the impact, and the rest of the tick with the velocity after it.
             let velocity = state.velocity;
             *state = start;
             state.velocity = velocity;
@@ -192,7 +193,7 @@ impl KinematicStepper {
         true
     }
 
-    /// Moves the posture with the new velocity, and puts the pelvis where the support wants it.
+    /// Moves the posture with the new velocity, and puts the pelvis where the support requires it.
     fn advance(
         &mut self,
         input: &StepInput<'_>,
@@ -240,12 +241,12 @@ impl KinematicStepper {
                     y: row(1),
                     z: row(2),
                 } + t.segment_bias(s).0;
-                // With torques that know the tilt (S1) there is no moment left about the pivot; with the paper's it all
-                // turns the figure.
+                // With torques that take the tilt into account (S1) no moment is left about the pivot; with the paper's
+                // torques the whole moment turns the figure.
                 let (force, moment) = t.ground_wrench(a);
                 let alpha = alpha + tipping_acceleration(t, &p, force, moment);
-                // The weight turns with the figure, which one step forward would miss by several per cent of the energy
-                // of a fall.
+                // The weight turns with the figure. A single step forward would neglect this, with an error of several
+                // per cent of the energy of a fall.
                 let before = p.project(t.kin.omega[s]);
                 let alpha = p.project(alpha);
                 let turn = Quat::exp((before + alpha * (0.5 * dt)) * dt);
@@ -266,7 +267,7 @@ impl KinematicStepper {
         self.place(input, s, &wanted, state);
     }
 
-    /// Moves the whole body rigidly so that segment `s` is where and as fast as wanted; joints keep their angles and
+    /// Moves the whole body rigidly so that segment `s` has the desired pose and velocity; joints keep their angles and
     /// rates.
     fn place(&mut self, input: &StepInput<'_>, s: usize, wanted: &Rigid, state: &mut State) {
         self.kin.set_state(input.links, state);
@@ -285,7 +286,7 @@ impl KinematicStepper {
                 z: v[o + 2],
             })
         };
-        // The twist that is too much, about the segment origin.
+        // The excess twist, about the segment origin.
         let spin = turn.rotate(self.kin.omega[s]) - wanted.omega;
         let drift = turn.rotate(self.kin.velocity[s]) - wanted.velocity;
         let omega = pelvis(0, v) - spin;
@@ -323,9 +324,9 @@ impl KinematicStepper {
         first
     }
 
-    /// Inelastic impact of all touching points of the whole body: least change of velocity in the metric of M under
-    /// which none goes on into the floor; friction within its cone. Kinetic energy cannot rise. The workspace holds the
-    /// terms of `state`.
+    /// Inelastic impact of all touching points of the whole body: the least change of velocity in the metric of M that
+    /// stops every point from moving into the floor; friction within its cone. Kinetic energy cannot rise. The
+    /// workspace holds the terms of `state`.
     fn impact(&mut self, input: &StepInput<'_>, state: &mut State) {
         let terms = &self.terms;
         self.contacts.clear();
@@ -395,7 +396,8 @@ impl KinematicStepper {
         }
     }
 
-    /// What the applied accelerations need: ground forces at the touching points and joint torques by inverse dynamics.
+    /// The forces that the applied accelerations require: ground forces at the touching points and joint torques, by
+    /// inverse dynamics.
     fn account(&mut self, input: &StepInput<'_>, decision: &Decision<'_>, state: &State) {
         let (t, command) = (input.start.terms, decision.command);
         let mut r = t.h; // M v̇ + h
@@ -502,8 +504,8 @@ fn input_acceleration(start: &State, velocity: &[f64; NV], dt: f64) -> [f64; NV]
     std::array::from_fn(|i| (velocity[i] - start.velocity[i]) / dt)
 }
 
-/// A foot that holds is laid flat on the floor, little by little: contact has a tolerance of some millimetres, standing
-/// has not.
+/// A holding foot is laid flat on the floor gradually: contact has a tolerance of some millimetres, and standing has
+/// none.
 fn settle(input: &StepInput<'_>, main: SegmentId, position: Vec3, rotation: Quat) -> (Vec3, Quat) {
     if main != L_FOOT && main != R_FOOT {
         return (position, rotation);
@@ -550,7 +552,7 @@ fn deepest(input: &StepInput<'_>, t: &Terms) -> f64 {
     depth
 }
 
-/// Adds a mean force to the list, to that of the same point if it is there.
+/// Adds a mean force to the list, or to an entry for the same point.
 fn add_contact(list: &mut Vec<ContactPoint>, c: ContactPoint) {
     match list
         .iter_mut()

@@ -17,14 +17,14 @@ use crate::support::{Pivot, SupportPoint};
 
 /// The maps of one tick: `v̇ = N θ̈ + b`, `τ = H θ̈ + c₀`, ground wrench `W = W_θ θ̈ + W₀`.
 ///
-/// Only the six pelvis rows of N and b are held, the rest is the identity and zero.
+/// Only the six pelvis rows of N and b are stored; the rest is the identity and zero.
 #[derive(Clone, Debug)]
 pub struct SupportMap {
     /// Pelvis rows of N as it acts on accelerations.
     base: [JointRow; 6],
     /// Pelvis part of b.
     bias: [f64; 6],
-    /// Pelvis rows of N with the support at rest: Nᵀ removes the wrench at the support also while it tilts.
+    /// Pelvis rows of N with the support at rest: Nᵀ removes the wrench at the support even while it tilts.
     rest: [JointRow; 6],
     /// Ground wrench per joint acceleration, about the pelvis origin (moment, force).
     wrench: [JointRow; 6],
@@ -131,9 +131,9 @@ impl SupportMap {
         self.finish(terms);
     }
 
-    /// Support `s` rotates about a pivot (S1). The wrench that the pivot cannot give is turned into rotation of the
-    /// whole body: `N_t = N − E Q M N`, `b_t = b − E Q (M b + h)`, `Q = (Eᵀ M E)⁻¹ Eᵀ`; `H = Nᵀ M N_t`,
-    /// `c₀ = Nᵀ (M b_t + h)`.
+    /// Support `s` rotates about a pivot (S1). The wrench that the pivot cannot give becomes rotation of the whole
+    /// body: `N_t = N − E Q M N`, `b_t = b − E Q (M b + h)`, `Q = (Eᵀ M E)⁻¹ Eᵀ`; `H = Nᵀ M N_t`, `c₀ = Nᵀ (M b_t +
+    /// h)`.
     #[inline(always)]
     pub fn set_tilting(&mut self, terms: &Terms, s: SegmentId, pivot: &Pivot) {
         let i = s.index();
@@ -176,7 +176,7 @@ impl SupportMap {
                 self.c[j] -= m * turn_bias[a];
             }
         }
-        // The ground wrench of what now happens.
+        // The ground wrench of the resulting motion.
         for k in 0..6 {
             for a in 0..n {
                 let me: f64 = (0..6).map(|l| terms.m[k][l] * e[a][l]).sum();
@@ -390,7 +390,7 @@ pub(crate) fn shift(w: &[f64; 6], r: Vec3) -> [f64; 6] {
     [n.x, n.y, n.z, f.x, f.y, f.z]
 }
 
-/// True if no point of the set lies on a segment other than `main`: then there is nothing to share.
+/// Whether all points of the set lie on `main`: then there is nothing to share.
 pub(crate) fn only_main(points: &[SupportPoint], main: SegmentId) -> bool {
     points.iter().all(|p| p.segment == main)
 }
@@ -506,7 +506,7 @@ mod tests {
         let (body, mut rng) = (mannequin(), Rng::new(33));
         let state = random_state(&body, &mut rng, 0.5, 2.0);
         let t = terms(&body, &state);
-        // Accelerations that keep both feet still would need loops; any v̇ does here: choose θ̈, root at the left foot.
+        // Keeping both feet still would need loops, but any v̇ is valid here: choose θ̈, root at the left foot.
         let mut left = SupportMap::default();
         left.set_support(&t, L_FOOT, Vec3::zero(), Vec3::zero());
         let qdd = random_row(&mut rng, 5.0);
@@ -515,7 +515,7 @@ mod tests {
         let (at, force) = (t.segment_position(R_FOOT.index()), vec3(20.0, -10.0, 300.0));
         left.add_force(&t, R_FOOT, at, force);
         let tau = left.torque(&qdd);
-        // Rooted at the right foot with its true acceleration, the left foot's wrench (the rest) given.
+        // Rooted at the right foot with its true acceleration, given the left foot's wrench (the rest).
         let mut j = [[0.0; 48]; 6];
         t.segment_jacobian(R_FOOT.index(), &mut j);
         let (alpha, acc) = t.segment_bias(R_FOOT.index());
@@ -594,7 +594,7 @@ mod tests {
                 }
                 let w = map.ground_wrench(&qdd);
                 assert!((vec3(w[3], w[4], w[5]) - f).norm() < 1e-8);
-                // The support rotates as −n₀/I of the paper says, from the wrench with the support at rest.
+                // The support rotates as the paper's −n₀/I says, from the wrench with the support at rest.
                 let mut rest = SupportMap::default();
                 let spin = pivot.project(t.kin.omega[L_FOOT.index()]);
                 let arm = t.segment_position(L_FOOT.index()) - p;

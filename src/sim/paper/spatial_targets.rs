@@ -6,7 +6,7 @@ use crate::math::dense::cholesky_solve;
 use crate::paper::torque_limits::{JointTorques, LimitOutcome, TOLERANCE};
 use crate::setup::Priority;
 
-/// Most rows of one task: positions of both hands, and eight constraints from outside with position and rotation.
+/// Most rows of one task: positions of both hands, and eight client constraints with position and rotation.
 pub const MAX_ROWS: usize = 54;
 /// Most rows of the centre of mass.
 const COM_ROWS: usize = 6;
@@ -14,20 +14,20 @@ const COM_ROWS: usize = 6;
 const COM_DAMPING: f64 = 1e-6;
 /// Damping λ² of end-effector rows, for rows of unit length: a straight arm makes them dependent.
 const EFFECTOR_DAMPING: f64 = 1e-4;
-/// The same for constraints from outside: a body that is stretched already is not torn after a point that is higher
+/// The same for client constraints: a body that is stretched already is not pulled apart towards a point that is higher
 /// still.
 const GOAL_DAMPING: f64 = 1e-2;
-/// The same for limbs that are led: they are not asked for more than their length.
+/// The same for led limbs: they are not asked for more than their length.
 const LED_DAMPING: f64 = 1e-3;
 
-/// Rows of a Jacobian on joint accelerations with the wanted change of their acceleration.
+/// Rows of a Jacobian on joint accelerations, with the desired change of each row's acceleration.
 #[derive(Clone, Debug)]
 pub struct Task {
     rows: [JointRow; MAX_ROWS],
     change: [f64; MAX_ROWS],
     /// DOFs that may serve each row (bits).
     serving: [u64; MAX_ROWS],
-    /// Damping of the rows beyond this many is that of goals.
+    /// Number of rows with their own damping; rows after them have that of goals.
     own: usize,
     len: usize,
 }
@@ -63,15 +63,15 @@ impl Task {
     pub fn rows(&self) -> &[JointRow] {
         &self.rows[..self.len]
     }
-    /// Wanted change per row.
+    /// Desired change per row.
     pub fn change(&self) -> &[f64] {
         &self.change[..self.len]
     }
-    /// True if there is no row.
+    /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
-    /// The rows that follow are constraints from outside, which may ask for what cannot be.
+    /// Marks the rows that follow as client constraints, which may ask for the impossible.
     pub(crate) fn begin_goals(&mut self) {
         self.own = self.len;
     }
@@ -136,7 +136,7 @@ fn add_damped<const N: usize>(
 }
 
 /// Lengths that scale rows before damping; one for each group of `group` rows, the components of one vector. With a
-/// length for every row the damping would depend on which way the axes of the world point.
+/// length for every row the damping would depend on the directions of the world axes.
 fn lengths(rows: &[JointRow], group: usize) -> [f64; MAX_ROWS] {
     let mut l = [1.0; MAX_ROWS];
     for (l, r) in l.chunks_mut(group).zip(rows.chunks(group)) {
@@ -149,12 +149,12 @@ fn lengths(rows: &[JointRow], group: usize) -> [f64; MAX_ROWS] {
 /// The wish x of Eq. (12) for the centre of mass and the end-effectors.
 ///
 /// `Priority::Paper`:  x = J_g⁺Δg̈ + (I − J_g⁺J_g) J_e⁺Δë. `Priority::Nested`: x = J_g⁺Δg̈ + (J_e P)⁺(Δë − J_e
-/// J_g⁺Δg̈), P = I − J_g⁺J_g: exact for the end-effector as far as the centre of mass allows.
+/// J_g⁺Δg̈), P = I − J_g⁺J_g: exact for the end-effector where the centre of mass allows.
 ///
-/// Rows of `led` come last, each served by its own limb only: with all joints the least change would bend ankles and
-/// knees first, which have the longest lever.
+/// Rows of `led` come last, each served by its own limb only: with all joints, the least change would first bend ankles
+/// and knees, which have the longest lever.
 ///
-/// Pseudo-inverses are damped. The printed (13) and (15) exchange J_e and J_g; this is what the text means. No
+/// Pseudo-inverses are damped. The printed (13) and (15) exchange J_e and J_g; this follows the meaning of the text. No
 /// allocation.
 #[inline(always)]
 pub fn wish(com: &Task, effector: &Task, led: &Task, priority: Priority) -> JointRow {
@@ -167,7 +167,7 @@ pub fn wish(com: &Task, effector: &Task, led: &Task, priority: Priority) -> Join
         &com.change,
         &mut x,
     );
-    // P r for a joint vector: take away what the centre of mass would feel.
+    // P r for a joint vector: removes the part that would move the centre of mass.
     let project = |r: &mut JointRow| {
         let mut t = [0.0; MAX_ROWS];
         for (t, g) in t.iter_mut().zip(com.rows()) {
@@ -207,7 +207,7 @@ pub fn wish(com: &Task, effector: &Task, led: &Task, priority: Priority) -> Join
         }
     }
     if !led.is_empty() {
-        // What is left of the wish, by the limbs alone.
+        // The rest of the wish, by the limbs alone.
         let (mut rest, mut rows, n) = (led.change, led.rows, led.len);
         for (i, r) in led.rows().iter().enumerate() {
             rest[i] -= dot(r, &x);
@@ -227,15 +227,15 @@ pub struct SpatialLimits {
 }
 
 impl SpatialLimits {
-    /// The part of the wish `x` that torques allow, in place: Δ₂ = x − H_L⁺H_L x (16).
+    /// The part of the wish `x` that the torque limits allow, in place: Δ₂ = x − H_L⁺H_L x (16).
     ///
     /// L starts empty and takes in every DOF whose torque `τ₁ + HΔ₂` would leave its limits; its torque then stays at
-    /// τ₁ — or goes to the violated limit with `to_limit`. At 39 members Δ₂ = 0 (or what the limits ask for): the loop
-    /// cannot fail.
+    /// τ₁, or goes to the violated limit with `to_limit`. At 39 members Δ₂ = 0 (or the change that the limits require):
+    /// the loop cannot fail.
     ///
-    /// * `torques`: τ₁ of the accelerations so far, H, and the limits.
-    /// * `held`: rows that keep the value they have for `x` (kinematic loops), dropped when there is no room.
-    /// * `most`: larger sets are given up.
+    /// * `torques`: τ₁ of the accelerations before this, H, and the limits.
+    /// * `held`: rows that keep their value for `x` (kinematic loops), dropped when there is no room.
+    /// * `most`: larger sets are abandoned.
     #[inline(always)]
     pub fn solve(
         &mut self,

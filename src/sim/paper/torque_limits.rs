@@ -9,15 +9,15 @@ use crate::setup::Metric;
 /// A torque may exceed its limit by this part of it (or of 1 N·m) before it counts as a violation.
 pub const TOLERANCE: f64 = 1e-9;
 
-/// True if `torque` is outside `lower…upper` by more than `slack` times the limit (at least 1 N·m).
+/// Whether `torque` is outside `lower…upper` by more than `slack` times the limit (at least 1 N·m).
 #[inline(always)]
 pub(crate) fn violates(torque: f64, lower: f64, upper: f64, slack: f64) -> bool {
-    // Written so that NaN violates.
+    // Written so that NaN counts as a violation.
     !(torque <= upper + slack * upper.abs().max(1.0)
         && torque >= lower - slack * lower.abs().max(1.0))
 }
 
-/// Torques `τ + H Δ` of the joints under a change Δ of their accelerations, and what the joints have.
+/// Torques `τ + H Δ` of the joints under a change Δ of their accelerations, and the torques available to the joints.
 #[derive(Clone, Copy, Debug)]
 pub struct JointTorques<'a> {
     /// H, rad/s² → N·m.
@@ -36,7 +36,7 @@ impl JointTorques<'_> {
     pub(crate) fn changed(&self, j: usize, change: &JointRow) -> f64 {
         self.tau[j] + dot(&self.h[j], change)
     }
-    /// True if `torque` of joint `j` is outside its limits by more than `slack` times the limit.
+    /// Whether `torque` of joint `j` is outside its limits by more than `slack` times the limit.
     #[inline(always)]
     pub(crate) fn violates(&self, j: usize, torque: f64, slack: f64) -> bool {
         violates(torque, self.lower[j], self.upper[j], slack)
@@ -52,7 +52,7 @@ impl JointTorques<'_> {
     }
 }
 
-/// What an active set ended with.
+/// The result of an active set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LimitOutcome {
     /// Members of the set (bit = DOF).
@@ -61,7 +61,7 @@ pub struct LimitOutcome {
     pub rounds: u32,
     /// Rows were nearly dependent and the solution was damped.
     pub damped: bool,
-    /// False if the set was given up because it outgrew the allowed size, or numbers became infinite.
+    /// False if the set was abandoned because it outgrew the allowed size, or because numbers became infinite.
     pub complete: bool,
 }
 
@@ -89,14 +89,14 @@ impl Default for TorqueLimits {
 }
 
 impl TorqueLimits {
-    /// Least change Δθ̈₁ (in the chosen norm) that brings `τ₀ + H Δθ̈₁` within the limits, into [`Self::change`].
+    /// Least change Δθ̈₁ (in the chosen norm) that brings `τ₀ + H Δθ̈₁` within the limits, written to [`Self::change`].
     ///
     /// τ = τ₀ + HΔ; K = K ∪ {violators}; H_K Δ = τ_lim,K − τ₀,K; Δ = H_K⁺(…) — Oshita & Makinouchi 2000, Eqs. 7–11
     ///
     /// * `torques`: τ₀ of the initial accelerations, H, and the limits.
     /// * `held`: rows that must not change (kinematic loops); respected by [`Metric::Identity`] while there is room for
     ///   them.
-    /// * `most`: larger sets are given up (`complete` = false).
+    /// * `most`: larger sets are abandoned (`complete` = false).
     ///
     /// K only grows, hence at most 39 rounds. No allocation.
     ///
@@ -126,7 +126,7 @@ impl TorqueLimits {
                 if out.set >> j & 1 == 0 && torques.violates(j, tau, TOLERANCE) {
                     out.set |= 1 << j;
                     self.order[k] = j;
-                    // The limit that is violated now, also for those that join late.
+                    // The limit that is violated now, including for joints that enter late.
                     self.goal[k] = torques.violated(j, tau) - tau0[j];
                     k += 1;
                 }
@@ -166,8 +166,8 @@ impl TorqueLimits {
         }
     }
 
-    /// W = H: only the members accelerate differently, H_KK Δ_K = t, refined once. False if singular (then least norm
-    /// is used).
+    /// W = H: only the members accelerate differently, H_KK Δ_K = t, refined once. Returns `false` if singular (then
+    /// least norm is used).
     #[inline(always)]
     fn solve_members(&mut self, h: &Square, k: usize) -> bool {
         self.change = [0.0; ROW];

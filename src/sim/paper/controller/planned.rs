@@ -4,12 +4,13 @@ use crate::body::SegmentId;
 use crate::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::control::ControlInput;
 
-/// Which feet the desired motion keeps on the floor. A foot that it lifts carries nothing, or it could never be lifted.
+/// The feet that the desired motion keeps on the floor. A foot that it lifts carries nothing; otherwise it could never
+/// be lifted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Planned(pub [bool; 2]);
 
 impl Planned {
-    /// The plan of a motion; if it would leave no touching point to stand on, everything that touches carries.
+    /// The plan of a motion. If it would leave no touching point to stand on, everything that touches carries.
     pub fn new(input: &ControlInput<'_>) -> Self {
         let plan = Self(input.target.next.planted);
         let points = input.support.points();
@@ -20,7 +21,7 @@ impl Planned {
         }
     }
 
-    /// True if points of this segment may carry load.
+    /// Whether points of this segment may carry load.
     pub fn holds(self, segment: SegmentId) -> bool {
         match segment {
             L_FOOT | L_TOES => self.0[0],
@@ -29,7 +30,7 @@ impl Planned {
         }
     }
 
-    /// The main support: the usual one, but a foot that stays if the usual one is to be lifted.
+    /// The main support: the usual one, or the foot that stays if the usual one is about to lift.
     pub fn main(self, input: &ControlInput<'_>) -> Option<SegmentId> {
         let support = input.support;
         let main = support.main()?;

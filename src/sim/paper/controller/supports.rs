@@ -1,5 +1,5 @@
-//! What stands on the floor in a pass: which feet carry, how several of them share the reaction, how a second one is
-//! kept where it is.
+//! The support in a pass: which feet carry, how several of them share the reaction, and how a second one is kept in
+//! place.
 
 use crate::body::topology::{DOF_START, L_FOOT, L_THIGH, R_FOOT, R_THIGH};
 use crate::control::ControlInput;
@@ -13,9 +13,9 @@ use crate::report::MAX_CONTACTS;
 use crate::setup::Share;
 use crate::support::{NO_VERTEX, zmp};
 
-/// While tilting, only points this close to the pivot line carry load, m.
+/// While the support tilts, only points this close to the pivot line carry load, m.
 const PIVOT_REACH: f64 = 0.012;
-/// Part of a pose error of a planted foot that is taken back per step (kinematic loops).
+/// Share of a planted foot's pose error that is corrected per step (kinematic loops).
 const LOOP_RETURN: f64 = 0.2;
 
 impl Paper {
@@ -87,8 +87,8 @@ impl Paper {
         }
     }
 
-    /// Kinematic loops (`docs/equations.md#repairs`): a second planted foot stays where it was put down. Its leg takes
-    /// θ̈_initial there, and its rows may not change afterwards.
+    /// Kinematic loops (`docs/equations.md#repairs`): a second planted foot stays where it was put down. Its leg's
+    /// θ̈_initial holds it there, and its rows may not change afterwards.
     pub(super) fn hold_planted_feet(
         &mut self,
         input: &ControlInput<'_>,
@@ -146,7 +146,7 @@ impl Paper {
         }
     }
 
-    /// Remembers where planted feet stand; forgets feet that roll, lift, or are meant to lift.
+    /// Remembers the places of planted feet; forgets feet that roll, lift, or should lift.
     pub(super) fn update_anchors(&mut self, input: &ControlInput<'_>) {
         let support = input.support;
         let on_foot = matches!(support.main(), Some(L_FOOT | R_FOOT));

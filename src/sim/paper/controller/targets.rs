@@ -1,5 +1,5 @@
-//! Secondary constraints, (12)–(15): what centre of mass, hands and constraints from outside lack, as rows, and the
-//! wish x that serves them.
+//! Secondary constraints, (12)–(15): the errors of centre of mass, hands and client constraints, as rows, and the wish
+//! x that corrects them.
 
 use crate::body::NV;
 use crate::body::topology::{DOF_LEN, DOF_START};
@@ -18,21 +18,21 @@ use crate::setup::ControlParams;
 const ROTATION_LENGTH: f64 = 0.3;
 /// Horizon of the ZMP-feasible centre-of-mass law if the joints have none, s: gains 25 and 10.
 const COM_HORIZON: f64 = 0.1;
-/// How constraints from outside are approached.
+/// Pace at which client constraints are approached.
 const GOAL_PACE: GoalPace = GoalPace {
     horizon: 0.05,
     most: 4.0,
     most_trunk: 2.0,
     most_turn: 10.0,
 };
-/// A capture point nearer to the edge than the first lets go of constraints on the whole body, one farther inside than
-/// the second does not, m.
+/// Distances of the capture point inside the edge, m: below the first, constraints on the whole body are released;
+/// above the second, they act fully.
 const SURE: (f64, f64) = (0.02, 0.045);
-/// Constraints from outside that (12) takes.
+/// Most client constraints that (12) takes.
 const MOST_GOALS: usize = 8;
 
 impl Paper {
-    /// Rows and wanted changes of centre of mass and end-effectors (14), (15), at joint accelerations `qdd`, and the
+    /// Rows and desired changes of centre of mass and end-effectors (14), (15), at joint accelerations `qdd`, and the
     /// wish x of (12).
     pub(super) fn wish(
         &mut self,
@@ -78,7 +78,8 @@ impl Paper {
         )
     }
 
-    /// Two rows of (14): what the centre of mass lacks at `qdd`, within what the feet can give if that is asked for.
+    /// Two rows of (14): the change that the centre of mass needs at `qdd`, limited to what the feet can give if the
+    /// parameters say so.
     pub(super) fn push_com(&mut self, input: &ControlInput<'_>, law: &Law, qdd: &JointRow) {
         let (terms, c) = (input.terms, input.centroidal.com);
         let law = if input.params.zmp_feasible {
@@ -102,7 +103,7 @@ impl Paper {
         if input.params.zmp_feasible {
             let (points, planned) = (input.support.points(), self.planned);
             let planned = points.iter().filter(|p| planned.holds(p.segment));
-            // A wall or a table stops the body that comes over it: what lies between it and the feet is carried.
+            // A wall or a table stops a body that comes over it: the area between it and the feet counts as supported.
             let rests = input.support.rests().iter().map(|r| r.position);
             let all = planned.map(|p| p.position).chain(rests);
             self.polygon.set_hull(all.map(|p| [p.x, p.y]));
@@ -118,7 +119,7 @@ impl Paper {
         }
     }
 
-    /// Rows of (15): what a hand lacks at `qdd`.
+    /// Rows of (15): the change that a hand needs at `qdd`.
     fn push_effector(
         &mut self,
         input: &ControlInput<'_>,
@@ -137,7 +138,7 @@ impl Paper {
         );
         let mut t = e.position;
         if flight {
-            // The centre of mass flies by itself: targets are relative to it.
+            // The centre of mass flies ballistically: targets are relative to it.
             for k in 0..3 {
                 (0..NV).for_each(|i| jacobian[k][i] -= terms.jc[k][i]);
             }
@@ -167,8 +168,8 @@ impl Paper {
         }
     }
 
-    /// How surely it stands, 0…1: what moves the whole body from outside is let go of where the capture point nears the
-    /// edge of the support.
+    /// Certainty of the stance, 0…1: client constraints that move the whole body are released as the capture point
+    /// nears the edge of the support.
     fn sure(input: &ControlInput<'_>) -> f64 {
         let t = input.terms;
         let rise = (t.com.z.max(0.1) / input.gravity.max(1.0)).sqrt();
@@ -176,7 +177,7 @@ impl Paper {
         margin.map_or(0.0, |m| ((m - SURE.0) / (SURE.1 - SURE.0)).clamp(0.0, 1.0))
     }
 
-    /// A constraint from outside: what it demands, by its weight blended with the motion that there is without it.
+    /// A client constraint: its demand, blended by its weight with the motion without it.
     fn push_goal(&mut self, input: &ControlInput<'_>, qdd: &JointRow, goal: &ConstraintGoal) {
         let (terms, s) = (input.terms, goal.segment.index());
         let arm = goal.is_on_arm();
@@ -204,12 +205,12 @@ impl Paper {
         }
     }
 
-    /// Three rows with the wanted `J v̇`; rows and wish scaled by `length`.
+    /// Three rows with the desired `J v̇`; rows and change are scaled by `length`.
     fn push_rows(&mut self, jacobian: &[[f64; WIDTH]], wanted: Vec3, qdd: &JointRow, length: f64) {
         self.push_shares(jacobian, wanted, qdd, length, [1.0; 3], false);
     }
 
-    /// The same with a share of the change, for a led limb or for all; a row of which nothing counts is left free.
+    /// The same with a share of the change, for a led limb or for all; a row whose share is zero is left free.
     fn push_shares(
         &mut self,
         jacobian: &[[f64; WIDTH]],

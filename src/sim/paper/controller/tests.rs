@@ -1,4 +1,4 @@
-//! Goal: the equations do what the paper says of them. Method: identities, on a plain mannequin in random stances.
+//! Goal: the equations do what the paper says. Method: identities, on a plain mannequin in random stances.
 
 use super::*;
 use crate::body::NV;
@@ -50,7 +50,7 @@ fn standing_at_rest_holds_still_with_the_weight_on_both_feet() {
     let z = c.zmp.unwrap();
     assert!((z.x - s.terms.com.x).abs() < 1e-6 && (z.y - s.terms.com.y).abs() < 1e-6);
     assert!(c.margin.unwrap() > 0.03 && c.pivot.is_none());
-    // Mirror symmetry: knees, hips and ankles of both legs give the same.
+    // Mirror symmetry: knees, hips and ankles of both legs have equal results.
     for d in 23..31 {
         assert!((c.torque[d] - c.torque[d + 8]).abs() < 1e-6, "DOF {d}");
     }
