@@ -1,27 +1,27 @@
-//! Constraints from outside, as both controllers see them: where a point of a segment is wanted, how it is turned, and
-//! the acceleration that brings it there.
+//! Client constraints, as both controllers see them: the desired place of a point of a segment, the segment's desired
+//! rotation, and the acceleration that brings it there.
 //!
-//! A goal is not a trajectory. From wherever the part is it moves at a speed proportional to the distance, with an
-//! upper bound, and its acceleration is bounded: a goal that cannot be reached pulls with a bounded acceleration,
-//! however far away it is. Where the place itself moves, all this is relative to it.
+//! A goal is not a trajectory. From its present place the part moves at a speed proportional to the distance, with an
+//! upper bound, and its acceleration is bounded: a goal out of reach pulls with a bounded acceleration, however far
+//! away it is. If the place itself moves, all this is relative to it.
 
 use crate::body::SegmentId;
 use crate::body::topology::{HEAD, L_UPPER_ARM, PARENT, R_HAND};
 use crate::dynamics::Terms;
 use crate::math::{Quat, Vec3};
 
-/// Most goals of one figure at once: as many as can be set, and as many that fade out.
+/// Most goals of one figure at once: the most constraints that can be set, plus the same number that may be fading.
 pub const MAX_GOALS: usize = 16;
-/// Share of an arm's length that it stretches to, and how much farther than that a point is asked for, m: the trunk
-/// bends a little after it.
+/// Share of an arm's length to which it stretches, and the distance beyond that which is still demanded of a point, m:
+/// the trunk bends a little to follow.
 const STRETCH: f64 = 0.97;
 const BEYOND: f64 = 0.01;
 
-/// How briskly goals are approached.
+/// Pace at which goals are approached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GoalPace {
-    /// Time constant T, s: speeds are taken up at 1/T and are 0.25/T times the distance, critically damped with 0.25/T²
-    /// and 1/T; at most 4 T times the largest acceleration, so that they can be braked.
+    /// Time constant T, s: the speed settles at rate 1/T to 0.25/T times the distance, critically damped with 0.25/T²
+    /// and 1/T; at most 4 T times the largest acceleration, so that it can be braked.
     pub horizon: f64,
     /// Largest acceleration of a point, m/s².
     pub most: f64,
@@ -31,28 +31,28 @@ pub struct GoalPace {
     pub most_turn: f64,
 }
 
-/// Where one part should be.
+/// The desired place of one part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstraintGoal {
     /// Segment.
     pub segment: SegmentId,
     /// Point, segment frame, m.
     pub point: Vec3,
-    /// Where the point is wanted, world, m.
+    /// Desired position of the point, world, m.
     pub position: Option<Vec3>,
-    /// How fast that place moves, world, m/s.
+    /// Velocity of that place, world, m/s.
     pub velocity: Vec3,
-    /// How much each world axis of the position counts, 0…1.
+    /// Weight of each world axis of the position, 0…1.
     pub axes: [f64; 3],
     /// `world_from_segment`.
     pub rotation: Option<Quat>,
-    /// How much it counts, 0…1; a goal that comes or goes rises or falls.
+    /// Weight, 0…1; a goal that comes or goes rises or falls.
     pub weight: f64,
 }
 
 impl ConstraintGoal {
-    /// Difference of the wanted position from the present one along the axes that count, world, m; zero if no position
-    /// is wanted.
+    /// Difference of the desired position from the present one along the axes that count, world, m; zero without a
+    /// desired position.
     pub fn distance(&self, terms: &Terms) -> Vec3 {
         let Some(wanted) = self.position else {
             return Vec3::zero();
@@ -60,7 +60,7 @@ impl ConstraintGoal {
         self.difference(terms, wanted)
     }
 
-    /// What the point is asked to move by: not much farther than an arm reaches, or its figure would be pulled along.
+    /// The displacement demanded of the point: not much more than an arm's reach, or the figure would be pulled along.
     fn reachable(&self, terms: &Terms) -> Vec3 {
         let Some(wanted) = self.position else {
             return Vec3::zero();
@@ -94,7 +94,7 @@ impl ConstraintGoal {
         }
     }
 
-    /// Rotation vector from the present to the wanted rotation, world axes, rad; zero if none is wanted.
+    /// Rotation vector from the present to the desired rotation, world axes, rad; zero without a desired rotation.
     pub fn turn(&self, terms: &Terms) -> Vec3 {
         let Some(wanted) = self.rotation else {
             return Vec3::zero();
@@ -124,7 +124,7 @@ impl ConstraintGoal {
         std::iter::successors(first, move |s| Some(PARENT[*s]).filter(|p| free(*p)))
     }
 
-    /// True if it is on an arm.
+    /// Whether it is on an arm.
     pub fn is_on_arm(&self) -> bool {
         (L_UPPER_ARM.index()..=R_HAND.index()).contains(&self.segment.index())
     }

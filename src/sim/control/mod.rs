@@ -29,7 +29,7 @@ use crate::setup::ControlParams;
 use crate::support::Support;
 use serde::{Deserialize, Serialize};
 
-/// Where a point should be and how it should move, world axes, at the start and at the end of the tick.
+/// Desired position and velocity of a point, world axes, at the start and at the end of the tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointTarget {
     /// Position at the start, m.
@@ -43,13 +43,13 @@ pub struct PointTarget {
 }
 
 impl PointTarget {
-    /// True if every number is finite.
+    /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         let all = [self.now, self.now_velocity, self.next, self.next_velocity];
         all.iter().all(|v| v.is_finite())
     }
 
-    /// Moves the point by as much at both times.
+    /// Moves the point by the same amount at both times.
     pub fn shift(&mut self, by: Vec3) {
         self.now += by;
         self.next += by;
@@ -65,7 +65,7 @@ impl PointTarget {
     }
 }
 
-/// How a segment should be turned, at the start and at the end of the tick.
+/// Desired rotation of a segment, at the start and at the end of the tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RotationTarget {
     /// `world_from_segment` at the start.
@@ -89,7 +89,7 @@ impl RotationTarget {
     }
 }
 
-/// Where a foot should be.
+/// The desired pose of a foot.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FootTarget {
     /// Its ankle.
@@ -105,13 +105,13 @@ pub struct Effector {
     pub segment: SegmentId,
     /// Point, segment frame, m.
     pub point: Vec3,
-    /// Where the point should go.
+    /// Desired motion of the point.
     pub position: PointTarget,
-    /// How the segment should be turned, if that matters.
+    /// Desired rotation of the segment, if it matters.
     pub rotation: Option<RotationTarget>,
 }
 
-/// Everything a controller reads in one tick.
+/// The input of a controller in one tick.
 #[derive(Clone, Copy, Debug)]
 pub struct ControlInput<'a> {
     /// Dynamics of the present state.
@@ -126,12 +126,12 @@ pub struct ControlInput<'a> {
     pub centroidal: CentroidalTarget<'a>,
     /// Feet and other parts on the floor.
     pub contacts: ContactTargets<'a>,
-    /// Hands that follow the desired motion in space, at most two count.
+    /// Hands that follow the desired motion in space; at most two count.
     pub effectors: &'a [Effector],
-    /// Constraints from outside, the ones that matter more first: at most [`goals::MAX_GOALS`], of which the paper's
-    /// controller takes eight.
+    /// Client constraints, the most important first: at most [`goals::MAX_GOALS`], of which the paper's controller
+    /// takes eight.
     pub goals: &'a [ConstraintGoal],
-    /// What the left and the right hand of a figure that steps carry, kg.
+    /// The loads in the left and the right hand of a stepping figure, kg.
     pub carried: [f64; 2],
     /// Least available torques, N·m (negative).
     pub lower: &'a [f64; DOF_COUNT],
@@ -143,17 +143,16 @@ pub struct ControlInput<'a> {
     pub gravity: f64,
     /// Length of the tick, s.
     pub dt: f64,
-    /// Compliance with which a plan may count on the assist, [N²·m², N²] per unit of cost: moment and force on the
-    /// pelvis; zeros without assist.
+    /// Compliance of the assist on which a plan may rely, [N²·m², N²] per unit of cost: moment and force on the pelvis;
+    /// zeros without assist.
     pub assist: [f64; 2],
-    /// True if the accelerations are applied as they are. Planted feet are then kept in place by the controller, and
-    /// overload is answered with accelerations that the clipped torques give; strength-limited motors settle both by
-    /// themselves.
+    /// Whether the accelerations are applied as they are. The controller then keeps planted feet in place, and answers
+    /// overload with the accelerations of the clipped torques; strength-limited motors settle both by themselves.
     pub kinematic: bool,
 }
 
 impl ControlInput<'_> {
-    /// What a hand carries, kg; of other segments nothing is known.
+    /// The load in a hand, kg; loads of other segments are not known.
     pub fn carried_by(&self, segment: SegmentId) -> f64 {
         match segment {
             L_HAND => self.carried[0],
@@ -168,9 +167,9 @@ impl ControlInput<'_> {
 pub struct CentroidalTarget<'a> {
     /// Centre of mass, computed with the present loads.
     pub com: &'a PointTarget,
-    /// Its horizontal acceleration, world axes, m/s²; without, that of [`com_law`].
+    /// Its horizontal acceleration, world axes, m/s²; `None` for that of [`com_law`].
     pub acceleration: Option<[f64; 2]>,
-    /// Angular momentum that matters more than the posture.
+    /// Angular momentum that takes precedence over the posture.
     pub momentum: Option<MomentumTarget>,
 }
 
@@ -179,21 +178,21 @@ pub struct CentroidalTarget<'a> {
 pub struct MomentumTarget {
     /// Angular momentum, world axes, N·m·s.
     pub value: Vec3,
-    /// Time until it is to be reached, s.
+    /// Time until it must be reached, s.
     pub within: f64,
 }
 
-/// How the body is to touch the floor. Which feet are planted, the posture target says.
+/// How the body should touch the floor. The posture target says which feet are planted.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactTargets<'a> {
     /// Left and right foot.
     pub feet: &'a [FootTarget; 2],
     /// Phase of the planted feet.
     pub phase: StancePhase,
-    /// True if places of feet are known before they touch. A foot that lands turning is then stopped sooner.
+    /// Whether the places of feet are known before they touch. A foot that lands turning is then stopped sooner.
     pub places_known: bool,
-    /// While the whole body works on the floor, as on the way up: whatever touches and is meant to then carries;
-    /// without, feet and seats do.
+    /// Set while the whole body works on the floor, as when it gets up: then everything that touches, and should,
+    /// carries. With `None`, feet and seats carry.
     pub floor: Option<OnFloor<'a>>,
 }
 
@@ -207,10 +206,10 @@ pub enum StancePhase {
     LiftOff,
 }
 
-/// How the motion means the body to touch the floor.
+/// How the body should touch the floor in the motion.
 #[derive(Clone, Copy, Debug)]
 pub struct OnFloor<'a> {
-    /// Heights at which it has every contact point at the end of the tick, by segment × 8 + vertex, m.
+    /// Heights of all contact points at the end of the tick, by segment × 8 + vertex, m.
     pub heights: &'a [f64; MAX_CONTACTS],
     /// The trunk lies on the floor: there is no balance to keep.
     pub lies: bool,
@@ -220,7 +219,7 @@ pub struct OnFloor<'a> {
     pub slides: &'a [bool; SEGMENT_COUNT],
 }
 
-/// What a controller decided.
+/// The decision of a controller.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Command {
     /// θ̈, rad/s².
@@ -241,7 +240,7 @@ pub struct Command {
     pub zmp: Option<Vec3>,
     /// Its signed distance inside the support polygon, m.
     pub margin: Option<f64>,
-    /// What the support tips about, if it does.
+    /// The pivot about which the support tips, if it does.
     pub pivot: Option<crate::support::Pivot>,
 }
 
@@ -273,13 +272,14 @@ pub fn com_law(target: &PointTarget, com: Vec3, velocity: Vec3, dt: f64) -> Vec3
         + (target.now_velocity - velocity) * COM_GAIN.1
 }
 
-/// A tracking controller. It keeps its workspace and what it remembers of the last tick; nothing allocates.
+/// A tracking controller. It keeps its workspace and its memory of the last tick; nothing allocates.
 pub trait Controller {
     /// Decides one tick.
     fn control(&mut self, input: &ControlInput<'_>) -> &Command;
     /// The last decision.
     fn command(&self) -> &Command;
-    /// Touching points that carry nothing in the last decision, by index, if it has decided which carry.
+    /// Touching points that carry nothing in the last decision, by index, if the controller has decided which ones
+    /// carry.
     fn left_out(&self) -> Option<&[bool; MAX_CONTACTS]> {
         None
     }

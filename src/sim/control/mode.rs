@@ -1,4 +1,4 @@
-//! The modes of a figure: what a controller takes for granted of body, support and motion.
+//! The modes of a figure: a controller's assumptions about body, support and motion.
 //!
 //! A tick asks its [`Mode`] and never which controller is in use. The modes are [`WholeBodyMode`], the default,
 //! [`MotorsMode`], and [`PaperMode`](crate::paper::mode::PaperMode).
@@ -9,7 +9,7 @@ use crate::setup::{ControlParams, Share};
 /// The means that bring the capture point back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BalanceReach {
-    /// Arms and trunk; a controller that does all it can.
+    /// Arms and trunk, by a controller that uses everything it has.
     Body,
     /// The paper's controller, which keeps trying on an edge of its feet.
     Paper,
@@ -17,7 +17,7 @@ pub enum BalanceReach {
     Step,
 }
 
-/// Rests whose reaction a controller chooses itself: those that carry more than a force, N.
+/// Rests whose reaction a controller chooses itself: those that carry more than a given force, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ChosenRests {
     /// None.
@@ -30,8 +30,8 @@ pub enum ChosenRests {
 
 /// A mode of a figure.
 ///
-/// The first half of the questions is asked of the mode that is set, the second half of the one in charge: motors only
-/// while the figure is falling, lying, or playing a rehearsed motion.
+/// The first half of the questions goes to the mode that is set, the second half to the one in charge, which is motors
+/// only while the figure is falling, lying, or playing a rehearsed motion.
 pub trait Mode: std::fmt::Debug + Sync {
     /// Whether desired velocities belong to the middle of the last substep, and not to the ends of the tick.
     fn sets_velocities_back(&self) -> bool {
@@ -85,12 +85,12 @@ pub trait Mode: std::fmt::Debug + Sync {
         true
     }
 
-    /// Whether prescribed accelerations take the controller's torques, whatever the ground forces say.
+    /// Whether prescribed accelerations take the controller's torques, regardless of the ground forces.
     fn keeps_torques(&self, _share: Share) -> bool {
         false
     }
 
-    /// Rate error at which a motor gives all it has, rad/s.
+    /// Rate error at which a motor gives its full torque, rad/s.
     fn saturation_speed(&self) -> f64;
 }
 

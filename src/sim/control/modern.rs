@@ -39,26 +39,25 @@ mod pendulum;
 mod roll;
 mod tasks;
 
-/// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that a foot's hundred
-/// rad/s² cost less than one m/s² of the body (`docs/locomotion.md#balance`). Hands, joints and planted feet were set
-/// on recorded motion: docs/adr/0004.
+/// Weights in units of force: the cost of a task is about (inertia × acceleration error)², so that 100 rad/s² of a foot
+/// cost less than 1 m/s² of the body (`docs/locomotion.md#balance`). The weights of hands, joints and planted feet were
+/// tuned on recorded motion: docs/adr/0004.
 mod weight {
     pub(super) const COM: [f64; 3] = [1000.0, 1000.0, 300.0];
-    /// Upwards at lift-off: what is missing then cannot be made up for in the air.
+    /// Upwards at lift-off: a deficit then cannot be made up for in the air.
     pub(super) const COM_LIFT_OFF: f64 = 1000.0;
     pub(super) const HAND: f64 = 1.0;
-    /// Constraints from outside, fully in force: a bounded pull that moves the centre of mass by 3 cm when it cannot be
-    /// met.
+    /// Client constraints, fully in force: a bounded pull that moves the centre of mass by 3 cm when it cannot be met.
     pub(super) const GOAL: f64 = 100.0;
     pub(super) const GOAL_ARM: f64 = 200.0;
     pub(super) const GOAL_ROTATION: f64 = 20.0;
     pub(super) const SWING_FOOT: f64 = 100.0;
-    /// A hand that is clear of the floor it leans on before and after.
+    /// A hand that is clear of the floor, between two phases of leaning on it.
     pub(super) const SWING_HAND: f64 = 10.0;
     pub(super) const SWING_ROTATION: f64 = 4.0;
     pub(super) const PLANTED_ROTATION: f64 = 1.0;
     pub(super) const PELVIS: f64 = 20.0;
-    /// The same of a figure that lies and rolls over.
+    /// The same for a figure that lies and rolls over.
     pub(super) const ROLLING: f64 = 300.0;
     pub(super) const HOLD: f64 = 5000.0;
     pub(super) const BASE: f64 = 1e-6;
@@ -67,50 +66,49 @@ mod weight {
     /// w_f: pull of a contact force towards the last tick's.
     pub(super) const FORCE: f64 = 1e-3;
 }
-/// Weight of a joint while the body is where the motion has it. Where it is about to fall, `clip(M_jj, …)` between the
-/// least and this: light joints give way then, but with less than the least wrists and toes would pay for every other
-/// task.
+/// Weight of a joint while the body is at its place in the motion. When the body is about to fall, the weight is
+/// `clip(M_jj, …)` between the least and this: light joints give way then, but with less than the least weight, wrists
+/// and toes would pay for every other task.
 const JOINT_WEIGHT: f64 = 1.0;
 const LEAST_JOINT_WEIGHT: f64 = 0.05;
-/// Weights of the joints of a limb that a constraint from outside leads, and of its wrist, which is light and would go
-/// to its limit first.
+/// Weights of the joints of a limb that a client constraint leads, and of its wrist, which is light and would reach its
+/// limit first.
 const LED_LIMB: f64 = 0.02;
 const LED_WRIST: f64 = 0.2;
-/// Load in a hand with which arm and hand count a quarter, kg.
+/// Load in a hand at which arm and hand have a quarter of their weight, kg.
 const HALF_ARM: f64 = 2.0;
 /// Degrees of freedom from the shoulder to the wrist, which follow each other.
 const ARM_DOFS: usize = 7;
-/// Friction the plan counts on; below the simulator's.
+/// Friction that the plan assumes; less than the simulator's.
 const FRICTION_MARGIN: f64 = 0.7 / 0.9;
-/// Horizon of joints and rotations as a share of the one that is set (0.1 s): 278/s² and 33/s. Contacts need limbs
-/// that are on time; the continuous program stays free of chatter with them, unlike the paper's active set.
+/// Horizon of joints and rotations as a share of the one that is set (0.1 s): 278/s² and 33/s. Contacts need limbs that
+/// are on time, and unlike the paper's active set, the continuous program does not chatter with these gains.
 const SHARPNESS: f64 = 0.3;
-/// That of joints and rotations where the body is about to fall (149/s², 24/s): balance must not have to fight the
-/// posture.
+/// The same when the body is about to fall (149/s², 24/s): balance must not have to fight the posture.
 const YIELDING_SHARPNESS: f64 = 0.41;
 /// Largest feedback of a rotation, rad/s².
 const ROTATION_FEEDBACK: f64 = 50.0;
-/// Distance of the capture point from the motion's at which balance begins to count more, and at which it counts most,
-/// m.
+/// Distance of the capture point from the motion's at which the weight of balance begins to rise, and at which it is
+/// largest, m.
 const DANGER: (f64, f64) = (0.04, 0.12);
-/// Iterations after which Newton's method has jammed and the interior-point method leads it on, and most of that. In
-/// walks the median is 3. From prices of an unrelated problem both together, and Newton's last steps, take 52 at most
-/// in 320 cases.
+/// Number of iterations after which Newton's method has jammed and the interior-point method takes over, and the most
+/// iterations of the latter. In walks the median is 3. Started from the multipliers of an unrelated problem, the two
+/// methods together, with Newton's last steps, needed at most 52 iterations in 320 tests.
 const NEWTON_ITERATIONS: u32 = 20;
 const INTERIOR_ITERATIONS: u32 = 30;
-/// Newton's last steps go on to this share of the tolerance: coming from the interior, the first iterate within it has
-/// not converged quadratically yet.
+/// Newton's last steps continue to this share of the tolerance: coming from the interior, the first iterate within the
+/// tolerance has not converged quadratically yet.
 const POLISHED: f64 = 1e-2;
 /// Most iterations of all kinds; residual of the equations of motion at which it stops, N·m.
 const MAX_ITERATIONS: u32 = 60;
 const TOLERANCE: f64 = 1e-3;
-/// On the floor a point is meant to touch if the motion has it below the first height, not at all
-/// above the second, m.
+/// On the floor, a point should touch if it is below the first height in the motion, and not at all above the second,
+/// m.
 const MEANT_FADE: (f64, f64) = (0.004, 0.012);
 /// Points of one segment.
 const POINTS: usize = MAX_CONTACTS / SEGMENT_COUNT;
 
-/// The modern controller with its buffers and what it remembers of the last tick (warm start).
+/// The modern controller with its buffers and its memory of the last tick (warm start).
 ///
 /// Problem 14.1.
 pub struct Modern {
@@ -136,12 +134,12 @@ pub struct Modern {
 /// Symmetric, world axes.
 type HoldStiffness = [[f64; 3]; 3];
 
-/// What seats and tables mean to the figure in this tick.
+/// The role of seats and tables in this tick.
 #[derive(Clone, Copy, Debug, Default)]
 struct SeatLoad {
     /// Share of the weight that they carry.
     carries: f64,
-    /// 1 where the motion could not stand without, 0 where it could or is about to get up.
+    /// 1 if the motion could not stand without them, 0 if it could or is about to get up.
     needed: f64,
 }
 
@@ -161,12 +159,12 @@ impl std::fmt::Debug for Modern {
 }
 
 impl Modern {
-    /// Exchanges what it remembers for `memory`: that of a figure when its tick begins, the same back when it ends.
+    /// Exchanges its memory for `memory`: that of a figure when its tick begins, and the same back when it ends.
     pub fn swap_memory(&mut self, memory: &mut ModernMemory) {
         std::mem::swap(&mut self.memory, memory);
     }
 
-    /// Plans with a little less friction than the simulator's `friction` from now on.
+    /// Plans from now on with a little less friction than the simulator's `friction`.
     pub fn set_friction(&mut self, friction: f64) {
         self.contacts.friction = friction * FRICTION_MARGIN;
     }
@@ -195,7 +193,7 @@ impl Modern {
     }
 }
 
-/// 0 where the capture point is where the motion has it, 1 where it is far off.
+/// 0 if the capture point is at its place in the motion, 1 if it is far off.
 fn danger(input: &ControlInput<'_>) -> f64 {
     let (t, goal) = (input.terms, input.centroidal.com);
     let time = pendulum_time(input);
@@ -203,9 +201,9 @@ fn danger(input: &ControlInput<'_>) -> f64 {
     1.0 - fall((off.x * off.x + off.y * off.y).sqrt(), DANGER)
 }
 
-/// What is left of the weights of an arm whose hand carries `load`, kg. A joint at its limit is turned all the same by
-/// moving what it hangs on: an arm too weak for its load would twist the trunk under it. So the arm gives way, and
-/// where it has the strength the weight does not matter.
+/// Factor on the weights of an arm whose hand carries `load`, kg. A joint at its limit can still be turned by moving
+/// the segment that it hangs on: an arm too weak for its load would twist the trunk under it. So the arm gives way; if
+/// it has the strength, the weight does not matter.
 fn gives_way(load: f64) -> f64 {
     let share = HALF_ARM / (HALF_ARM + load);
     share * share
@@ -217,7 +215,7 @@ fn sharp_law(input: &ControlInput<'_>, danger: f64) -> Law {
     Law::new(input.params, input.dt).sharpened(share)
 }
 
-/// From `a` to `b`.
+/// Linear interpolation from `a` to `b`.
 fn blend(a: f64, b: f64, share: f64) -> f64 {
     a + share * (b - a)
 }
@@ -296,7 +294,7 @@ impl Controller for Modern {
                 }
             }
         }
-        // A limb that is led from outside lets go of its posture, or that would hold it back.
+        // A limb that a client leads gives up its posture, which would otherwise hold it back.
         for goal in input.goals.iter().take(MAX_GOALS) {
             for s in goal.limb() {
                 let wrist = s == L_HAND.index() || s == R_HAND.index();
@@ -319,7 +317,7 @@ impl Controller for Modern {
             return &self.command;
         };
         if !outcome.converged {
-            // An iterate that got nowhere is no place to start the next tick from.
+            // An iterate without progress is no starting point for the next tick.
             self.memory.price = [0.0; NV];
         }
         let c = &mut self.command;
@@ -366,8 +364,8 @@ impl Controller for Modern {
     }
 }
 
-/// Builds P, A and b, solves for the price x, and leaves v̇ in the command. `None`: the desired motion or the state has
-/// numbers of which no problem can be made.
+/// Builds P, A and b, solves for the price x, and leaves v̇ in the command. `None`: numbers of the desired motion or of
+/// the state make no valid problem.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq", "x86_64+avx2"))]
 fn kernel(
     c: &mut Modern,
@@ -418,13 +416,13 @@ fn kernel(
         }
     }
     // 2. Y = L⁻¹ M, A = YᵀY = M P⁻¹ M, b = −(Yᵀ L⁻¹ p + h). P is positive definite, since every diagonal entry has its
-    //    own weight, unless a number in it is out of hand.
+    //    own weight, unless one of its numbers is out of range.
     if !factor_body_columns(&mut c.p) {
         return None;
     }
     solve_lower_rows(&c.p, &t.m, &mut c.y);
     gram_of_columns(&c.y, &mut c.a);
-    // Assist: forces on the pelvis at a price of their own add their compliance to the root's diagonal of the dual.
+    // Assist: forces on the pelvis at their own price add their compliance to the root's diagonal of the dual.
     for i in 0..6 {
         c.a[i][i] += c.assist[i / 3];
     }

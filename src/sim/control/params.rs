@@ -2,7 +2,7 @@
 
 use crate::params::Param;
 
-/// How stiff motors are: the rate error at which a motor gives all it has.
+/// Stiffness of motors: the rate error at which a motor gives its full torque.
 pub mod saturation {
     crate::params::params! {
         /// Motors alone.

@@ -1,5 +1,5 @@
-//! Rows of 39 joint components and their orthogonal factor: what the two active sets need, without allocation and in
-//! a fixed order of sums.
+//! Rows of 39 joint components and their orthogonal factor: the algebra of the two active sets, without allocation and
+//! with sums in a fixed order.
 
 use crate::body::DOF_COUNT;
 use crate::math::dense::cholesky_solve;
@@ -83,7 +83,7 @@ impl RowQr {
     pub fn len(&self) -> usize {
         self.len
     }
-    /// True if there is no row.
+    /// Whether there are no rows.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -114,9 +114,9 @@ impl RowQr {
         self.len += 1;
     }
 
-    /// Takes in the rows `members[first..]` of `h`, those before them being in. The rows `held` come before all of
-    /// them, while there is room: when there is none left, it starts over without. `fixed` of them are in; returns how
-    /// many are then.
+    /// Takes in the rows `members[first..]` of `h`; those before them are already in. The rows `held` come before all
+    /// of them while there is room: when there is none left, it starts over without them. `fixed` of them are in;
+    /// returns how many are in afterwards.
     #[inline(always)]
     pub fn grow(
         &mut self,
@@ -140,7 +140,7 @@ impl RowQr {
         fixed
     }
 
-    /// True if the rows are (nearly) dependent; then [`Self::solve`] is damped.
+    /// Whether the rows are (nearly) dependent; then [`Self::solve`] is damped.
     pub fn is_dependent(&self) -> bool {
         let (mut least, mut most) = (f64::INFINITY, 0.0f64);
         for k in 0..self.len {

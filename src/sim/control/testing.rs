@@ -79,7 +79,7 @@ impl Scene {
         }
     }
 
-    /// Which feet its motion keeps on the floor.
+    /// Sets the feet that its motion keeps on the floor.
     pub(crate) fn plant(&mut self, planted: [bool; 2]) {
         self.target.now.planted = planted;
         self.target.next.planted = planted;

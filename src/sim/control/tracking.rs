@@ -12,7 +12,7 @@ use crate::setup::ControlParams;
 
 /// Position gain of the law with a horizon, times T²: critical damping.
 const CRITICAL: f64 = 0.25;
-/// Part of an existing violation of a joint limit that is taken back per step.
+/// Share of an existing violation of a joint limit that is corrected per step.
 const LIMIT_RETURN: f64 = 0.2;
 /// Step for which the paper gives its α, s.
 const PAPER_STEP: f64 = 1.0 / 30.0;
@@ -29,7 +29,7 @@ pub struct Law {
 }
 
 impl Law {
-    /// The law that the parameters ask for, at step `dt` (s). A horizon shorter than the step is the step.
+    /// The law that the parameters ask for, at step `dt` (s). A horizon shorter than the step is replaced by the step.
     pub fn new(params: &ControlParams, dt: f64) -> Self {
         Self {
             alpha: 1.0 - power(1.0 - params.alpha, dt / PAPER_STEP),
@@ -38,7 +38,7 @@ impl Law {
         }
     }
 
-    /// The same law with `share` of the horizon, though never shorter than the step.
+    /// The same law with `share` of the horizon, but never shorter than the step.
     pub fn sharpened(self, share: f64) -> Self {
         Self {
             horizon: self.horizon.map(|t| (share * t).max(self.dt)),
@@ -56,8 +56,8 @@ impl Law {
         self.horizon.unwrap_or(self.dt)
     }
 
-    /// True if errors are taken at the start of the step (with horizon), false if against the desired state at its end
-    /// (4).
+    /// Whether errors are taken at the start of the step (with a horizon) rather than against the desired state at its
+    /// end (4).
     pub fn uses_errors_now(&self) -> bool {
         self.horizon.is_some()
     }
@@ -171,7 +171,7 @@ pub fn initial_acceleration(
 }
 
 /// Clamps accelerations so that the anatomical angles after the step are inside the joint limits (§7). An angle that is
-/// outside already is asked to come back by [`LIMIT_RETURN`] of its violation, not at once: a dead-beat return would
+/// already outside comes back by [`LIMIT_RETURN`] of its violation per step, not at once: a dead-beat return would
 /// saturate the joint.
 #[inline(always)]
 fn clamp_to_limits(body: &Body, state: &State, dt: f64, qdd: &mut JointRow) {
@@ -302,7 +302,7 @@ mod tests {
         assert!((law.demand((0.1, 0.0), (9.0, 0.0), 0.0) - 2.5).abs() < 1e-12);
         assert!((law.demand((0.0, 0.5), (9.0, 0.5), 0.0) - 5.0).abs() < 1e-12);
         assert!((law.demand((0.0, 0.5), (9.0, 0.6), 0.5) - 6.0).abs() < 1e-10);
-        // No error at all: nothing but the feed-forward, exactly zero at rest.
+        // Without any error only the feed-forward remains, which is exactly zero at rest.
         let state = standing(&body);
         let still = Target::still(state.posture);
         let pair = TargetPair {

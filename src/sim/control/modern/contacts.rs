@@ -1,5 +1,5 @@
-//! What the plan may push against: the points of planted feet, of a body that works on the floor, and of what rests on
-//! seats and tables, each with the acceleration that keeps it where it is.
+//! The contacts against which the plan may push: the points of planted feet, of a body that works on the floor, and of
+//! parts that rest on seats and tables, each with the acceleration that keeps it in place.
 
 use super::{HoldStiffness, MEANT_FADE, Modern, POINTS, blend, weight};
 use crate::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
@@ -12,15 +12,15 @@ use crate::support::Rest;
 
 /// Time constant that brings a planted point to rest, s.
 const HOLD_TIME: f64 = 0.05;
-/// The same along the floor for a foot that still turns: friction stops its points before its hip does, and they slide
-/// until then, s.
+/// The same along the floor for a foot that still turns, s: friction stops its points before its hip does, and until
+/// then they slide.
 const TURN_HOLD_TIME: f64 = 0.03;
-/// A foot turns that does so about the vertical faster than the first, rad/s, and its points slide faster than the
-/// first, m/s; fully from the second on.
+/// A foot counts as turning if it turns about the vertical faster than the first, rad/s, and its points slide faster
+/// than the first, m/s; fully from the second on.
 const TURNS: (f64, f64) = (0.4, 0.6);
 const SLIDES: (f64, f64) = (0.05, 0.07);
-/// A point that comes down faster than the first beyond what its height leaves room for begins to strike, from the
-/// second on it does, m/s.
+/// A point begins to count as striking if it comes down faster than its height allows by more than the first, m/s;
+/// fully from the second on.
 const STRIKES: (f64, f64) = (0.1, 0.3);
 /// Hardest stop of a planted point that is planned, m/s².
 const STOP: f64 = 150.0;
@@ -28,22 +28,22 @@ const STOP: f64 = 150.0;
 const HOLD_SPEED: f64 = 0.3;
 /// A planted point counts fully below the first height and not at all above the second, m.
 const FADE: (f64, f64) = (0.004, 0.010);
-/// The same of what touches while the whole body works on the floor, m.
+/// The same for parts that touch while the whole body works on the floor, m.
 const FLOOR_FADE: (f64, f64) = (0.006, 0.020);
-/// There knees bear weight more easily than feet, and hands less, for what they cost the program: a knee has one
-/// contact point where a palm has four, and hands that carry what knees could cannot be lifted.
+/// Factors on the cost of bearing weight in that case: knees bear it more easily than feet, and hands less. A knee has
+/// one contact point where a palm has four, and hands that carry weight that knees could carry cannot be lifted.
 const EASE: (f64, f64, f64) = (5.0, 0.5, 0.2);
-/// What is kept of the last tick's contact force.
+/// Share of the last tick's contact force that is kept.
 pub(super) const FORCE_MEMORY: f64 = 0.98;
-/// Weight with which a part that rests on a seat is held there when it carries all it may count for, and that share of
-/// the weight. Little while the motion does not need the seat: a body that is pinned to it topples with it. Else as
-/// much along the surface and across it as in the second: a plan in which the body sinks into its seat, or slides over
-/// it, lets the feet push with forces that the floor does not give, and they creep.
+/// Weight of holding a part in place on a seat when it carries its full share, and that share of the body weight. The
+/// weight is small while the motion does not need the seat: a body that is pinned to it topples with it. Otherwise it
+/// is the second value, both along the surface and across it: a plan in which the body sinks into its seat, or slides
+/// over it, lets the feet push with forces that the floor does not give, and they creep.
 const REST_HOLD: f64 = 5.0;
 const NEEDED_HOLD: (f64, f64) = (50.0, 500.0);
 const REST_FULL: f64 = 0.2;
-/// A part is held where it rests while the motion has it no higher than the first above that, not at all from the
-/// second on, m: a hand that is to leave the seat is not nailed to it.
+/// A part is held where it rests while the motion has it less than the first above its rest, and not at all from the
+/// second on, m: a hand that is about to leave the seat is not pinned to it.
 const LIFTED: (f64, f64) = (0.02, 0.06);
 /// Share of hold and force that segments other than feet get.
 const OTHER_SEGMENT: f64 = 1e-3;
@@ -62,7 +62,8 @@ impl Modern {
                 if rest.segment.index() != s || self.contacts.points.len() >= MAX_CONTACTS {
                     continue;
                 }
-                // What rests on a seat or a table is pushed by it as the solution needs, starting from what it gave.
+                // A seat or a table pushes a part that rests on it as the solution requires, starting from its last
+                // reaction.
                 let stays = fall(rest.lift, LIFTED);
                 let share = stays * (rest.force.norm() / (REST_FULL * mg)).min(1.0);
                 let r = rest.position - t.segment_position(s);
@@ -108,7 +109,7 @@ impl Modern {
                     slides = floor.slides[s];
                     let meant = fall(floor.heights[s * POINTS + vertex], MEANT_FADE);
                     fade = fall(z, FLOOR_FADE);
-                    // A body that rolls over is carried by whatever touches, also where that is about to come off.
+                    // A body that rolls over is carried by everything that touches, even if that is about to lift.
                     if floor.rolls {
                         held = meant;
                     } else {
@@ -152,12 +153,12 @@ impl Modern {
 /// Acceleration that brings a planted point to rest on the floor, m/s².
 ///
 /// * `(z, v)`: its height, m, and velocity, m/s.
-/// * `spin`: angular velocity of its foot about the vertical, rad/s, where a foot that lands turning is held sooner;
-///   else 0.
+/// * `spin`: angular velocity of its foot about the vertical, rad/s, if a foot that lands turning is held sooner;
+///   otherwise 0.
 /// * `dt`: length of the tick, s.
 fn stop((z, v): (f64, Vec3), spin: f64, dt: f64) -> Vec3 {
     let rise = (-0.2 * z / dt).clamp(-HOLD_SPEED, HOLD_SPEED);
-    // What strikes the floor within the tick is at rest at its end, whatever is planned.
+    // A point that strikes the floor within the tick is at rest at its end, whatever the plan.
     let strikes = 1.0 - fall(-v.z - z.max(0.0) / dt, STRIKES);
     let pace = blend(1.0 / HOLD_TIME, 1.0 / dt, strikes);
     let turning = 1.0 - fall(spin.abs(), TURNS);
@@ -171,7 +172,7 @@ fn stop((z, v): (f64, Vec3), spin: f64, dt: f64) -> Vec3 {
     to_rest.capped(STOP)
 }
 
-/// How easily a segment bears weight on the floor.
+/// Ease with which a segment bears weight on the floor.
 fn ease(s: usize, foot: bool) -> f64 {
     if foot {
         EASE.1

@@ -1,12 +1,12 @@
-//! What the controller remembers from tick to tick, also in a checkpoint.
+//! The controller's memory from tick to tick, also used in a checkpoint.
 
 use crate::body::topology::{DOF_COUNT, NV};
 use crate::math::Vec3;
 use crate::report::MAX_CONTACTS;
 use serde::{Deserialize, Serialize};
 
-/// What [`Modern`](super::Modern) remembers from tick to tick: where its next solve starts, and what that is to stay
-/// near.
+/// The memory of [`Modern`](super::Modern) from tick to tick: the starting point of its next solve, and the values that
+/// it should stay near.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ModernMemory {
     #[serde(with = "crate::saved::array")]
@@ -29,7 +29,7 @@ impl Default for ModernMemory {
 }
 
 impl ModernMemory {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let forces = self.force.iter().flat_map(|f| f.to_array());
         let numbers = self.price.iter().chain(&self.torque).copied();
@@ -44,7 +44,7 @@ impl ModernMemory {
     }
 }
 
-/// Forces of points that mostly have none, with the indices of those that have.
+/// Forces of points, mostly zero, stored as those that are not with their indices.
 mod sparse {
     use super::{MAX_CONTACTS, Vec3};
     use serde::de::Error;

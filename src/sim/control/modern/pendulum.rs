@@ -1,4 +1,4 @@
-//! The inverted pendulum that a standing body is.
+//! A standing body as an inverted pendulum.
 
 use crate::control::ControlInput;
 

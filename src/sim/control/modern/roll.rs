@@ -1,5 +1,5 @@
-//! Which points of a planted foot the plan keeps on the floor while the motion rolls it off: the heel goes first, the
-//! toes with the whole foot.
+//! The points of a planted foot that the plan keeps on the floor while the motion rolls it off: the heel leaves first,
+//! the toes leave with the whole foot.
 
 use super::{Modern, POINTS};
 use crate::body::Body;
@@ -9,16 +9,16 @@ use crate::math::curve::fall;
 use crate::math::{Quat, Vec3};
 use crate::motion::Target;
 
-/// A point of a planted foot is planned down fully where the motion has it below the first height, not at all above the
-/// second, m.
+/// A point of a planted foot is planned down fully if it is below the first height in the motion, and not at all above
+/// the second, m.
 const PLANNED_FADE: (f64, f64) = (0.001, 0.006);
-/// The same of toes that roll over their tip.
+/// The same for toes that roll over their tip.
 const TIP_FADE: (f64, f64) = (0.003, 0.010);
 /// A point that the motion lifts faster than the first leaves the floor, m/s. All of these bounds are narrow on
-/// purpose: a point that is half let go is turned up with its force still there.
+/// purpose: a point that is half released is turned up while its force still acts.
 const RISES: (f64, f64) = (0.035, 0.045);
-/// A heel is needed where the zero-moment point is wanted less than this far from it, as a share of the way to the toe
-/// joint: a body that brakes stands on it still.
+/// A heel is needed if the desired zero-moment point is less than this far from it, as a share of the distance to the
+/// toe joint: a body that brakes still stands on it.
 const NEEDED: (f64, f64) = (0.45, 0.55);
 /// An ankle that needs more than this share of its strength to carry the foot's load on the toe joint does not lift the
 /// heel.
@@ -28,28 +28,28 @@ const CARRIES: (f64, f64) = (0.10, 0.15);
 /// The weight goes from one planted foot to the other if the centre of mass moves faster than this, m/s.
 const TRANSFER_SPEED: f64 = 0.5;
 
-/// What one planted foot does in this tick.
+/// The roll of one planted foot in this tick.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Roll {
-    /// `foot_from_toes` as the motion has it at the beginning and at the end of the tick.
+    /// `foot_from_toes` in the motion at the beginning and at the end of the tick.
     toes: [Quat; 2],
     /// Height that the motion adds to the heel within the tick, m.
     heel_rise: f64,
-    /// 1 where the foot can do without its heel, 0 where it cannot.
+    /// 1 if the foot can do without its heel, 0 if it cannot.
     free: f64,
-    /// 1 where the foot carries next to nothing, 0 where it carries.
+    /// 1 if the foot carries next to nothing, 0 if it carries.
     idle: f64,
 }
 
 impl Modern {
-    /// What both feet do, left and right.
+    /// The roll of both feet, left and right.
     pub(super) fn roll(&self, input: &ControlInput<'_>) -> [Roll; 2] {
         const FEET: [usize; 2] = [L_FOOT.index(), R_FOOT.index()];
         let heel_rise = FEET.map(|s| {
             let [before, z] = heights(input, s, [heel(input.body, s); 2]);
             z - before
         });
-        // In a squat, on the way into a seat and in small steps heels are lifted too, and carry meanwhile.
+        // In a squat, on the way into a seat and in small steps, heels are lifted too, and carry while they are.
         let v = input.centroidal.com.now_velocity;
         let transfers = v.x * v.x + v.y * v.y > TRANSFER_SPEED * TRANSFER_SPEED;
         let may_lift = |side: usize| transfers || !input.target.next.planted[1 - side];
@@ -71,13 +71,13 @@ impl Modern {
         })
     }
 
-    /// What foot `s` and its toes carried in the last plan, N.
+    /// The load on foot `s` and its toes in the last plan, N.
     fn force(&self, s: usize) -> Vec3 {
         let points = &self.memory.force[s * POINTS..(s + 2) * POINTS];
         points.iter().fold(Vec3::zero(), |sum, f| sum + *f)
     }
 
-    /// Torque that the ankle of foot `s` needs if its toe joint carries what the whole foot did in the last plan, as a
+    /// Torque that the ankle of foot `s` needs if its toe joint carries the whole foot's load of the last plan, as a
     /// share of its strength.
     fn strain(&self, input: &ControlInput<'_>, s: usize) -> f64 {
         let t = input.terms;
@@ -98,7 +98,7 @@ fn heel(body: &Body, s: usize) -> Vec3 {
     rearmost.copied().unwrap_or_default()
 }
 
-/// Where the zero-moment point is wanted along foot `s`: 0 under its heel, 1 under its toe joint.
+/// Desired position of the zero-moment point along foot `s`: 0 under its heel, 1 under its toe joint.
 fn wanted(input: &ControlInput<'_>, s: usize) -> f64 {
     let t = input.terms;
     let Some([x, y]) = input.centroidal.acceleration else {
@@ -112,9 +112,9 @@ fn wanted(input: &ControlInput<'_>, s: usize) -> f64 {
 }
 
 impl Roll {
-    /// How far the plan keeps a point of segment `s` down. What the motion lifts the floor does not push: contacts of
-    /// the plan have no complementarity, and a heel that is turned up with its force still there turns by that force,
-    /// with the whole weight on it.
+    /// How far the plan keeps a point of segment `s` down. The floor does not push a part that the motion lifts:
+    /// contacts of the plan have no complementarity, and a heel that turns up while its force still acts is turned by
+    /// that force, with the whole weight on it.
     pub(super) fn kept(&self, input: &ControlInput<'_>, s: usize, point: Vec3) -> f64 {
         let toes = s == L_TOES.index() || s == R_TOES.index();
         let local = |foot_from_toes: Quat| {
@@ -134,13 +134,13 @@ impl Roll {
             // At lift-off a foot rolls over the tip of its toes.
             return fall(z, TIP_FADE);
         }
-        // Toes are turned up about a heel that stays, and carry meanwhile; they leave with it.
+        // Toes are turned up about a heel that stays, and carry while they are; they leave with it.
         1.0 - self.idle * (1.0 - stays((z - before).min(self.heel_rise)))
     }
 }
 
-/// Heights over the floor at which the motion has a point of the foot of segment `s`, foot frame, at the beginning and
-/// at the end of the tick, m.
+/// Heights over the floor, in the motion, of a point of the foot of segment `s` (foot frame), at the beginning and at
+/// the end of the tick, m.
 fn heights(input: &ControlInput<'_>, s: usize, point: [Vec3; 2]) -> [f64; 2] {
     let foot = &input.contacts.feet[usize::from(s >= R_FOOT.index())];
     let [now, next] = point;

@@ -1,4 +1,4 @@
-//! What the body is to do with its mass, its hands and its feet, and how much that counts.
+//! The tasks of the body's mass, hands and feet, and their weights.
 
 use super::pendulum::pendulum_time;
 use super::{
@@ -15,7 +15,7 @@ use crate::math::Vec3;
 use crate::math::curve::fall;
 use crate::report::MAX_CONTACTS;
 
-/// How constraints from outside are approached.
+/// Pace at which client constraints are approached.
 const GOAL_PACE: GoalPace = GoalPace {
     horizon: 1.0 / 30.0,
     most: 8.0,
@@ -27,20 +27,20 @@ const HAND_FEEDBACK: f64 = 20.0;
 const SWING_FEEDBACK: f64 = 60.0;
 /// Horizon of swinging feet as a share of the one that is set (0.1 s): 400/s² and 40/s.
 const SWING_SHARPNESS: f64 = 0.25;
-/// Factor on the weight of the centre of mass of a lying figure: it is where the floor holds it.
+/// Factor on the weight of the centre of mass of a lying figure: the floor holds it in place.
 const LYING: f64 = 1e-3;
-/// How much more balance counts where the capture point is farthest off.
+/// Factor on the weight of balance when the capture point is farthest off.
 const DANGER_FACTOR: f64 = 10.0;
-/// Share of the weight on a seat from which the centre of mass counts least, and its factor then.
+/// Share of the weight on a seat from which the centre of mass has its smallest weight, and the factor then.
 const SEATED_FULL: f64 = 0.3;
 const SEATED_LEAST: f64 = 0.05;
-/// The motion needs the seat where its capture point is less than the first inside the soles; from the second on it is
+/// The motion needs the seat if its capture point is inside the soles by less than the first; from the second on it is
 /// about to get up, m.
 const NEEDS_SEAT: (f64, f64) = (-0.02, 0.03);
-/// A motion sits down that has its centre of mass over neither of two planted feet: wholly where it is farther inside
-/// than the first (outside, being negative), not yet from the second on, m.
+/// A motion sits down if its centre of mass is over neither of two planted feet: fully if it is inside by less than the
+/// first, not yet from the second on, m (negative: outside).
 const SITS_DOWN: (f64, f64) = (-0.05, -0.01);
-/// What one sits on. Hands that lean on a seat do not make it one.
+/// Segments on which a figure sits. Hands that lean on a seat do not make it one.
 const SEATED_ON: [SegmentId; 3] = [PELVIS, L_THIGH, R_THIGH];
 
 impl Modern {
@@ -139,9 +139,9 @@ impl Modern {
     }
 
     /// Factor on the weight of the centre of mass. A figure that cannot step and is about to fall gives up its posture
-    /// rather than its balance. A figure that sits has no balance to keep, and would bend to put its centre of mass
-    /// where another seat would have had it; not so while the motion is getting up, which takes a centre of mass over
-    /// the feet. A figure that sits down falls onto the seat as the motion does.
+    /// rather than its balance. A sitting figure has no balance to keep, and would bend to put its centre of mass where
+    /// another seat would have had it. This does not apply while the motion is getting up, which requires a centre of
+    /// mass over the feet. A figure that sits down falls onto the seat as the motion does.
     fn urgency(&mut self, input: &ControlInput<'_>) -> f64 {
         let planted = [input.target.now.planted, input.target.next.planted];
         if let Some(floor) = input.contacts.floor {
@@ -169,7 +169,7 @@ impl Modern {
         1.0 + (DANGER_FACTOR - 1.0) * danger(input)
     }
 
-    /// What seats carry, and whether the motion needs them.
+    /// The share that seats carry, and whether the motion needs them.
     pub(super) fn sit(&mut self, input: &ControlInput<'_>) -> SeatLoad {
         let mg = input.terms.mass * input.gravity.max(1.0);
         let level = input.support.rests().iter().filter(|r| r.is_level());
@@ -204,9 +204,9 @@ impl Modern {
             .map_or(f64::NEG_INFINITY, |c| c.margin)
     }
 
-    /// A constraint from outside. Its weight grows with the cube of how far it is in force: that spreads the passage
-    /// from the posture's hold to its own over the time in which it comes or goes. Several share what one may pull
-    /// with, or together they would pull a figure off its feet.
+    /// A client constraint. Its weight grows with the cube of its level, which spreads the transition from the
+    /// posture's hold to its own over the time in which it comes or goes. Several constraints share the weight of one;
+    /// together they would otherwise pull a figure off its feet.
     fn goal_task(&mut self, t: &Terms, goal: &ConstraintGoal, share: f64) {
         let s = goal.segment.index();
         let level = share * goal.weight * goal.weight * goal.weight;
@@ -256,7 +256,7 @@ impl Modern {
     }
 }
 
-/// True if the motion has all contact points of a segment, at `heights`, clear of the floor.
+/// Whether all contact points of a segment, at `heights`, are clear of the floor in the motion.
 fn is_clear(heights: &[f64; MAX_CONTACTS], segment: SegmentId) -> bool {
     let first = segment.index() * POINTS;
     heights[first..first + POINTS]

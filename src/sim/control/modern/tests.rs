@@ -1,6 +1,6 @@
-//! Goal: the kernel solves the problem that it is meant to solve. Method: the same problem in its primal form
-//! (accelerations, torques, contact forces, assist), put together from M, h and Jacobians of [`Terms`], and solved by
-//! an interior-point method with second-order cones (clarabel).
+//! Goal: the kernel solves the intended problem. Method: the same problem in its primal form (accelerations, torques,
+//! contact forces, assist), put together from M, h and Jacobians of [`Terms`], and solved by an interior-point method
+//! with second-order cones (clarabel).
 
 use super::contacts::FORCE_MEMORY;
 use super::*;
@@ -47,14 +47,14 @@ struct Primal {
     torque: Vec<(f64, f64)>,
     /// Jacobian (3 rows), rest and cost of each contact force.
     contacts: Vec<([[f64; WIDTH]; 3], Vec3, f64)>,
-    /// Cost of assist, none without it.
+    /// Cost of assist; `None` without assist.
     assist: Option<[f64; 2]>,
     mu: f64,
 }
 
 impl Primal {
-    /// Of the problem that `c` has just solved for `s`; `torques` and `forces` are those of the tick before, by DOF and
-    /// by contact point.
+    /// For the problem that `c` has just solved for `s`; `torques` and `forces` are those of the previous tick, by DOF
+    /// and by contact point.
     fn new(
         c: &Modern,
         s: &Scene,
@@ -109,7 +109,7 @@ impl Primal {
                 });
             }
         }
-        // Tasks: what they demand is the controller's own, how they enter is not.
+        // Tasks: their demands are the controller's own, but the way they enter the problem is not.
         for task in &c.rows {
             let mut row = [0.0; NV];
             row.copy_from_slice(&task.row[..NV]);
@@ -203,7 +203,7 @@ impl Primal {
         worst
     }
 
-    /// How far it is outside of limits and cones, N·m or N.
+    /// Largest excess over limits and cones, N·m or N.
     fn excess(&self, s: &Solution) -> f64 {
         let mut worst = 0.0f64;
         for j in 0..DOF_COUNT {
@@ -346,7 +346,7 @@ fn sparse(m: usize, n: usize, mut entries: Vec<(usize, usize, f64)>) -> CscMatri
     CscMatrix::new(m, n, colptr, rowval, nzval)
 }
 
-/// What the kernel decided, as a solution of the primal.
+/// The kernel's decision, as a solution of the primal.
 fn decided(c: &Modern) -> Solution {
     let n = c.contacts.points.len();
     Solution {
@@ -358,7 +358,7 @@ fn decided(c: &Modern) -> Solution {
     }
 }
 
-/// A figure that is somewhere and should be somewhere else, of one of eight kinds.
+/// A figure at a random place with a target somewhere else, of one of eight kinds.
 fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
     let body = mannequin();
     let scale = [1.0, 0.3, 0.08, 5.0][round / 8 % 4];
@@ -421,7 +421,7 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
         c.control(&s.input());
         let forces: [Vec3; MAX_CONTACTS] = *forces;
         counts.push(c.command.iterations);
-        // Within limits and cones whatever the residual.
+        // Within limits and cones, whatever the residual.
         let primal = Primal::new(&c, &s, &torques, &forces);
         let ours = decided(&c);
         assert!(
@@ -429,7 +429,7 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
             "{round}: {}",
             primal.excess(&ours)
         );
-        // Whatever the prices that it starts with, of another figure's problem more often than not, it gets done.
+        // It converges whatever its starting prices are, more often than not those of another figure's problem.
         assert!(!c.command.flags.has(Flags::CONTROL_BOUND), "{round}");
         jammed += usize::from(c.command.iterations > NEWTON_ITERATIONS);
         let exact = primal.solve();
