@@ -1,9 +1,9 @@
-//! How hard a motion is for a body, and a forecast of whether it can be followed, before anything is simulated.
+//! The difficulty of a motion for a body, and a forecast, before any simulation, of whether the body can follow it.
 //!
-//! Inverse dynamics of the prepared motion: at each sample the floor pushes at the points that touch it, within
-//! friction, so that the needed wrench is met as well as can be and the joints are loaded as evenly as can be. What
-//! is left of the wrench the floor lacks; the torques are compared with the strength of the body at those angles and
-//! speeds. [`ForecastLimits`] turns both into a verdict with its reason.
+//! Inverse dynamics of the prepared motion. At each sample the floor pushes, within friction, at the points that touch
+//! it, so that the required wrench is met as well as possible and the joints are loaded as evenly as possible. The
+//! remainder of the wrench is what the floor lacks. The torques are compared with the strength of the body at those
+//! angles and speeds. [`ForecastLimits`] turns both into a verdict with its reason.
 
 use crate::body::angles::anatomical_angles;
 use crate::body::topology::{
@@ -18,9 +18,9 @@ use crate::motion::{Clip, GRAVITY, Target};
 use crate::setup::StrengthScale;
 use crate::strength::{MuscleScale, Strength};
 
-/// Samples per second that are looked at: motion is below 6 Hz.
+/// Samples examined per second: motion is below 6 Hz.
 const RATE: f64 = 30.0;
-/// Friction that the floor is believed to have: what the modern controller counts on, on the default floor.
+/// Assumed friction of the floor: the value that the modern controller uses on the default floor.
 const FRICTION: f64 = 0.8;
 /// Edges of the pyramid that stands for a friction cone.
 const EDGES: usize = 8;
@@ -28,26 +28,26 @@ const EDGES: usize = 8;
 const TOUCH: f64 = 0.03;
 /// See [`TOUCH`], m/s.
 const SLOW: f64 = 0.6;
-/// Points of a foot that the motion plants touch within this height over its lowest one, m: a raised heel does not.
+/// Points of a planted foot touch if they are within this height over its lowest one, m: a raised heel does not.
 const SOLE: f64 = 0.02;
-/// Weight of a joint at its limit against one body weight of force that is missing: even torques matter only where
-/// forces are not determined.
+/// Weight of a joint at its limit against one body weight of missing force: even torques matter only where forces are
+/// not determined.
 const EVEN: f64 = 0.01;
 /// Keeps the least squares solvable; forces are in weights.
 const RIDGE: f64 = 1e-8;
-/// Torques and forces are means over this time, s: shorter peaks come from differentiation, and a body bridges them.
+/// Torques and forces are averaged over this time, s: shorter peaks come from differentiation, and a body bridges them.
 const MEAN: f64 = 0.1;
-/// Time over which a missing force moves the capture point, s: what comes later can still be caught by a step.
+/// Time over which a missing force moves the capture point, s: a step can still catch a later effect.
 const STEP: f64 = 0.5;
 /// Upright part of the pelvis's vertical axis below which it is upside down.
 const INVERTED: f64 = -0.3;
 /// Rows: force, moment about the centre of mass, joint torques.
 const ROWS: usize = 6 + DOF_COUNT;
-/// Longest part of a clip that is looked at, s, so that the cost of a long recording stays bounded by that of its
+/// Longest part of a clip that is examined, s, so that the cost of a long recording stays bounded by that of its
 /// preparation.
 const LONGEST: f64 = 900.0;
 
-/// How hard a motion is. Forces in body weights, moments in weight × metre, torques over the strength at that
+/// The difficulty of a motion. Forces in body weights, moments in weight × metre, torques over the strength at that
 /// instant, times on the clip's clock.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Difficulty {
@@ -63,20 +63,20 @@ pub struct Difficulty {
     pub lacking_moment_peak: f64,
     /// Time of that peak, s.
     pub lacking_moment_at_s: f64,
-    /// Farthest that what is lacking drives the capture point within 0.5 s, m.
+    /// Farthest that the lacking wrench drives the capture point within 0.5 s, m.
     pub drift_m: f64,
     /// Middle of that time, s.
     pub drift_at_s: f64,
-    /// Mean level force that is lacking in that time, weights, and mean level moment, weight × m.
+    /// Mean horizontal force that is lacking in that time, weights, and mean horizontal moment, weight × m.
     pub drift_force: f64,
     /// See `drift_force`.
     pub drift_moment: f64,
-    /// Largest vertical speed that what is lacking makes within 0.5 s, m/s.
+    /// Largest vertical speed that the lacking force causes within 0.5 s, m/s.
     pub sink_mps: f64,
     /// Middle of that time, s.
     pub sink_at_s: f64,
-    /// Mean vertical force that is lacking in that time, weights: positive where the floor would have to push harder,
-    /// negative where it would have to pull.
+    /// Mean vertical force that is lacking in that time, weights: positive if the floor would have to push harder,
+    /// negative if it would have to pull.
     pub sink_force: f64,
     /// Largest mean torque over 0.1 s, over the strength there.
     pub torque_peak: f64,
@@ -88,14 +88,14 @@ pub struct Difficulty {
     pub torque_p95: f64,
     /// Its DOF; empty if none is needed.
     pub torque_p95_dof: String,
-    /// Largest 95th percentile of the joints that carry: hips, knees, waist and thorax in flexion and to the side. An
-    /// ankle is not among them: where under the sole the floor pushes decides its torque.
+    /// Largest 95th percentile of the joints that carry: hips, knees, waist and thorax in flexion and to the side.
+    /// Ankles are not among them: their torque depends on where under the sole the floor pushes.
     pub support_p95: f64,
     /// Its DOF; empty if none is needed.
     pub support_p95_dof: String,
     /// Largest mean torque of that DOF over 0.1 s, over its strength there.
     pub support_peak: f64,
-    /// When, s.
+    /// Time of that torque, s.
     pub support_peak_at_s: f64,
     /// Share of the clip in which some DOF needs more than its strength.
     pub overload_share: f64,
@@ -133,7 +133,7 @@ pub enum ForecastVerdict {
     Follows,
     /// It deviates or falls, unless it is helped.
     NeedsHelp,
-    /// No help short of carrying it will do.
+    /// Only carrying it would do.
     Cannot,
 }
 
@@ -141,7 +141,7 @@ impl ForecastVerdict {
     /// All, from the easiest on.
     pub const ALL: [Self; 3] = [Self::Follows, Self::NeedsHelp, Self::Cannot];
 
-    /// In words.
+    /// Name for people.
     pub fn name(self) -> &'static str {
         match self {
             Self::Follows => "follows",
@@ -156,7 +156,7 @@ impl ForecastVerdict {
 pub struct Forecast {
     /// Verdict.
     pub verdict: ForecastVerdict,
-    /// Why, as the end of the sentence "follows …", "needs help: …", "cannot: …".
+    /// The reason, as the end of the sentence "follows …", "needs help: …", "cannot: …".
     pub reason: String,
     /// The hardest demand: up to 1 it follows, from 2 on it cannot ([`ForecastLimits`]).
     pub demand: f64,
@@ -164,20 +164,20 @@ pub struct Forecast {
     pub difficulty: Difficulty,
 }
 
-/// Up to where a motion is believed to be followed, and from where on no small help will do. One struct for all
-/// clips; nothing in it belongs to a single recording.
+/// The values up to which a motion is expected to be followed, and from which on no small help suffices. One struct for
+/// all clips; nothing in it belongs to a single recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForecastLimits {
-    /// [`Difficulty::drift_m`], m. A foot reaches 0.1 to 0.2 m around its middle: what drives the capture point
-    /// farther needs a step that the motion does not have. From half a metre on the drift alone is what counts as
-    /// lost (PHC's rule).
+    /// [`Difficulty::drift_m`], m. A foot reaches 0.1 to 0.2 m around its middle: a wrench that drives the capture
+    /// point farther requires a step that the motion does not have. From half a metre on the drift alone counts as lost
+    /// (PHC's rule).
     pub drift_m: [f64; 2],
     /// [`Difficulty::sink_mps`], m/s. A body that lacks 0.5 m/s of upward speed is a hand's breadth too low after 0.2
-    /// s; 2.2 m/s is what it has after falling by 0.25 m.
+    /// s; 2.2 m/s is its speed after falling by 0.25 m.
     pub sink_mps: [f64; 2],
     /// [`Difficulty::support_p95`]. A joint that carries has no more than its strength; momentum bridges less than a
-    /// twentieth of the time. At three times the strength of the joint most of the load would have to be carried by
-    /// something else.
+    /// twentieth of the time. At three times the strength of the joint, something else would have to carry most of the
+    /// load.
     pub support: [f64; 2],
 }
 
@@ -273,7 +273,7 @@ pub fn judge(difficulty: &Difficulty, limits: &ForecastLimits) -> Forecast {
     }
 }
 
-/// 0 for nothing, 1 where a motion is no longer believed to be followed, 2 where no small help will do; linear in
+/// 0 for no demand, 1 where a motion is no longer expected to be followed, 2 where no small help suffices; linear in
 /// between and beyond.
 fn demand(value: f64, [follows, cannot]: [f64; 2]) -> f64 {
     if value <= follows {
@@ -353,7 +353,7 @@ pub fn difficulty(
     summary(&demands(body, links, strength, scale, clip))
 }
 
-/// Looks at every sample of a clip.
+/// Measures every sample of a clip.
 fn demands(
     body: &Body,
     links: &Links,
@@ -468,8 +468,8 @@ impl<'a> DemandSampler<'a> {
         }
     }
 
-    /// Fills the columns with the edges of the friction cones of all touching points; whether feet, and whether other
-    /// parts, touch.
+    /// Fills the columns with the edges of the friction cones of all touching points. Returns whether feet touch, and
+    /// whether other parts do.
     fn touch(&mut self, target: &Target, com: Vec3, per_limit: &[f64; DOF_COUNT]) -> (bool, bool) {
         self.columns.clear();
         let root = target.posture.root_position.z;
@@ -551,7 +551,7 @@ fn vector(v: &[f64]) -> Vec3 {
     }
 }
 
-/// Means of `values` over [`MEAN`], one for each of them but for the ends.
+/// Means of `values` over [`MEAN`], one for each of them except at the ends.
 fn means<T: Copy>(values: &[T], zero: T, add: impl Fn(T, T) -> T) -> Vec<(usize, T)> {
     let width = ((MEAN * RATE).round() as usize).clamp(1, values.len().max(1));
     values
@@ -600,7 +600,7 @@ fn summary(demands: &[Demand]) -> Difficulty {
 }
 
 impl Difficulty {
-    /// With numbers that survive being written and read.
+    /// Rounds to numbers that survive being written and read.
     fn shortened(mut self) -> Self {
         let all = [
             &mut self.lacking_force_rms,
@@ -639,8 +639,8 @@ impl Difficulty {
     }
 }
 
-/// How far the missing wrench drives a linear inverted pendulum within [`STEP`]: `ξ̇ = ω δ + f g/ω` with the missing
-/// shift δ of the zero-moment point and the missing level force f (in weights), and how fast it makes it sink.
+/// How far the missing wrench drives a linear inverted pendulum within [`STEP`], `ξ̇ = ω δ + f g/ω` with the missing
+/// shift δ of the zero-moment point and the missing horizontal force f (in weights), and how fast the pendulum sinks.
 fn drift(demands: &[Demand], out: &mut Difficulty) {
     let rate: Vec<(f64, f64, f64)> = demands
         .iter()
@@ -802,8 +802,8 @@ mod tests {
 
     #[test]
     fn a_lean_beyond_the_soles_lacks_the_moment_of_its_distance() {
-        // The whole body turns about its feet, which are said to stand: its centre of mass leaves them by its height
-        // times the lean.
+        // The whole body turns about its feet, which are labelled as standing: its centre of mass moves away from them
+        // by its height times the lean.
         let lean = |angle: f64| {
             of(&clip(true, move |_, p| {
                 let q = crate::math::Quat::exp(Vec3::Y * angle);

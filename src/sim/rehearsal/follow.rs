@@ -1,4 +1,4 @@
-//! How a clip is followed: by plain tracking if that will do, else by a rehearsal, else with the least help.
+//! How a clip is followed: by plain tracking if possible, otherwise by a rehearsal, otherwise with the least help.
 
 use super::problem::{Problem, ProblemError};
 use super::result::{Rehearsal, rehearse};
@@ -22,12 +22,12 @@ pub enum Follow {
     Strict,
     /// A rehearsal, without help.
     Rehearsed,
-    /// A rehearsal, and as little help as will do.
+    /// A rehearsal, and the least help that suffices.
     Assisted,
 }
 
 impl Follow {
-    /// In a word.
+    /// Name as one word.
     pub fn name(self) -> &'static str {
         match self {
             Self::Strict => "strict",
@@ -37,7 +37,7 @@ impl Follow {
     }
 }
 
-/// Largest force of the help over the weight unless another is given.
+/// Default for the largest force of the help over the weight.
 pub const MOST_HELP: f64 = 0.3;
 
 /// The way in which a clip is followed.
@@ -47,16 +47,16 @@ pub enum FollowWay {
     /// By plain tracking, as it is.
     #[default]
     Tracked,
-    /// Rehearsed: strength alone does it.
+    /// Rehearsed: strength alone is enough.
     Rehearsed,
-    /// With help: rehearsed, or plain tracking while it is being lost.
+    /// With help: rehearsed, or plain tracking with help while the motion is being lost.
     Helped,
     /// Not at all: plain tracking falls, and no rehearsal was found.
     Lost,
 }
 
 impl FollowWay {
-    /// In a word.
+    /// Name as one word.
     pub fn name(self) -> &'static str {
         match self {
             Self::Tracked => "tracked",
@@ -67,12 +67,12 @@ impl FollowWay {
     }
 }
 
-/// How a clip was followed, and why in this way.
+/// How a clip was followed, and the reason for this way.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Followed {
     /// The way.
     pub way: FollowWay,
-    /// Why not in an easier one.
+    /// Why no easier way was possible.
     pub reason: String,
     /// The rehearsal, if there was one.
     pub rehearsal: Option<RehearsalReport>,
@@ -83,7 +83,7 @@ pub struct Followed {
 pub struct RehearsalReport {
     /// The mean distance from the recording never exceeded 0.5 m.
     pub completed: bool,
-    /// When it did, s.
+    /// Time at which it did, s.
     pub lost_at_s: Option<f64>,
     /// Length of the recording, s.
     pub duration_s: f64,
@@ -101,7 +101,7 @@ pub struct RehearsalReport {
     pub help_most_nm: f64,
     /// Share of the windows that were helped.
     pub helped_windows: f64,
-    /// The DOF that used most of its strength (95th percentile of the ticks), and that share.
+    /// The DOF that used the largest share of its strength (95th percentile of the ticks), and that share.
     pub hardest_dof: String,
     /// See `hardest_dof`.
     pub hardest_share: f64,
@@ -113,7 +113,7 @@ pub struct RehearsalReport {
     pub rounds: usize,
     /// Share of the windows that the search reached.
     pub reached: f64,
-    /// The caller stopped it.
+    /// Whether the caller stopped it.
     pub stopped: bool,
 }
 
@@ -151,16 +151,16 @@ impl From<&Rehearsal> for RehearsalReport {
     }
 }
 
-/// Why a clip cannot be followed as asked.
+/// Why a clip cannot be followed as requested.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FollowError {
-    /// No world takes the conditions.
+    /// No world accepts the conditions.
     #[error(transparent)]
     World(#[from] WorldError),
     /// There is nothing to rehearse.
     #[error(transparent)]
     Problem(#[from] ProblemError),
-    /// A rehearsal knows loads in one hand only.
+    /// A rehearsal supports loads in one hand only.
     #[error("a load held in two hands cannot be rehearsed yet")]
     TwoHands,
     /// Loads that come or go.
@@ -171,11 +171,11 @@ pub enum FollowError {
 /// Options of a rehearsal, besides the conditions of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RehearsalOptions {
-    /// How far it may go.
+    /// The means that it may use.
     pub follow: Follow,
     /// Largest force of the help over the weight.
     pub most_help: f64,
-    /// Threads; the result does not depend on them.
+    /// Number of threads; the result does not depend on it.
     pub threads: usize,
     /// Seed of the random numbers.
     pub seed: u64,
@@ -198,7 +198,7 @@ impl Default for RehearsalOptions {
 /// How a clip can be followed under given conditions.
 #[derive(Clone, Debug)]
 pub struct FollowResult {
-    /// How, and why.
+    /// The way and its reason.
     pub followed: Followed,
     /// The trial in that way.
     pub trial: TrialResult,
@@ -222,7 +222,7 @@ pub struct LiveHelp {
 }
 
 impl FollowResult {
-    /// The same conditions, with the rehearsed motion or the help that the clip is followed with.
+    /// The same conditions, with the rehearsed motion or the help by which the clip is followed.
     pub fn conditions(&self, conditions: &Conditions) -> Conditions {
         Conditions {
             options: FigureOptions {
@@ -238,10 +238,10 @@ impl FollowResult {
     }
 }
 
-/// The problem that a run under these conditions is to a rehearsal. Pushes are not part of it.
+/// The rehearsal problem of a run under these conditions, without its pushes.
 ///
 /// # Errors
-/// Loads that a rehearsal cannot have.
+/// Loads that a rehearsal does not support.
 pub fn problem(
     conditions: &Conditions,
     options: &RehearsalOptions,
@@ -258,7 +258,7 @@ pub fn problem(
         let Some(load) = given.load() else {
             continue;
         };
-        // The other hand may come at any moment of the motion.
+        // The other hand may join at any moment of the motion.
         if load.second.is_some() || matches!(given, Perturbation::Helped { .. }) {
             return Err(FollowError::TwoHands);
         }
@@ -277,7 +277,7 @@ pub fn problem(
     Ok(problem)
 }
 
-/// Plain tracking with help while the motion is being lost; `None` if that does not keep it either, or if no help is
+/// Plain tracking with help while the motion is being lost; `None` if the motion is lost even so, or if no help is
 /// allowed.
 fn live_help(
     conditions: &Conditions,
@@ -297,7 +297,7 @@ fn live_help(
     Ok(trial.completed.then_some((help, trial)))
 }
 
-/// The same conditions with the help that may be given while a motion is being lost.
+/// The same conditions with the permitted help while a motion is being lost.
 pub fn with_help(conditions: &Conditions, options: &RehearsalOptions) -> Conditions {
     let most = match options.follow {
         Follow::Assisted => options.most_help,
@@ -314,11 +314,11 @@ pub fn with_help(conditions: &Conditions, options: &RehearsalOptions) -> Conditi
 
 /// Follows a clip in the easiest way that keeps it: never more than 0.5 m from the recording (PHC's rule).
 ///
-/// * `as_recorded`: the recording with its feet locked and with ways in and out, and nothing else done to it.
-/// * `go_on`: told how far a rehearsal is; `false` stops it.
+/// * `as_recorded`: the recording with its feet locked and with ways in and out, and no other change.
+/// * `go_on`: gets the progress of a rehearsal; returning `false` stops it.
 ///
 /// # Errors
-/// Conditions that no world takes, or that cannot be rehearsed.
+/// Conditions that no world accepts, or that cannot be rehearsed.
 pub fn follow(
     conditions: &Conditions,
     reference: &TrackingReference,

@@ -1,4 +1,5 @@
-//! What a state is judged by: how far it is from the recording in what decides whether it can go on.
+//! The measures by which a state is judged: its distance from the recording in everything that decides whether the
+//! motion can continue.
 
 use super::settings::Sizes;
 use crate::body::topology::{
@@ -8,7 +9,7 @@ use crate::body::{Body, Links, Posture, State};
 use crate::dynamics::{Kinematics, center_of_mass, momentum};
 use crate::math::Vec3;
 
-/// Where a body is as a whole.
+/// The body as a whole in one state.
 #[derive(Clone, Debug)]
 pub struct Look {
     /// Centre of mass, world, m.
@@ -27,14 +28,14 @@ pub struct Look {
 const FALL_TIME: f64 = 0.32;
 const ENDS: [&[SegmentId]; 4] = [&[L_HAND], &[R_HAND], &[L_FOOT, L_TOES], &[R_FOOT, R_TOES]];
 
-/// Looks at states of one body. Allocates nothing.
+/// Measures states of one body. Allocates nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Looker {
     kin: Kinematics<f64>,
 }
 
 impl Looker {
-    /// At `state`.
+    /// Measures `state`.
     pub fn look(&mut self, body: &Body, links: &Links, state: &State) -> Look {
         let kin = &mut self.kin;
         kin.set_state(links, state);
@@ -58,17 +59,17 @@ impl Looker {
     }
 }
 
-/// How far a body is from where it should be.
+/// Distance of a body from its desired state.
 #[derive(Clone, Copy, Debug)]
 pub struct Off {
     /// Mean distance of the segment origins, m.
     pub mean: f64,
-    /// Distance on the floor between the places over the feet that the centres of mass are on their way to, m.
+    /// Distance on the floor between the two extrapolated centres of mass, each relative to its feet, m.
     pub balance: f64,
 }
 
 impl Look {
-    /// How far this is from another look.
+    /// Distance from another look.
     pub fn off(&self, other: &Self) -> Off {
         let apart = self.heading_for() - other.heading_for();
         Off {
@@ -77,8 +78,8 @@ impl Look {
         }
     }
 
-    /// Where the centre of mass will be over the middle between the feet if nothing stops it (Hof et al. 2005,
-    /// *The condition for dynamic stability*: the extrapolated centre of mass), m.
+    /// Place of the centre of mass, relative to the middle between the feet, to which it moves if nothing stops it (Hof
+    /// et al. 2005, *The condition for dynamic stability*: the extrapolated centre of mass), m.
     fn heading_for(&self) -> Vec3 {
         let middle = (self.at[L_FOOT.index()] + self.at[R_FOOT.index()]) * 0.5;
         self.com - middle + self.velocity * FALL_TIME
@@ -99,7 +100,7 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// By the sizes that cost 1.
+    /// From the sizes that cost 1.
     pub fn new(sizes: Sizes) -> Self {
         Self {
             joints: sizes.joint_weights(),
@@ -107,7 +108,7 @@ impl Cost {
         }
     }
 
-    /// What it costs to be in a `posture`, seen as `is`, instead of in the one that is `wanted`, seen as `should`.
+    /// Cost of being in a `posture`, seen as `is`, instead of the `wanted` one, seen as `should`.
     pub fn of(&self, (posture, is): (&Posture, &Look), (wanted, should): (&Posture, &Look)) -> f64 {
         let size = &self.sizes;
         let square = |v: Vec3| v.dot(v);

@@ -1,4 +1,4 @@
-//! What is rehearsed: a body with its strength and loads, a stage, and a recording.
+//! The subject of a rehearsal: a body with its strength and loads, a world, and a recording.
 
 use super::look::{Look, Looker, Off};
 use super::settings::{Rest, Settings};
@@ -19,25 +19,25 @@ pub struct Problem {
     pub links: Links,
     /// Its strength.
     pub strength: Arc<Strength>,
-    /// Factors on it.
+    /// Factors on its strength.
     pub muscles: MuscleScale,
     /// Friction of the floor.
     pub friction: f64,
     /// The world.
     pub stage: RehearsalWorld,
-    /// Largest force of the help over the weight; 0: none.
+    /// Largest force of the help over the weight; 0 for no help.
     pub most_help: f64,
-    /// Postures in which the body stands before a recording that begins slowly, and after one that ends so. Without
-    /// them it is its first and its last posture, which need not balance.
+    /// Postures in which the body stands before a recording that begins slowly, and after one that ends slowly. With
+    /// `None`, its first and its last posture are used, which need not balance.
     pub stands: Option<[Posture; 2]>,
-    /// Which random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
 /// Why there is nothing to rehearse.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ProblemError {
-    /// Less than a tick, or more than a rehearsed motion can have.
+    /// Shorter than a tick, or longer than a rehearsed motion can be.
     #[error("a motion of {seconds} s, expected {least} to {most} s")]
     Length {
         /// Its length, s.
@@ -78,23 +78,23 @@ pub struct Reference {
     pub targets: Vec<Target>,
     /// Over each tick, velocities set back for the steps of the simulator.
     pub pairs: Vec<TargetPair>,
-    /// What there is to see at the start of each tick, and at the end of the last.
+    /// The looks at the start of each tick, and at the end of the last.
     pub looks: Vec<Look>,
-    /// How far it was raised, m.
+    /// Height by which it was raised, m.
     pub raised: f64,
     /// First and last tick of the recording; before it and after it are the ways in and out.
     pub recorded: [usize; 2],
-    /// Tick from which on the body is to stand.
+    /// Tick from which on the body should stand.
     stands_from: usize,
 }
 
-/// A floor is where the lowest point of the body is in the lowest fifth of the time: what touches now and then
-/// touches there, and what is lower for a moment is an error of the recording.
+/// The floor is at the height below which the lowest point of the body is for a fifth (1/this) of the time: points that
+/// touch now and then touch there, and a lower point for a moment is an error of the recording.
 const FLOOR_SHARE: usize = 5;
 
 impl Reference {
-    /// Of a clip with its ways in and out, raised so that what is lowest is on the floor. A motion that begins or ends
-    /// slowly comes from rest and goes to rest, and stands there for a while.
+    /// From a clip with its ways in and out, raised so that its lowest points are on the floor. A motion that begins or
+    /// ends slowly starts from rest or comes to rest, and stands there for a while.
     ///
     /// # Errors
     /// It is too short or too long.
@@ -114,7 +114,7 @@ impl Reference {
                 most: MAX_TICKS as f64 * dt,
             });
         }
-        // What ends in full motion has its velocity up to its end.
+        // A motion that ends at full speed keeps its velocity up to its end.
         let last = clip.duration() + clip.lead_out() - 1e-9;
         let mut targets: Vec<Target> = (0..=lead + ticks + out)
             .map(|i| clip.sample(((i as f64 - lead as f64) * dt).min(last)))
@@ -188,28 +188,28 @@ impl Reference {
         })
     }
 
-    /// Ticks.
+    /// Number of ticks.
     pub fn ticks(&self) -> usize {
         self.pairs.len()
     }
 
-    /// True if a body that is so far off at the end of tick `k − 1` keeps the motion, as these settings have it.
+    /// Whether a body that is `off` by this much at the end of tick `k − 1` keeps the motion under these settings.
     pub fn is_kept(&self, off: &Off, k: usize, settings: &Settings) -> bool {
-        // Written so that no number is not kept.
+        // Written so that NaN does not count as kept.
         off.mean <= settings.kept && (k < self.stands_from || off.balance <= settings.rest.steady)
     }
 
-    /// The state that it begins in.
+    /// Its initial state.
     pub fn start(&self) -> State {
         self.targets[0].state()
     }
 }
 
-/// Largest way of the pelvis, m, and turn of a joint, rad, that a body makes on its feet to balance.
+/// Largest displacement of the pelvis, m, and turn of a joint, rad, with which a body balances on its feet.
 const SHIFT: f64 = 0.15;
 const BEND: f64 = 0.6;
 
-/// True if a body that is at rest in `a` stands in `b` without a step: what is between them is balance.
+/// Whether a body at rest in `a` can stand in `b` without a step: the difference is only balance.
 fn near(a: &Posture, b: &Posture) -> bool {
     let off = a.difference(b);
     let way = off[3..6].iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -222,7 +222,7 @@ fn backwards(mut target: Target) -> Target {
     target
 }
 
-/// So many ticks after `end`: what moves comes to rest, and the body to a stand.
+/// The `count` ticks after `end`: moving parts come to rest, and the body to a stand.
 fn to_rest(end: &Target, stand: &Posture, (rest, dt): (&Rest, f64), count: usize) -> Vec<Target> {
     let posture = |k: usize| {
         let t = k as f64 * dt;

@@ -1,4 +1,4 @@
-//! Random numbers that depend on what they are for, not on what was drawn before: any thread may draw them.
+//! Random numbers that depend on their purpose, not on earlier draws: any thread may draw them.
 
 use crate::math::exp::ln;
 use crate::math::trig::sin_cos;
@@ -11,7 +11,7 @@ pub struct Random {
     spare: Option<f64>,
 }
 
-/// Odd, its bits like those of a random number: 2⁶⁴ over the golden section.
+/// Odd, with bits like those of a random number: 2⁶⁴ over the golden ratio.
 const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
 /// David Stafford's thirteenth mix of 64 bits (`SplitMix64`).
@@ -22,7 +22,7 @@ fn mixed(mut z: u64) -> u64 {
 }
 
 impl Random {
-    /// Those that belong to these numbers, as seed, round, window and sample.
+    /// The random numbers for this key: seed, round, window and sample.
     pub fn of(what: [u64; 4]) -> Self {
         let state = what.into_iter().fold(0, |h: u64, w| {
             mixed(h.wrapping_add(STEP) ^ mixed(w.wrapping_add(STEP)))

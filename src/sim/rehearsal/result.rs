@@ -1,4 +1,5 @@
-//! From the problem to the motion: search, then less help as long as the motion is kept, then the run that is recorded.
+//! From the problem to the motion: the search, then less help for as long as the motion is kept, then the run that is
+//! recorded.
 
 use super::problem::{Problem, ProblemError, Reference};
 use super::search::{Path, Progress, Search, window_ticks};
@@ -13,30 +14,30 @@ use crate::stepper::pelvis_wrench::{PelvisHold, RootStep};
 /// Mean distance from the recording beyond which a motion is lost, m (Luo et al. 2023, *PHC*).
 pub const LOST: f64 = 0.5;
 
-/// What came of a rehearsal.
+/// The result of a rehearsal.
 #[derive(Clone, Debug)]
 pub struct Rehearsal {
-    /// The motion, to be played. If it is lost, it is what was found until then.
+    /// The motion, to be played. If it is lost, it is the part that was found.
     pub motion: RehearsedMotion,
     /// Length of the recording in it, s.
     pub recorded: f64,
-    /// The states that it ran through: at the start of each tick, and at the end of the last.
+    /// The states of its run: at the start of each tick, and at the end of the last.
     pub states: Vec<State>,
-    /// How near it came.
+    /// Its distances from the recording.
     pub errors: Errors,
-    /// What it took.
+    /// The help that it took.
     pub help: HelpGiven,
     /// Largest used share of strength of each DOF, 95th percentile of the ticks.
     pub effort: [f64; DOF_COUNT],
-    /// What the search did.
+    /// The work of the search.
     pub work: Work,
 }
 
 /// Distances from the recording, whose lowest points are on the floor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Errors {
-    /// When the mean distance of the segment origins first exceeded [`LOST`], s on the recording's clock: negative on
-    /// the way in.
+    /// Time at which the mean distance of the segment origins first exceeded [`LOST`], s on the recording's clock:
+    /// negative on the way in.
     pub lost_at: Option<f64>,
     /// Mean distance of the segment origins, m, over the recording or until it was lost.
     pub global: f64,
@@ -55,20 +56,20 @@ pub struct HelpGiven {
     pub share: f64,
     /// Largest force, N, and moment, N·m.
     pub most: [f64; 2],
-    /// Windows that were helped, and windows.
+    /// Windows that were helped, and all windows.
     pub windows: [usize; 2],
 }
 
-/// What a search did.
+/// The work of a search.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Work {
     /// Ticks simulated.
     pub ticks: u64,
     /// Rounds.
     pub rounds: usize,
-    /// Windows that were reached, and windows.
+    /// Windows that were reached, and all windows.
     pub reached: [usize; 2],
-    /// The caller stopped it.
+    /// Whether the caller stopped it.
     pub stopped: bool,
 }
 
@@ -81,8 +82,8 @@ struct Run {
     errors: Errors,
 }
 
-/// Rehearses `clip`, on so many threads; the result does not depend on them. `go_on` is told how far it is, about ten
-/// times a second, and stops it by `false`: then the best path so far is the result.
+/// Rehearses `clip` on the given number of threads, which does not affect the result. `go_on` gets the progress about
+/// ten times a second, and stops the search by returning `false`: then the result is the best path until then.
 ///
 /// # Errors
 /// A clip that is too short or too long.
@@ -148,7 +149,7 @@ struct Playing<'a> {
 }
 
 impl Playing<'_> {
-    /// Everything from beginning to end.
+    /// Runs everything from beginning to end.
     fn run(&mut self, actions: &[Action]) -> Run {
         let n = self.reference.ticks();
         let mut state = self.reference.start();
@@ -210,8 +211,9 @@ impl Playing<'_> {
         Some(out)
     }
 
-    /// Takes help away from one window after the other, from the last to the first, all of it and then parts, as long
-    /// as the motion is kept. `go_on` is asked before each with the ticks that it has simulated; false if it said no.
+    /// Removes help from one window after the other, from the last to the first, first all of it and then parts, as
+    /// long as the motion is kept. `go_on` is asked before each with the number of ticks simulated; returns `false` if
+    /// it declined.
     fn take_help_away(
         &mut self,
         actions: &mut [Action],
@@ -302,7 +304,7 @@ impl Rehearsal {
         }
     }
 
-    /// True if it is never lost.
+    /// Whether it is never lost.
     pub fn completed(&self) -> bool {
         self.errors.lost_at.is_none() && !self.work.stopped
     }

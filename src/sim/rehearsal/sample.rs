@@ -1,4 +1,4 @@
-//! Samples of a window: what is drawn, what comes of it, and which live on.
+//! Samples of a window: the draw, its result, and the selection of survivors.
 
 use super::look::Cost;
 use super::problem::Reference;
@@ -12,10 +12,10 @@ use crate::figure::motion::rehearsed::JointOffset;
 pub(super) const D: usize = SAMPLED.len() + 1;
 /// Index of the help.
 pub(super) const HELP: usize = D - 1;
-/// What a sample draws.
+/// The values that a sample draws.
 pub(super) type Vector = [f64; D];
 
-/// Cost of a sample that was not simulated to the end of its window: it is no beginning of another one.
+/// Cost of a sample that was not simulated to the end of its window: no other sample can begin from it.
 pub(super) const DROPPED: f64 = 1e9;
 
 /// A state that a sample led to.
@@ -25,7 +25,7 @@ pub(super) struct Node {
     /// Index in the layer before.
     pub parent: usize,
     pub vector: Vector,
-    /// Cost of its window, what it is chosen by, and sum of the costs of its path.
+    /// Cost of its window, the score by which it is chosen, and the sum of the costs of its path.
     pub cost: f64,
     pub score: f64,
     pub total: f64,
@@ -42,7 +42,7 @@ pub(super) fn action(v: &Vector) -> Action {
     }
 }
 
-/// What a thread needs for its share of a window.
+/// A thread's input for its share of a window.
 #[derive(Clone, Copy)]
 pub(super) struct Window<'a> {
     pub settings: &'a Settings,
@@ -55,27 +55,27 @@ pub(super) struct Window<'a> {
     pub spread: &'a Vector,
     pub first: &'a Vector,
     pub most_help: f64,
-    /// Score beyond which a sample would not live on, as far as is known.
+    /// Score beyond which a sample would not survive, by present knowledge.
     pub pool: f64,
-    /// Numbers that its random numbers are for.
+    /// The key of its random numbers.
     pub what: [u64; 2],
 }
 
 impl Window<'_> {
-    /// What sample `i` adds, and the parent that it begins from.
+    /// The offsets of sample `i`, and the parent from which it begins.
     fn draw(&self, i: usize) -> (Vector, usize) {
         let n = self.parents.len();
         let [seed, round] = self.what;
         let mut random = Random::of([seed, round, self.index as u64, i as u64]);
         let mut v = *self.mean;
         let draw = &self.settings.draw;
-        // The mean from the best parents; then others, from better parents more often.
+        // First the mean from the best parents; then others, more often from better parents.
         if i < n.min(draw.from) {
             return (v, i);
         }
         let u = random.unit();
         let parent = (n as f64 * u * u.sqrt()) as usize;
-        // Some far, most near, and only a part of the joints at a time.
+        // A few far, most near, each with only a part of the joints.
         let far = if random.unit() < draw.far_share {
             draw.far
         } else {
@@ -101,7 +101,7 @@ impl Window<'_> {
         (v, parent.min(n - 1))
     }
 
-    /// What the score of a sample will be that is half done, if the rest of its window brings its cost down to half.
+    /// Score of a half-simulated sample, if the rest of its window brings its cost down to half.
     fn at_least(&self, mean: f64, last: f64, from: &Node) -> f64 {
         let end = self.settings.end;
         (1.0 - end) * mean + 0.5 * end * last + self.settings.trials.past * from.score
@@ -195,7 +195,7 @@ pub(super) fn simulate_all(
     })
 }
 
-/// The better part of so many samples, from which those that live on are taken.
+/// Size of the better part of `count` samples, from which the survivors are taken.
 fn pool(count: usize) -> usize {
     (count * 6).div_ceil(10)
 }
@@ -208,8 +208,8 @@ pub(super) fn pool_score(all: &[Node]) -> f64 {
     last.map_or(f64::INFINITY, |k| scores[k])
 }
 
-/// Those that live on, of all that came to the end of the window: ranks spread by a cube over the better 60 %,
-/// so that a few come from farther down.
+/// The survivors, from all that reached the end of the window: ranks spread by a cube over the better 60 %, so that a
+/// few come from farther down.
 pub(super) fn chosen(mut all: Vec<Node>, survivors: usize) -> Vec<Node> {
     all.retain(|n| n.cost < DROPPED);
     all.sort_by(|a, b| a.score.total_cmp(&b.score));

@@ -1,9 +1,9 @@
 //! The search: windows, samples, survivors, sliding rounds (after Liu et al. 2010, *Sampling-based Contact-rich Motion
 //! Control*, and 2015, *Improving Sampling-based Motion Control*).
 //!
-//! A window of the motion is tried from each state that survived the one before, with offsets around those of the best
-//! path so far. Those that come nearest to the recording live on, a few of the others with them. A round ends where
-//! everything is lost; the next begins some windows before that, with offsets spread as those that lived on were. Once
+//! A window of the motion is tried from each state that survived the previous one, with offsets around those of the
+//! best path known. The samples nearest to the recording survive, and a few of the others with them. A round ends when
+//! everything is lost; the next begins some windows before that, with offsets spread like those of the survivors. Once
 //! the end is reached, whole rounds polish the path.
 
 use super::look::Cost;
@@ -12,22 +12,22 @@ use super::sample::{D, HELP, Node, Vector, Window, action, chosen, pool_score, s
 use super::settings::{Settings, Tries};
 use super::simulator::{Action, Simulator};
 
-/// How far a search has come.
+/// The progress of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Round.
+    /// Current round.
     pub round: usize,
-    /// Windows that some sample has survived, and windows in all.
+    /// Windows with a survivor, and all windows.
     pub reached: [usize; 2],
-    /// Rounds over the whole clip that are done.
+    /// Finished rounds over the whole clip.
     pub polished: usize,
-    /// True once help is tried.
+    /// Whether help is being tried.
     pub helps: bool,
     /// Ticks simulated.
     pub ticks: u64,
 }
 
-/// What a search has found.
+/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Path {
     /// By window; none after the last that was reached.
@@ -38,7 +38,7 @@ pub struct Path {
     pub cost: f64,
     /// Rounds.
     pub rounds: usize,
-    /// The caller stopped it.
+    /// Whether the caller stopped it.
     pub stopped: bool,
 }
 
@@ -60,28 +60,28 @@ pub struct Search<'a> {
     state: Standing,
 }
 
-/// What a search goes over to when it does not get any farther, in this order.
+/// The stages to which a search turns when it stops making progress, in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SearchStage {
-    /// Strength alone, and nothing that is far off.
+    /// Strength alone, within the near limits.
     Near,
-    /// With help, if there may be any.
+    /// With help, if any is allowed.
     Helped,
-    /// With help, if there may be any, and through what is far off.
+    /// With help, if any is allowed, and within the far limits.
     Far,
 }
 
-/// How a search stands.
+/// The state of a search.
 #[derive(Clone, Copy, Debug)]
 struct Standing {
     stage: SearchStage,
     round: usize,
     reached: usize,
     total: f64,
-    /// Windows to go back farther, since a round came to nothing.
+    /// Additional windows to go back, because a round achieved nothing.
     farther: usize,
     polished: usize,
-    /// Rounds since one came farther, or made the path cheaper by as much as counts.
+    /// Rounds since one got farther, or made the path noticeably cheaper.
     stuck: usize,
     stopped: bool,
 }
@@ -95,7 +95,7 @@ impl std::fmt::Debug for Search<'_> {
 }
 
 impl<'a> Search<'a> {
-    /// A search that nothing is known of yet, on so many threads; their number does not matter to what is found.
+    /// A search without results yet, on the given number of threads, which does not affect the result.
     pub fn new(
         problem: &'a Problem,
         reference: &'a Reference,
@@ -146,13 +146,13 @@ impl<'a> Search<'a> {
         self.bounds.len() - 1
     }
 
-    /// Ticks simulated so far.
+    /// Ticks simulated until now.
     pub fn ticks(&self) -> u64 {
         self.sims.iter().map(|s| s.ticks).sum()
     }
 
-    /// Round after round until the path is polished, nothing gets it farther, the budget is used up, or `go_on` says
-    /// no: it is asked after each window.
+    /// Runs round after round until the path is polished, no round gets farther, the budget is used up, or `go_on`
+    /// returns `false`; it is asked after each window.
     pub fn run(&mut self, go_on: &mut dyn FnMut(&Progress) -> bool) -> Path {
         let trials = self.settings.trials;
         let budget = (trials.budget * self.reference.ticks() as u64).max(trials.least_budget);
@@ -184,7 +184,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// How far it has come.
+    /// The progress until now.
     pub fn progress(&self) -> Progress {
         Progress {
             round: self.state.round,
@@ -199,12 +199,12 @@ impl<'a> Search<'a> {
         self.state.reached == self.count()
     }
 
-    /// True if samples may be helped.
+    /// Whether samples may be helped.
     fn helps(&self) -> bool {
         self.state.stage != SearchStage::Near && self.problem.most_help > 0.0
     }
 
-    /// How hard windows are tried now.
+    /// The effort per window in the present stage.
     fn tries(&self) -> Tries {
         let trials = &self.settings.trials;
         match self.state.stage {
@@ -213,20 +213,20 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// What comes next is not measured by what was reached before.
+    /// Enters a stage, which is not measured by earlier results.
     fn begin(&mut self, stage: SearchStage) {
         self.state.stage = stage;
         (self.state.stuck, self.state.farther, self.state.total) = (0, 0, f64::INFINITY);
     }
 
-    /// From now on nothing is lost that is near enough to count as kept, and everything is open again.
+    /// From now on nothing counts as lost that is near enough to count as kept, and everything is open again.
     fn begin_to_go_far(&mut self) {
         self.begin(SearchStage::Far);
         self.spreads.fill(self.first);
     }
 
-    /// From now on samples may be helped. Where the search was lost it begins with all the help that is allowed, since
-    /// what is kept can be improved: samples with less are preferred.
+    /// From now on samples may be helped. At the place where the search was lost it begins with all the allowed help,
+    /// since a kept path can be improved: samples with less help are preferred.
     fn begin_to_help(&mut self) {
         self.begin(SearchStage::Helped);
         let back = self.settings.trials.back;
@@ -248,7 +248,7 @@ impl<'a> Search<'a> {
             n if n == count => 0,
             n => n.saturating_sub(trials.back + self.state.farther),
         };
-        // A round that came to nothing has left no states beyond the window where it was lost.
+        // A round that achieved nothing has left no states beyond the window in which it was lost.
         let first = first.min(self.layers.len() - 1);
         self.layers.truncate(first + 1);
         let mut lost = 0;
@@ -288,7 +288,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Samples window `w` from the last layer; those that live on, best first.
+    /// Samples window `w` from the last layer; returns the survivors, best first.
     fn window(&mut self, w: usize) -> Vec<Node> {
         let trials = self.settings.trials;
         let parents = self.layers.last().expect("there is a first one");
@@ -319,7 +319,7 @@ impl<'a> Search<'a> {
             _ => trials.polish.samples.min(tries.samples),
         };
         let enough = trials.enough;
-        // What led to a loss is not easy, however it looks.
+        // A window that led to a loss does not count as easy, however it looks.
         let rewound = w < self.state.reached && !self.reached_end();
         let mut best = f64::INFINITY;
         while all.len() < most {
@@ -337,8 +337,8 @@ impl<'a> Search<'a> {
         chosen(all, trials.survivors)
     }
 
-    /// Takes over the best path of a round from window `first` to `now`, if it is better than the last, and the spread
-    /// of those that live on.
+    /// Adopts the best path of a round from window `first` to `now`, if it is better than the last, and the spread of
+    /// the survivors.
     fn learn(&mut self, first: usize, now: usize) {
         let count = self.count();
         let ends = &self.layers[now];
@@ -363,7 +363,7 @@ impl<'a> Search<'a> {
             self.state.polished += 1;
         }
         if !better {
-            // Nearer to what is known, or wider where nothing is.
+            // Narrower around a known path, or wider without one.
             let factor = if at_end { 0.7 } else { 1.2 };
             for s in &mut self.spreads[first..now] {
                 for (s, most) in s.iter_mut().zip(&self.first) {
@@ -420,7 +420,7 @@ mod tests {
     use crate::setup::StrengthScale;
     use std::sync::Arc;
 
-    /// A round that was lost at once leaves the states at its start only, while the best path goes on.
+    /// A round that was lost at once leaves only the states at its start, while the best path continues beyond.
     #[test]
     fn a_round_begins_where_there_are_states() {
         let body = Arc::new(Body::adult_man());

@@ -1,10 +1,10 @@
-//! All numbers of a rehearsal, with units and why. One set for all clips.
+//! All numbers of a rehearsal, with units and reasons. One set for all clips.
 
 use crate::body::topology::{ABDOMEN, CHEST, DOF_COUNT, DOF_SEGMENT, HEAD, L_THIGH};
 use crate::stepper::motor_law::MotorLaw;
 
 /// Joint DOFs that a sample offsets: waist, thorax, shoulders without rotation, hips, knees, ankles without rotation.
-/// What the others do is too light, or too far out, to change how the body moves.
+/// The others are too light, or too far out, to change how the body moves.
 pub const SAMPLED: [usize; 21] = [
     0, 1, 2, 3, 4, 9, 10, 16, 17, 23, 24, 25, 26, 27, 28, 31, 32, 33, 34, 35, 36,
 ];
@@ -12,10 +12,11 @@ pub const SAMPLED: [usize; 21] = [
 /// Numbers of a rehearsal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Stiff motors: the body does what its strength can, at once, so a sample is what it says. The horizon is about
-    /// two ticks of a sixtieth of a second; softer motors lag behind the feet, stiffer ones chatter.
+    /// Stiff motors: the body moves as its strength allows, without delay, so that a sample has the effect it
+    /// describes. The horizon is about two ticks of a sixtieth of a second; softer motors lag behind the feet, and
+    /// stiffer ones chatter.
     pub motors: MotorLaw,
-    /// Length of a window, s: about what a body takes to change its momentum.
+    /// Length of a window, s: about the time that a body needs to change its momentum.
     pub window: f64,
     /// How a motion begins from a stand and comes to one.
     pub rest: Rest,
@@ -23,38 +24,38 @@ pub struct Settings {
     pub spread: Spread,
     /// Errors that cost 1.
     pub sizes: Sizes,
-    /// Cost of an offset of one standard deviation of one DOF: keeps apart what costs the same.
+    /// Cost of an offset of one standard deviation of one DOF: separates samples that would cost the same.
     pub effort: f64,
-    /// Weight of the cost at the end of a window against its mean within: what comes next begins at the end.
+    /// Weight of the cost at the end of a window against its mean within: the next window begins at the end.
     pub end: f64,
-    /// Largest mean distance of the segments from the recording, m, of a sample that may live on, and of a motion from
-    /// which help is taken away: short of the half metre that counts as lost.
+    /// Largest mean distance of the segments from the recording, m, at which a sample may survive, and at which help is
+    /// removed from a motion: short of the half metre that counts as lost.
     pub kept: f64,
-    /// What a sample draws.
+    /// The draw of a sample.
     pub draw: Draw,
-    /// How much is tried.
+    /// The number of trials.
     pub trials: Trials,
-    /// The spring that leads back to the path in play.
+    /// The spring that leads back to the path during playback.
     pub hold: HoldShare,
     /// Help.
     pub help: HelpPrice,
 }
 
-/// Standing before and after a recording that begins or ends so: a second of it shows whether a body comes to a
-/// stand or only falls past it, and a figure that stands can begin.
+/// Standing before and after a recording that begins or ends at rest: a second of it shows whether a body comes to a
+/// stand or only falls past it, and gives a standing figure a place to begin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rest {
-    /// Speed of the centre of mass below which a recording counts as standing, m/s: a body stops within a hand's
-    /// breadth from there.
+    /// Speed of the centre of mass below which a recording counts as standing, m/s: a body then stops within a hand's
+    /// breadth.
     pub speed: f64,
-    /// What moves comes to rest within this time, s, before the first frame and after the last.
+    /// Moving parts come to rest within this time, s, before the first frame and after the last.
     pub stopping: f64,
-    /// It comes to a stand that balances, on the feet as they are, within this time, s.
+    /// The body comes to a balanced stand, on the feet as they are, within this time, s.
     pub settling: f64,
-    /// From then on it does not stand where the place over the feet that its centre of mass is on its way to is farther
+    /// After that it does not count as standing if its extrapolated centre of mass, relative to the feet, is farther
     /// than this from that of the stand, m: half a foot's length.
     pub steady: f64,
-    /// How long there is standing after the last frame, s, that included.
+    /// Total time of standing after the last frame, s.
     pub after: f64,
 }
 
@@ -84,7 +85,7 @@ impl Spread {
     }
 }
 
-/// Sizes of errors that cost 1: about half of what can still be mended.
+/// Sizes of errors that cost 1: about half of the error that can still be corrected.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sizes {
     /// Joints, root mean square, rad.
@@ -103,9 +104,9 @@ pub struct Sizes {
     pub velocity: f64,
     /// Angular momentum, kg·m²/s.
     pub spin: f64,
-    /// Place of the feet under the centre of mass, m: what decides the balance.
+    /// Place of the feet under the centre of mass, m: it decides the balance.
     pub feet: f64,
-    /// Place over the feet that the centre of mass is on its way to, m: a third of a foot's length.
+    /// Place of the extrapolated centre of mass relative to the feet, m: a third of a foot's length.
     pub balance: f64,
 }
 
@@ -120,21 +121,21 @@ impl Sizes {
     }
 }
 
-/// What a sample draws: most stay near what is known, some go far, and each changes a part of the joints, since what
-/// changes all at once is seldom better.
+/// The draw of a sample: most stay near the known path, some go far, and each changes a part of the joints, since
+/// changing all at once is seldom better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw {
-    /// States that live on from which the mean is tried as it is, the best first.
+    /// Number of survivors, the best first, from which the mean is tried as it is.
     pub from: usize,
     /// Share of the joints that a sample changes.
     pub part: f64,
     /// Share of the samples that go far.
     pub far_share: f64,
-    /// How far they go, in standard deviations.
+    /// Their spread, in standard deviations.
     pub far: f64,
-    /// How far the others go.
+    /// Spread of the others.
     pub near: f64,
-    /// Least spread of a window over that of the first round: there is always something new to try.
+    /// Least spread of a window over that of the first round, so that there is always something new to try.
     pub least_spread: f64,
 }
 
@@ -143,7 +144,7 @@ pub struct Draw {
 pub struct Enough {
     /// The best one costs less than this.
     pub easy: f64,
-    /// It costs less than this, and the last batch has brought its score down by less than `gain` of it.
+    /// The best one costs less than this, and the last batch has improved its score by less than the share `gain`.
     pub calm: f64,
     /// See `calm`.
     pub gain: f64,
@@ -154,11 +155,11 @@ pub struct Enough {
 pub struct Polish {
     /// Rounds.
     pub rounds: usize,
-    /// Most samples of a window in them: the path is known, and what is near it is narrow.
+    /// Most samples of a window in those rounds: the path is known, and its surroundings are narrow.
     pub samples: usize,
 }
 
-/// How hard a window is tried, and when it is given up.
+/// The effort spent on a window, and the cost at which it is abandoned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tries {
     /// Samples of a window that is hard.
@@ -167,43 +168,44 @@ pub struct Tries {
     pub lost: f64,
 }
 
-/// How much is tried.
+/// The number of trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trials {
-    /// Where every error of a lost window is about three times the size that costs 1: what is so far off seldom comes
-    /// back, so the windows before it are worth more of the effort.
+    /// A window is lost when every error is about three times the size that costs 1: a sample that is so bad seldom
+    /// comes back, and the effort is better spent on the windows before it.
     pub near: Tries,
-    /// For what is not found so: a window is lost only where no sample keeps the motion, and there are more of them.
+    /// For motions that are not found in this way: a window is lost only if no sample keeps the motion, and there are
+    /// more samples.
     pub far: Tries,
-    /// Samples that are always taken, and so many more at a time until that is enough.
+    /// Number of samples that are always taken, and of each further batch until they are enough.
     pub batch: usize,
     /// When no more samples are taken.
     pub enough: Enough,
-    /// Samples that live on.
+    /// Number of survivors.
     pub survivors: usize,
-    /// A sample is dropped at three times the cost of the worst that it came from, plus that of a lost window.
+    /// A sample is dropped at three times the cost of the worst sample from which it came, plus that of a lost window.
     pub drop: f64,
-    /// Windows that a new round goes back from where the last one was lost: half a second, what a step takes.
+    /// Windows by which a new round goes back from where the last one was lost: half a second, the time of a step.
     pub back: usize,
-    /// Part of the score of its past that a sample is chosen by.
+    /// Share of the score of its past by which a sample is chosen.
     pub past: f64,
-    /// What follows once the end is reached.
+    /// The work after the end is reached.
     pub polish: Polish,
-    /// Rounds without getting farther, or a path that is cheaper by `gain`, after which the search gives up or goes on
-    /// to its next stage.
+    /// Rounds without getting farther, or without a path that is cheaper by `gain`, after which the search gives up or
+    /// enters its next stage.
     pub patience: usize,
     /// See `patience`; a share.
     pub gain: f64,
     /// Most ticks of a stage for each tick of the clip.
     pub budget: u64,
-    /// The same for the whole clip at least: short clips are whole efforts, and cost seconds.
+    /// Least budget for the whole clip: short clips are whole efforts, and cost only seconds.
     pub least_budget: u64,
 }
 
 /// The hold, for a body of any size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoldShare {
-    /// Angular frequency, rad/s: above √(g/l) ≈ 3.3 of a body that falls over, below what muscles do.
+    /// Angular frequency, rad/s: above √(g/l) ≈ 3.3 of a body that falls over, below that of muscles.
     pub frequency: f64,
     /// Largest force over the weight.
     pub force: f64,
@@ -215,16 +217,16 @@ pub struct HoldShare {
     pub reach: f64,
 }
 
-/// What help costs.
+/// The cost of help.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HelpPrice {
-    /// Cost of a window with all the help that is allowed.
+    /// Cost of a window with all the allowed help.
     pub full: f64,
-    /// Cost of a window with any: help in few windows rather than a little in all.
+    /// Cost of a window with any help: favours help in few windows over a little in all.
     pub any: f64,
-    /// Least help, as a force over the weight: less is none.
+    /// Least help, as a force over the weight; anything less counts as none.
     pub least: f64,
-    /// Passes that take help away, window by window, as long as the motion is kept.
+    /// Passes that remove help, window by window, as long as the motion is kept.
     pub passes: usize,
 }
 

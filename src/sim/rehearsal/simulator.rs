@@ -1,5 +1,5 @@
-//! One figure reduced to what a rehearsal needs: a state in, a state out. The parts are those of a figure's tick, in
-//! the same order, so that a motion runs in a world as it does here.
+//! One figure reduced to the needs of a rehearsal: a state in, a state out. The parts are those of a figure's tick, in
+//! the same order, so that a motion runs in a world exactly as it does here.
 
 use super::look::{Cost, Look, Looker, Off};
 use super::problem::{Problem, Reference};
@@ -24,7 +24,7 @@ use crate::tick_context::Planning;
 use crate::tick_context::TickContext;
 use std::sync::Arc;
 
-/// What a sample adds to the desired motion in a window.
+/// The addition of a sample to the desired motion in a window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Action {
     /// Offsets of the joints, rad.
@@ -34,7 +34,7 @@ pub struct Action {
 }
 
 impl Action {
-    /// Nothing.
+    /// No addition.
     pub const NONE: Self = Self {
         offset: JointOffset([0.0; DOF_COUNT]),
         help: 0.0,
@@ -55,12 +55,12 @@ pub struct Simulator {
     stepper: TorqueStepper,
     available: TorqueRange,
     looker: Looker,
-    /// Ticks done.
+    /// Ticks simulated.
     pub ticks: u64,
 }
 
 impl Simulator {
-    /// Of this problem.
+    /// For this problem.
     pub fn new(problem: &Problem, settings: &Settings) -> Self {
         let motors = settings.motors;
         let none = [0.0; DOF_COUNT];
@@ -91,12 +91,12 @@ impl Simulator {
         }
     }
 
-    /// What there is to see of a state.
+    /// The look at a state.
     pub fn look(&mut self, state: &State) -> Look {
         self.looker.look(&self.body, &self.links, state)
     }
 
-    /// What it costs to be in `state` at the end of tick `k − 1`, and how far that is from the recording.
+    /// Cost of being in `state` at the end of tick `k − 1`, and its distance from the recording.
     pub fn cost(
         &mut self,
         cost: &Cost,
@@ -110,8 +110,8 @@ impl Simulator {
         (cost, is.off(should))
     }
 
-    /// Used share of the available torque in the last tick, by DOF: mean torque over the strength at its start, which
-    /// may have changed within the tick, so at most 1.
+    /// Used share of the available torque in the last tick, by DOF: mean torque over the strength at its start, limited
+    /// to 1 because the strength may have changed within the tick.
     pub fn utilisation(&self) -> [f64; DOF_COUNT] {
         let TorqueRange { lower, upper } = &self.available;
         std::array::from_fn(|d| {

@@ -1,5 +1,5 @@
 //! A trial: one figure follows one motion in a world of its own, from the beginning of the motion to a little after its
-//! end, and is judged by how far it was from the recording.
+//! end, and is judged by its distance from the recording.
 
 use super::result::LOST;
 use crate::body::topology::SEGMENT_COUNT;
@@ -17,7 +17,7 @@ use crate::world::{
 };
 use std::sync::Arc;
 
-/// Time that a figure is watched for after a prepared clip has ended, s.
+/// Time for which a figure is watched after a prepared clip has ended, s.
 const AFTER: f64 = 1.0;
 /// The same after a stream, s, whose last posture is held.
 const AFTER_STREAM: f64 = 3.0;
@@ -25,17 +25,17 @@ const AFTER_STREAM: f64 = 3.0;
 /// The motions that a trial is measured against.
 #[derive(Clone, Debug)]
 pub struct TrackingReference {
-    /// The recording as fitted to the body: no foot lock, no shift for balance, no steps before or after it, runs as
-    /// they were.
+    /// The recording as fitted to the body: no foot lock, no shift for balance, no steps before or after it, runs
+    /// unchanged.
     pub recorded: Arc<Clip>,
-    /// The motion as prepared, in the same place of the world.
+    /// The motion as prepared, at the same place in the world.
     pub prepared: Arc<Clip>,
-    /// Which feet the recording has on the floor.
+    /// The feet that the recording has on the floor.
     pub phases: Vec<ContactPhase>,
 }
 
 impl TrackingReference {
-    /// A motion that is made for the body: it is its own recording.
+    /// A motion that was made for the body: it is its own recording.
     pub fn authored(clip: Arc<Clip>) -> Self {
         let label: Vec<[bool; 2]> = (0..clip.len()).map(|i| clip.planted(i)).collect();
         Self {
@@ -73,7 +73,7 @@ pub struct Conditions {
     pub rehearsed: Option<RehearsedRun>,
 }
 
-/// A rehearsed motion, and the state that a figure begins it in.
+/// A rehearsed motion, and the state from which a figure begins it.
 #[derive(Clone, Debug)]
 pub struct RehearsedRun {
     /// The motion.
@@ -96,7 +96,7 @@ pub struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// At the beginning of the motion.
+    /// A trial at the beginning of the motion.
     ///
     /// # Errors
     /// Conditions that no world or figure accepts.
@@ -160,7 +160,7 @@ impl<'a> Trial<'a> {
         let end = self.world.time() + self.world.dt();
         let figure = self.world.figure_mut(self.key);
         if let Some(live) = figure.and_then(|f| f.stream_mut()) {
-            // The stream comes at its own rate, whatever that of the world is.
+            // The stream arrives at its own rate, regardless of that of the world.
             while (self.fed as f64) / RATE <= live.stream_time(end) + live.motion.window() {
                 live.motion.push(&posture(self.reference, self.fed), None);
                 self.fed += 1;
@@ -200,13 +200,13 @@ fn stream(c: &Conditions, reference: &TrackingReference, window: f64) -> MotionS
 pub struct TrialResult {
     /// The mean distance from the recording never exceeded 0.5 m (PHC's rule) to the clip's end.
     pub completed: bool,
-    /// When it exceeded that, s.
+    /// Time at which it exceeded that, s.
     pub lost_at: Option<f64>,
-    /// When the figure fell, s: also on the way in, and in the second after the way out.
+    /// Time at which the figure fell, s: also on the way in, and in the second after the way out.
     pub fell_at: Option<f64>,
-    /// When the state ran away and the figure was frozen, s.
+    /// Time at which the state ran away and the figure was frozen, s.
     pub frozen_at: Option<f64>,
-    /// Time of the clip that distances are measured over: until it is lost or fell, s.
+    /// Time of the clip over which distances are measured, s: until the motion is lost or the figure falls.
     pub followed: f64,
     /// Ticks in that time.
     pub measured_ticks: usize,
@@ -214,11 +214,11 @@ pub struct TrialResult {
     pub global_mm: f64,
     /// The same with both pelvis origins in one place, mm.
     pub root_relative_mm: f64,
-    /// Help that the figure had.
+    /// Help that the figure got.
     pub help: TrialHelp,
 }
 
-/// Help that a figure had in a trial.
+/// Help that a figure got in a trial.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TrialHelp {
     /// Impulse, N·s.
@@ -311,7 +311,7 @@ impl Judge {
         };
         let weight = trial.figure().links().total_mass() * GRAVITY;
         TrialResult {
-            // A frozen figure has no samples any more: the part that it did not reach is not completed.
+            // A frozen figure has no further samples: the part that it did not reach is not completed.
             completed: lost.is_none() && self.frozen_at.is_none_or(|t| t > end),
             lost_at: lost.map(short),
             fell_at: self.fell_at.map(short),
