@@ -1,12 +1,12 @@
 //! The part of a world that every stage of a tick reads.
 
-/// What a tick does that needs a plan which is not there.
+/// The reaction of a tick to a missing plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Planning {
-    /// It works the plan out: every plan counts in the tick that was fixed for it.
+    /// It works out the plan: every plan counts in the tick that was fixed for it.
     #[default]
     InTick,
-    /// It does not wait: the figure goes on with what it does, and takes a plan in a later tick.
+    /// It does not wait: the figure continues with its activity, and takes a plan in a later tick.
     Aside,
 }
 
@@ -21,12 +21,12 @@ pub struct TickContext {
     pub substeps: u32,
     /// Magnitude of gravity, m/s².
     pub gravity: f64,
-    /// What a tick does that needs a plan which is not there.
+    /// The reaction of a tick to a missing plan.
     pub planning: Planning,
 }
 
 impl TickContext {
-    /// When it begins, s.
+    /// Time at which it begins, s.
     pub fn time(&self) -> f64 {
         self.tick as f64 * self.dt
     }
