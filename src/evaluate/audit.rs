@@ -2,8 +2,8 @@
 //!
 //! A tick report carries its last substep: state, acceleration, torques and forces. Here they are put into Newton's and
 //! Euler's laws of every segment, in world axes about the centres of mass, with joint axes taken from the topology
-//! table: no kernel of `sim::dynamics` and no intermediate result of the solver takes part. What remains is force that
-//! nothing explains; a real figure has none.
+//! table: no kernel of `sim::dynamics` and no intermediate result of the solver takes part. The remainder is
+//! unexplained force; a real figure has none.
 
 use super::pose::{SegmentPose, segment_poses};
 use sinew_physics::body::state::ball_rate_vector;
@@ -12,13 +12,13 @@ use sinew_physics::body::{DOF_COUNT, Links, NV, SEGMENT_COUNT, State};
 use sinew_physics::figure::Audit;
 use sinew_physics::math::{Sym3, Vec3};
 
-/// What an audit found.
+/// The result of an audit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AuditResult {
     /// `M v̇ + h − Sᵀτ − Σ Jᵀf`, layout of `State::velocity` (N·m, N, N·m).
     pub residual: [f64; NV],
-    /// Length of the residual relative to the lengths of what it is made of: `|r| / (|M v̇ + h| + |Sᵀτ| + |ΣJᵀf|)`; NaN
-    /// if any part is.
+    /// Length of the residual relative to the lengths of its parts: `|r| / (|M v̇ + h| + |Sᵀτ| + |ΣJᵀf|)`; NaN if any
+    /// part is.
     pub relative: f64,
     /// Force on the pelvis that neither contacts nor perturbations nor assist explain, N.
     pub root_force: f64,
@@ -62,8 +62,8 @@ pub fn audit(links: &Links, sample: &Audit, gravity: f64) -> AuditResult {
     }
 }
 
-/// Generalised force `M v̇ + h` that the motion needs (armature included): Newton's and Euler's law of every segment,
-/// projected on the joint axes.
+/// Generalised force `M v̇ + h` that the motion requires (armature included): Newton's and Euler's law of every
+/// segment, projected on the joint axes.
 ///
 /// * `acceleration`: time derivative of `state.velocity`, same layout.
 /// * `gravity`: m/s², positive downwards.
@@ -90,8 +90,8 @@ pub fn inertial_forces(
             acceleration,
         } = motion[s];
         let a_com = acceleration + alpha.cross(r) + omega.cross(omega.cross(r));
-        // Links hold the inertia about the joint; Steiner takes it to the centre of mass, where Euler's law has no
-        // coupling terms.
+        // Links hold the inertia about the joint; Steiner's theorem takes it to the centre of mass, where Euler's law
+        // has no coupling terms.
         let about_com = links.inertia[s] - Sym3::point_mass(m, com_local);
         let i_world = about_com.rotated(poses[s].rotation.to_mat3());
         wrench[s].add(poses[s].position + r, (a_com + up) * m, pivot);
@@ -237,8 +237,8 @@ mod bodies;
 
 #[cfg(test)]
 mod tests {
-    //! The rebuilt equations agree with the kernels of `sim::dynamics`, to which they owe nothing, and wrong physics is
-    //! far off.
+    //! The rebuilt equations agree with the kernels of `sim::dynamics`, which they do not use, and wrong physics is far
+    //! off.
 
     use super::bodies::{random_body, random_state};
     use super::*;
@@ -252,8 +252,8 @@ mod tests {
         std::array::from_fn(|_| rng.random_range(-most..most))
     }
 
-    /// A sample that `rnea` calls consistent: its root wrench is supplied by a contact couple, its joints by the
-    /// torques.
+    /// A sample that `rnea` calls consistent: a contact couple supplies its root wrench, and the torques supply its
+    /// joints.
     fn consistent_sample(rng: &mut Pcg64Mcg, links: &Links) -> Audit {
         let state = random_state(rng, 1.0);
         let acceleration: [f64; NV] = random_vector(rng, 20.0);

@@ -1,10 +1,10 @@
-//! Strength that motions need: the future work of the paper, which would take a person's strength from what that
-//! person was seen to do.
+//! Strength that motions require: the future work of the paper, which would derive a person's strength from observed
+//! motion.
 //!
-//! Inverse dynamics of prepared clips with the forces of the floor ([`forecast::needed`]) says what every joint had to
-//! give at which angle and speed. Recordings are noisy, so this is made robust twice: torques are means over 0.1 s (the
-//! clips themselves are low-passed at 6 Hz when they are prepared), and of each direction of each DOF a quantile
-//! counts, not the peak. Where it is beyond the curves of a profile, [`Envelope::merged`] scales that muscle up; the
+//! Inverse dynamics of prepared clips with the forces of the floor ([`forecast::needed`]) gives the torque of every
+//! joint, with its angle and speed. Recordings are noisy, so this is made robust twice: torques are means over 0.1 s
+//! (the clips themselves are low-passed at 6 Hz when they are prepared), and a quantile counts for each direction of
+//! each DOF, not the peak. If it is beyond the curves of a profile, [`Envelope::merged`] scales that muscle up; the
 //! curves keep their shape, and no muscle becomes weaker: a motion shows what a person can do, not what they cannot.
 
 use sinew_physics::body::topology::DOF_NAMES;
@@ -16,43 +16,43 @@ use sinew_physics::strength::{MuscleScale, Strength};
 
 /// Width of an angle cell, rad (15°).
 const ANGLE_CELL: f64 = std::f64::consts::PI / 12.0;
-/// A joint that turns slower than this holds still, rad/s.
+/// A joint that turns more slowly than this holds still, rad/s.
 const STILL: f64 = 0.5;
-/// Largest factor that a strength scale takes.
+/// Largest factor that a strength scale accepts.
 const MOST: f64 = 100.0;
 
-/// How fast the muscle shortens.
+/// Speed at which the muscle shortens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Speed {
     /// It is stretched.
     Lengthening,
-    /// Hardly at all.
+    /// It hardly changes its length.
     Still,
     /// It shortens.
     Shortening,
 }
 
-/// One cell of the envelope: what one direction of a DOF gave at these angles and speeds.
+/// One cell of the envelope: the torque of one direction of a DOF at these angles and speeds.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Cell {
     /// DOF, as `sinew bodies` names it.
     pub dof: &'static str,
-    /// True for the muscles of its positive direction.
+    /// Whether the muscles are those of its positive direction.
     pub positive: bool,
     /// Middle of the angles, degrees.
     pub angle_deg: f64,
-    /// How fast they shorten.
+    /// Speed at which they shorten.
     pub speed: Speed,
     /// Quantile of the torque, N·m, ≥ 0.
     pub torque: f64,
-    /// What the profile's curves give at the angle and speed of that sample, N·m.
+    /// Torque that the profile's curves give at the angle and speed of that sample, N·m.
     pub available: f64,
     /// Samples (1/30 s) in the cell.
     pub samples: usize,
 }
 
-/// Torque over angle and speed of every DOF, and how much of the strength of the profile that is.
+/// Torque over angle and speed of every DOF, and its share of the strength of the profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
     /// Quantile of torque over strength, positive and negative direction of each DOF; 0 where none is needed.
@@ -77,7 +77,7 @@ fn rank(count: usize, share: f64) -> usize {
 }
 
 impl Envelope {
-    /// What `clips` need of the muscles of `body`.
+    /// The torque that `clips` require of the muscles of `body`.
     ///
     /// * `links`: the body with the loads that it carries.
     /// * `strength`: the curves of its profile.
@@ -118,7 +118,7 @@ impl Envelope {
         };
         for (d, sides) in uses.iter_mut().enumerate() {
             for (side, uses) in sides.iter_mut().enumerate() {
-                // Of all samples: in those that are not here the muscles of this direction rest.
+                // The quantile is over all samples: in those missing here the muscles of this direction rest.
                 let mut ratios: Vec<f64> = uses.iter().map(|u| u.torque / u.available).collect();
                 ratios.resize(all.len(), 0.0);
                 ratios.sort_by(f64::total_cmp);
@@ -153,10 +153,10 @@ impl Envelope {
         }
     }
 
-    /// The profile's strength with the muscles scaled up that gave more in the motions.
+    /// The profile's strength, with those muscles scaled up that gave more in the motions.
     ///
     /// * `percentile`: that of the curves.
-    /// * `margin`: how much more than what was needed a muscle gets (feedback takes some), ≥ 1.
+    /// * `margin`: factor on the required torque (feedback takes some), ≥ 1.
     pub fn merged(&self, percentile: f64, margin: f64) -> StrengthScale {
         StrengthScale {
             percentile,
@@ -194,7 +194,7 @@ mod tests {
         assert_eq!(plain.merged(50.0, 1.0).dof[knee], 1.0);
         let scale = loaded.merged(50.0, 1.1);
         assert!((scale.dof[knee] - (1.1 * loaded.ratio[knee][1]).max(1.0)).abs() < 1e-12);
-        // What a person has done once, the merged strength has.
+        // The merged strength covers everything that the person has done once.
         for (f, [a, b]) in scale.dof.iter().zip(loaded.ratio) {
             assert!(a.max(b) <= *f);
         }

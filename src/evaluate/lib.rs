@@ -1,11 +1,11 @@
-//! Judging a run from outside: what a figure did, measured from its reports and checked against the laws of motion.
+//! Judging a run from outside: the behaviour of a figure, measured from its reports and checked against the laws of
+//! motion.
 //!
 //! [`metrics`] accumulates a run tick by tick into a [`RunReport`]; [`audit`] rebuilds the equations of motion from the
-//! body alone, without any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`survival`] what
-//! was survived; [`noise`] asks whether that was luck; [`experiments`] are those of
-//! `sinew paper` and `sinew walking`; [`survey`] judges a whole corpus by published rules against references that are
-//! fixed in the world, and compares surveys; [`envelope`] says what strength a
-//! motion needs. Nothing here reads a clock or a file.
+//! body alone, without any number of the solver; [`strip`] draws the motion, [`plot`] its numbers; [`survival`] shows
+//! which cases were survived; [`noise`] tests whether that was luck; [`experiments`] are those of `sinew paper` and
+//! `sinew walking`; [`survey`] judges a whole corpus by published rules against references that are fixed in the world,
+//! and compares surveys; [`envelope`] gives the strength that a motion requires. Nothing here reads a clock or a file.
 
 pub mod audit;
 pub mod envelope;

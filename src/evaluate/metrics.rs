@@ -21,11 +21,11 @@ const AT_LIMIT: f64 = 1.0 - 1e-6;
 pub struct Tick<'a> {
     /// Its body.
     pub body: &'a Body,
-    /// Its masses, loads included, as they were during the tick.
+    /// Its masses, loads included, during the tick.
     pub links: &'a Links,
-    /// What it was asked to do.
+    /// Its target.
     pub target: &'a TargetPair,
-    /// What it did.
+    /// Its report.
     pub report: &'a TickReport,
     /// Its state after the tick.
     pub state: &'a State,
@@ -136,17 +136,17 @@ impl Metrics {
         }
     }
 
-    /// Time after the ticks seen so far, s.
+    /// Time after all ticks observed until now, s.
     pub fn time_s(&self) -> f64 {
         self.ticks as f64 / self.rate_hz
     }
 
-    /// When the figure fell, s.
+    /// Time at which the figure fell, s.
     pub fn fell_at_s(&self) -> Option<f64> {
         self.fell_at_s
     }
 
-    /// Takes in one tick. `us`: how long it took, µs (measured by the caller, who owns the clock).
+    /// Takes in one tick. `us`: its duration, µs (measured by the caller, which owns the clock).
     pub fn observe(&mut self, tick: Tick<'_>, us: f64) {
         self.ticks += 1;
         self.tick_us.push(us as f32);
@@ -185,7 +185,7 @@ impl Metrics {
         self.before = tick.state.posture;
     }
 
-    /// Notes something that happened in the tick observed last, whatever its time says.
+    /// Notes an event of the tick observed last, regardless of the event's own time.
     pub fn event(&mut self, what: RunEvent) {
         if self.events.len() < MAX_EVENTS {
             let time_s = self.time_s();
@@ -198,7 +198,7 @@ impl Metrics {
     fn observe_torques(&mut self, tick: &Tick<'_>) {
         for (d, used) in tick.utilisation().into_iter().enumerate() {
             self.utilisation[d] = self.utilisation[d].max(used);
-            // The solver's own word covers all substeps, ours one of them, independently.
+            // The solver's value covers all substeps, ours one of them, independently.
             self.over_limit = self
                 .over_limit
                 .max(used - 1.0)

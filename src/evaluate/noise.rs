@@ -1,11 +1,11 @@
-//! A recording with a little noise: does what came of it depend on luck?
+//! A recording with a little noise: tests whether an outcome depends on luck.
 
 use sinew_physics::motion::Bvh;
 use sinew_physics::motion::bvh::BvhChannel;
 
-/// `bytes`, a BVH file that parses as `bvh`, with every number of its motion off by up to `distance` (file units) or
-/// `angle` (degrees), evenly distributed if `random`, which gives numbers from -1 to 1, is. `None` if the file has no
-/// line that begins its motion.
+/// `bytes`, a BVH file that parses as `bvh`, with every number of its motion changed by up to `distance` (file units)
+/// or `angle` (degrees). The changes are evenly distributed if the numbers from `random`, −1 to 1, are. `None` if the
+/// file has no line that begins its motion.
 pub fn noisy(
     bytes: &[u8],
     bvh: &Bvh,

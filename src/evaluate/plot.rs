@@ -25,7 +25,7 @@ const LEGEND_LINE: f64 = 15.0;
 const BOTTOM: f64 = 34.0;
 /// Height of the middle of the legend's first line.
 const FIRST_LINE: f64 = 30.0;
-/// More points than this say nothing more at this size.
+/// More points than this add nothing at this size.
 const MOST_POINTS: usize = 400;
 const BAND: Rgba = Rgba::hex(0xd9_e2ec);
 const GRID: Rgba = Rgba::hex(0xe6_e4de);
@@ -197,7 +197,7 @@ impl Plot {
         TOP + last - FIRST_LINE
     }
 
-    /// Where the entries of the legend are, pixels, and what they are.
+    /// Positions of the legend's entries, pixels, with their content.
     fn legend(&self) -> Vec<([f64; 2], LegendEntry<'_>)> {
         let bands = self.bands.iter().map(|b| (&b.label[..], BAND, 8.0, false));
         let curves = self.curves.iter();
@@ -205,7 +205,7 @@ impl Plot {
         let (mut at, mut line) = (LEFT, FIRST_LINE);
         let entries = bands.chain(curves).filter(|e| !e.0.is_empty());
         let placed = entries.map(|entry| {
-            // Pixels that the label takes at most.
+            // Largest width of the label, pixels.
             let long = 35.0 + 6.0 * entry.0.chars().count() as f64;
             if at > LEFT && at + long > WIDTH {
                 (at, line) = (LEFT, line + LEGEND_LINE);
@@ -280,7 +280,7 @@ impl Axis {
         let share = (v - self.range[0]) / (self.range[1] - self.range[0]);
         self.pixels[0] + share * (self.pixels[1] - self.pixels[0])
     }
-    /// The same, but not farther outside than the plot is high: files stay readable when data run away.
+    /// The same, but never farther outside than the height of the plot: files stay readable when data run away.
     fn near(&self, v: f64) -> f64 {
         let at = self.at(v);
         if at.is_finite() {

@@ -5,7 +5,7 @@ use sinew_physics::body::topology::{DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, 
 use sinew_physics::body::{Posture, SEGMENT_COUNT};
 use sinew_physics::math::{Quat, Vec3};
 
-/// Where a segment is.
+/// The pose of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SegmentPose {
     /// World position of the segment origin (the proximal joint), m.

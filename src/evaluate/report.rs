@@ -1,10 +1,10 @@
 //! The measures of a run: the content of `report.json`.
 //!
-//! # What tracking errors refer to
+//! # The reference of tracking errors
 //!
 //! Measures named `tracking_…` are distances from the *target*, the posture that the controller is asked for. The
 //! target is not fixed in the world: after a step, the reference motion is moved to where the foot landed
-//! ([`sinew_physics::track::planned_to_world`]), and planned steps that a disturbance changed are part of it. A figure
+//! ([`sinew_physics::track::planned_to_world`]), and it includes planned steps that a disturbance changed. A figure
 //! that drifts away from the recording with every step therefore still has small tracking errors. Errors against the
 //! recording itself, fixed in the world, are those of `sinew survey`.
 
@@ -14,12 +14,12 @@ use sinew_physics::body::topology::DOF_NAMES;
 /// Events kept in a report; later ones are counted only, so that a chattering figure cannot fill memory.
 pub const MAX_EVENTS: usize = 10_000;
 
-/// Something that happened at one instant of a run.
+/// An event at one instant of a run.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct RunEvent {
     /// End of the tick in which it happened, s from the start.
     pub time_s: f64,
-    /// What happened, for example `fell` or `support_lost`.
+    /// Kind of event, for example `fell` or `support_lost`.
     pub kind: &'static str,
     /// Segment concerned, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -48,7 +48,7 @@ pub struct RunReport {
     pub rate_hz: f64,
     /// Ticks stepped.
     pub ticks: u64,
-    /// When the figure fell, s; `None` if it stood to the end.
+    /// Time at which the figure fell, s; `None` if it stood to the end.
     pub fell_at_s: Option<f64>,
     /// Root mean square of target ⊖ actual joint angle over all DOFs and ticks, degrees.
     pub tracking_joint_rms_deg: f64,
@@ -97,7 +97,7 @@ pub struct RunReport {
     pub us_per_tick_p99: f64,
     /// Ticks whose state or report held a number that is not finite; 0 in a sound run.
     pub non_finite_ticks: u64,
-    /// When the figure was frozen because its state diverged, s; `None` in a sound run.
+    /// Time at which the figure was frozen because its state diverged, s; `None` in a sound run.
     pub quarantined_at_s: Option<f64>,
     /// Largest used share of the available muscle torque of each DOF.
     #[serde(serialize_with = "by_dof")]
@@ -105,7 +105,7 @@ pub struct RunReport {
     /// Root mean square of target ⊖ actual of each DOF, degrees.
     #[serde(serialize_with = "by_dof")]
     pub tracking_joint_rms_by_dof_deg: [f64; DOF_COUNT],
-    /// What happened, in order; at most [`MAX_EVENTS`].
+    /// Events, in order; at most [`MAX_EVENTS`].
     pub events: Vec<RunEvent>,
     /// Events beyond those kept.
     pub events_dropped: u64,

@@ -1,17 +1,17 @@
-//! Survival maps: in how many of several cases something is survived, by two quantities, as a table of colours.
+//! Survival maps: the share of several cases that are survived, by two quantities, as a table of colours.
 
 /// Shares of survivors by row and column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurvivalMap {
     /// Heading.
     pub title: String,
-    /// What the rows are, what the columns are.
+    /// Meaning of the rows, and of the columns.
     pub axes: [String; 2],
     /// Names of the rows and of the columns.
     pub rows: Vec<String>,
     /// See `rows`.
     pub columns: Vec<String>,
-    /// By row, then by column: survivors, and how many tried.
+    /// By row, then by column: survivors, and number of tries.
     pub cells: Vec<Vec<[u32; 2]>>,
 }
 
@@ -84,7 +84,7 @@ impl SurvivalMap {
         format!("{out}\n")
     }
 
-    /// Heads and rows of the same as a table.
+    /// Heads and rows of the map as a table.
     pub fn table(&self) -> (Vec<String>, Vec<Vec<String>>) {
         let [rows, columns] = &self.axes;
         let mut head = vec![format!("{rows} \\ {columns}")];

@@ -1,5 +1,5 @@
-//! Strength from motion: somebody too weak for a motion, by the tables, is given the strength that it needs, and does
-//! it again in simulation.
+//! Strength from motion: a person who is too weak for a motion, by the tables, gets the strength that it requires, and
+//! does it again in simulation.
 
 use super::{ControlPair, ExperimentRecord, carried, record};
 use crate::envelope::Envelope;
@@ -11,12 +11,12 @@ use sinew_physics::strength::Strength;
 use sinew_physics::world::{ClipPlayback, MotionSource};
 use std::sync::Arc;
 
-/// Quantile of the needed torque that counts, and what is given beyond it: defaults of `sinew strength`.
+/// Quantile of the required torque that counts, and the factor on it: defaults of `sinew strength`.
 pub const QUANTILE: f64 = 0.98;
 /// See [`QUANTILE`].
 pub const MARGIN: f64 = 1.1;
 
-/// A motion that somebody did, with a load in the right hand.
+/// A motion that a person performed, with a load in the right hand.
 #[derive(Clone, Debug)]
 pub struct Did {
     /// The motion.
@@ -25,7 +25,7 @@ pub struct Did {
     pub mass: f64,
 }
 
-/// What came of it.
+/// The result.
 #[derive(Clone, Debug)]
 pub struct Again {
     /// DOF that needs the largest share of its strength, and the share.
@@ -36,7 +36,7 @@ pub struct Again {
     pub runs: [ExperimentRecord; 2],
 }
 
-/// Takes the strength from the motion, and does it with both.
+/// Takes the strength from the motion, and repeats the motion with both strengths.
 pub fn again(body: &Arc<Body>, percentile: f64, did: &Did, panels: usize) -> Again {
     let mut links = Links::new(body);
     let held = if did.mass > 0.0 {

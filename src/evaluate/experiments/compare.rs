@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// A push begins at this time and lasts this long, s.
 const PUSH: (f64, f64) = (1.0, 0.1);
-/// What is watched beyond the end of the clip, s.
+/// Time for which the figure is watched beyond the end of the clip, s.
 const AFTERWARDS: f64 = 1.0;
 
 /// Loads that are compared: kg, and whether in two hands, half in each.
@@ -28,23 +28,23 @@ pub const LOADS: [(f64, bool); 7] = [
 /// Pushes that are compared, N·s.
 pub const IMPULSES: [f64; 3] = [10.0, 20.0, 30.0];
 
-/// A motion, with what it needs to stand or sit on.
+/// A motion, with the seat or prop that it requires.
 #[derive(Clone, Debug)]
 pub struct ComparedMotion {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The motion.
     pub clip: Arc<Clip>,
-    /// What it sits on.
+    /// Its seat.
     pub seat: Option<ObstacleSetup>,
-    /// How much of it is compared, s.
+    /// Length of the compared part, s.
     pub seconds: f64,
 }
 
 impl ComparedMotion {
     /// The whole of `clip`, called `name`, and a second afterwards. The recording called `sit-stand` gets the stool
-    /// that it lacks, where it sits: under the pelvis, and as high as a rigid one can be there. It ends where it begins
-    /// to walk away: what becomes of that depends on luck (docs/limits.md).
+    /// that it lacks, at the place where it sits: under the pelvis, and as high as a rigid stool can be there. It ends
+    /// where it begins to walk away, since the outcome of that depends on luck (docs/limits.md).
     pub fn new(name: &str, clip: Arc<Clip>) -> Self {
         let sits = name == "sit-stand";
         let half = Vec3 {
@@ -79,7 +79,7 @@ impl ComparedMotion {
     }
 }
 
-/// What is added to a motion.
+/// The load or push that is added to a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Burden {
     /// Mass in the right hand or, half in each, in both, kg.
@@ -88,10 +88,10 @@ pub enum Burden {
     Push(Vec3),
 }
 
-/// What came of it; errors are those before a fall.
+/// The result; errors are those before a fall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ComparedOutcome {
-    /// When it fell, s.
+    /// Time at which it fell, s.
     pub fell_s: Option<f64>,
     /// Ticks that were measured.
     pub ticks: u32,
@@ -99,8 +99,8 @@ pub struct ComparedOutcome {
     pub joints: f64,
     /// Sum of the square distance of the centre of mass from the desired one, m².
     pub com: f64,
-    /// Sum of the changes of torque from tick to tick, as a share of the range, of joints at their limit before or
-    /// after, and how many.
+    /// Sum of the changes of torque from tick to tick, as a share of the range, for joints at their limit before or
+    /// after, and the number of such changes.
     pub chatter: (f64, u32),
 }
 
@@ -121,7 +121,7 @@ impl ComparedOutcome {
         let (sum, count) = self.chatter;
         (count > 0).then(|| sum / f64::from(count))
     }
-    /// Both together; the earlier fall.
+    /// Adds another result; the earlier fall counts.
     pub fn add(&mut self, other: &Self) {
         self.fell_s = match (self.fell_s, other.fell_s) {
             (Some(a), Some(b)) => Some(a.min(b)),
@@ -177,7 +177,7 @@ fn scene(
     (world, key)
 }
 
-/// One run, to its end or a fall. `step` makes a tick, and may time it.
+/// Makes one run, to its end or a fall. `step` makes a tick, and may time it.
 pub fn compare(
     body: &Arc<Body>,
     pair: &ControlPair,

@@ -14,9 +14,9 @@ use std::sync::Arc;
 
 /// Height of the centre of mass that ends the comparison, m.
 pub const LOW: f64 = 0.5;
-/// Shortest edge that a figure can tip over as a whole, m; shorter ones round a corner.
+/// Shortest edge over which a figure can tip as a whole, m; shorter ones round a corner.
 const MIN_EDGE: f64 = 0.05;
-/// How far beyond balance a fall begins, degrees.
+/// Angle beyond balance at which a fall begins, degrees.
 const BEYOND: f64 = 3.0;
 
 /// The four directions.
@@ -58,7 +58,7 @@ pub const DIRECTIONS: [(&str, Vec3); 4] = [
 /// A figure about to fall.
 #[derive(Clone, Debug)]
 pub struct Leaning {
-    /// Where it starts, at rest.
+    /// Its initial state, at rest.
     pub state: State,
     /// A point of the edge.
     pub pivot: Vec3,
@@ -176,8 +176,8 @@ pub struct Fall {
     pub record: ExperimentRecord,
 }
 
-/// How long the figure takes as a pendulum about the balls of its feet instead of the edge that it leans over, s: what
-/// remains of the support when the toes give.
+/// Time that the figure takes as a pendulum about the balls of its feet instead of the edge over which it leans, s: the
+/// support that remains when the toes give way.
 pub fn pendulum_about_the_balls(body: &Body, start: &Leaning) -> f64 {
     let poses = segment_poses(&body.joint_offset, &start.state.posture);
     let ball = (poses[L_TOES.index()].position + poses[R_TOES.index()].position) * 0.5;

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// Share of the static need of 3 kg that the arm has.
 const SHARE: f64 = 0.98;
-/// The figure goes on holding the load after the clip has ended; s in all.
+/// The figure continues to hold the load after the clip has ended; total time, s.
 pub const DURATION: f64 = 6.0;
 
 /// Shoulder and elbow of the right arm.
@@ -23,15 +23,15 @@ pub fn is_arm(dof: usize) -> bool {
     DOF_NAMES[dof].starts_with("r_shoulder") || DOF_NAMES[dof].starts_with("r_elbow")
 }
 
-/// Joints that give when the arm is too weak: hip, knee, ankle and back.
+/// Joints that yield when the arm is too weak: hip, knee, ankle and back.
 fn is_helper(dof: usize) -> bool {
     ["hip", "knee", "ankle", "waist", "thorax"]
         .iter()
         .any(|part| DOF_NAMES[dof].contains(part))
 }
 
-/// Factor on the strength of the right arm at which it has 98 % of what `mass` (kg) needs, held still in the clip's
-/// worst posture.
+/// Factor on the strength of the right arm at which it has 98 % of the strength that `mass` (kg) requires, held still
+/// in the clip's worst posture.
 pub fn weak_arm(body: &Arc<Body>, clip: &Clip, mass: f64) -> f64 {
     SHARE * arm_use(body, &Strength::for_body(body), clip, mass)
 }
@@ -66,7 +66,7 @@ pub struct Lift {
     pub mass: f64,
     /// The run.
     pub record: ExperimentRecord,
-    /// How long a joint of the arm was at its limit, s.
+    /// Time for which a joint of the arm was at its limit, s.
     pub arm_saturated_s: f64,
     /// Largest error of hip, knee, ankle or back, degrees, up to a fall.
     pub helpers_deg: f64,

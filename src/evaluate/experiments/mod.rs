@@ -1,4 +1,4 @@
-//! Experiments as functions: build the scene, run it, return what was measured. `sinew paper` and `sinew walking` print
+//! Experiments as functions: build the scene, run it, return the measures. `sinew paper` and `sinew walking` print
 //! them; nothing here reads a clock or a file.
 
 pub mod again;
@@ -23,20 +23,20 @@ use sinew_physics::math::Vec3;
 use sinew_physics::world::{FigureKey, FigureSetup, World, WorldParams};
 use std::sync::Arc;
 
-/// Controller, stepper and choices that an experiment runs with.
+/// Controller, stepper and choices of an experiment.
 #[derive(Clone, Debug)]
 pub struct ControlPair {
     /// Name in tables.
     pub name: &'static str,
-    /// Who computes accelerations and torques.
+    /// Computes accelerations and torques.
     pub controller: ControllerKind,
-    /// Who moves the body.
+    /// Moves the body.
     pub stepper: StepperKind,
     /// Choices and gains.
     pub params: ControlParams,
     /// Ticks per second.
     pub rate_hz: f64,
-    /// False: joints without rotor inertia, as printed.
+    /// Whether joints have rotor inertia; without it they are as printed.
     pub armature: bool,
 }
 
@@ -187,7 +187,7 @@ pub struct ExperimentRecord {
     pub frames: Vec<StripFrame>,
     /// First tick with the centre of mass below 45 % of its height when the run began, s.
     pub fell_s: Option<f64>,
-    /// When the state ran away and the figure was frozen, s. Samples end there.
+    /// Time at which the state ran away and the figure was frozen, s. Samples end there.
     pub frozen_s: Option<f64>,
     /// Largest violation of strength, relative to the limit.
     pub over_limit: f64,
@@ -196,7 +196,7 @@ pub struct ExperimentRecord {
 /// A centre of mass below this share of that at the start counts as a fall.
 const FELL: f64 = 0.45;
 
-/// What stands beside the figure in a panel: loads that it carries (segment, point, kg), and things.
+/// The surroundings of the figure in a panel: loads that it carries (segment, point, kg), and things.
 type Beside = (Vec<(usize, Vec3, f64)>, Vec<Thing>);
 
 /// Runs for `seconds` and keeps `panels` evenly spaced frames; `see` is called after every tick with the world and the
@@ -287,7 +287,7 @@ impl ExperimentRecord {
         self.samples.iter().fold(0.0, |m, s| m.max(s.speed))
     }
 
-    /// What became of the figure, in a word or two.
+    /// The outcome of the figure, in a word or two.
     pub fn result(&self) -> String {
         match (self.frozen_s, self.fell_s) {
             (Some(f), t) if t.is_none_or(|t| f <= t) => format!("state diverges at {f:.1} s"),

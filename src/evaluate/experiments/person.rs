@@ -1,5 +1,5 @@
-//! The lift of the paper with nobody's arm cut to size: a search over people of the tables and over postures for one
-//! who tracks the light load, whom the middle one makes help with legs and back, and whom the heavy one bends.
+//! The lift of the paper without an artificially weakened arm: a search over people of the tables and over postures for
+//! a person who tracks the light load, helps with legs and back under the middle one, and bends under the heavy one.
 
 use super::lift::{DURATION, arm_use, scene_of};
 use super::{ControlPair, ExperimentRecord, record};
@@ -40,19 +40,20 @@ pub const ENDS: [LiftEnd; 4] = [
         reach: 0.45,
     },
 ];
-/// Share of the arm's strength that holding 3 kg still takes of whoever is worth a run, and the most for 1 kg.
+/// Least share of the arm's strength that holding 3 kg takes of a candidate worth a run, and the largest share for 1
+/// kg.
 const NEED: [f64; 2] = [0.9, 1.8];
 const LIGHT: f64 = 0.95;
 /// A load is tracked below this joint error, rms, degrees.
 pub const TRACKED: f64 = 1.0;
-/// A joint helps that deviates so far, degrees.
+/// A joint helps if it deviates by this much, degrees.
 pub const HELPS: f64 = 5.0;
-/// A back bends that deviates so far, degrees.
+/// A back bends if it deviates by this much, degrees.
 pub const BENDS: f64 = 30.0;
-/// A fall folds in which hips, knees and back together are bent by so much, degrees; a plank's are straight.
+/// A fall folds if hips, knees and back together are bent by this much, degrees; those of a falling plank are straight.
 pub const FOLDS: f64 = 90.0;
 
-/// Who lifts, and how the lift ends.
+/// The person who lifts, and the end of the lift.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lifter {
     /// Of the tables.
@@ -63,7 +64,7 @@ pub struct Lifter {
     pub end: LiftEnd,
 }
 
-/// What one load came to. Angles in degrees, largest until the fall.
+/// The result of one load. Angles in degrees, largest until the fall.
 #[derive(Clone, Debug)]
 pub struct LoadResult {
     /// kg.
@@ -78,7 +79,7 @@ pub struct LoadResult {
     pub folds: f64,
     /// Largest rate of change of the joint accelerations, rms over the joints, 1000 rad/s³.
     pub jerk: f64,
-    /// When it fell, s.
+    /// Time at which it fell, s.
     pub fell_s: Option<f64>,
     /// The run.
     pub record: ExperimentRecord,
@@ -87,11 +88,11 @@ pub struct LoadResult {
 /// All loads of one candidate.
 #[derive(Clone, Debug)]
 pub struct LiftTrial {
-    /// Who.
+    /// The candidate.
     pub candidate: Lifter,
     /// Share of the arm's strength that holding each of [`LOADS`] takes.
     pub need: [f64; 4],
-    /// In the order of [`LOADS`]; of a search only as far as they show what the paper does.
+    /// In the order of [`LOADS`]; for a search, only as long as they show the findings of the paper.
     pub results: Vec<LoadResult>,
 }
 
@@ -108,8 +109,8 @@ impl LoadResult {
 }
 
 impl LiftTrial {
-    /// The four things that the paper shows: 1 kg is tracked, 3 kg makes knees, hips and back help, 4 or 5 kg bends the
-    /// back before balance is lost, and what falls folds.
+    /// The four findings of the paper: 1 kg is tracked, 3 kg makes knees, hips and back help, 4 or 5 kg bends the back
+    /// before balance is lost, and a falling figure folds.
     pub fn shows(&self) -> [bool; 4] {
         let [one, three, heavy @ ..] = self.results.as_slice() else {
             return [false; 4];
@@ -123,7 +124,7 @@ impl LiftTrial {
         ]
     }
 
-    /// How much of it the trial shows: the number of things, then how near the others are.
+    /// How many of them the trial shows: the number of findings, then how close the others are.
     fn score(&self) -> f64 {
         let shown = self.shows().iter().filter(|s| **s).count() as f64;
         let [_, three, heavy @ ..] = self.results.as_slice() else {
@@ -195,7 +196,7 @@ pub fn attempt(
     };
     let (mut squares, mut count) = (0.0, 0.0);
     for s in run.samples.iter().filter(|s| s.time_s < end) {
-        // Beyond the motion: what is there less what is desired.
+        // Beyond the motion: actual less desired.
         let more = |name: &str| -s.joint_error[dof(name)].to_degrees();
         let both = |name: &str| [more(&format!("l_{name}")), more(&format!("r_{name}"))];
         let most = |[a, b]: [f64; 2]| a.abs().max(b.abs());
@@ -217,12 +218,12 @@ pub fn attempt(
     out
 }
 
-/// Runs all loads of a candidate; `None` for one who is not worth a run.
+/// Runs all loads of a candidate; `None` for a candidate who is not worth a run.
 pub fn trial(candidate: &Lifter, pair: &ControlPair, panels: usize) -> Option<LiftTrial> {
     run(candidate, pair, panels, |_, _| true)
 }
 
-/// The same as long as `goes_on` says so after a load, by its index.
+/// The same, as long as `goes_on` returns `true` after a load, given by its index.
 fn run(
     candidate: &Lifter,
     pair: &ControlPair,
@@ -253,7 +254,7 @@ fn run(
     })
 }
 
-/// Everyone who is searched.
+/// Everyone in the search.
 pub fn candidates() -> impl Iterator<Item = Lifter> {
     let people = [Sex::Female, Sex::Male].into_iter().flat_map(|sex| {
         AGES.into_iter()
@@ -268,8 +269,9 @@ pub fn candidates() -> impl Iterator<Item = Lifter> {
     })
 }
 
-/// The candidates who are worth a run, the best first. Who does not track the light load, or does not stand and help
-/// with the middle one, is not given the next. On as many threads as there are cores; the result does not depend on it.
+/// The candidates who are worth a run, the best first. A candidate who does not track the light load, or does not stand
+/// and help with the middle one, does not get the next. Runs on as many threads as there are cores; the result does not
+/// depend on their number.
 pub fn search(pair: &ControlPair) -> Vec<LiftTrial> {
     let all: Vec<Lifter> = candidates().collect();
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);

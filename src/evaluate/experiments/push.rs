@@ -1,4 +1,4 @@
-//! Pushes of a standing figure, in units of what the linear inverted pendulum can stop.
+//! Pushes of a standing figure, in units of the impulse that the linear inverted pendulum can stop.
 
 use super::{ControlPair, ExperimentRecord, push_at_chest, record};
 use sinew_physics::body::{Body, State};
@@ -19,7 +19,8 @@ const DURATION: f64 = 4.5;
 pub struct Push {
     /// Impulse, N·s.
     pub impulse: f64,
-    /// What the pendulum can stop, N·s: m ω d with ω² = g/h and d the way of the centre of mass to the edge.
+    /// The impulse that the pendulum can stop, N·s: m ω d with ω² = g/h and d the distance of the centre of mass to the
+    /// edge.
     pub bound: f64,
     /// The run.
     pub record: ExperimentRecord,
@@ -58,7 +59,8 @@ pub fn push(
     }
 }
 
-/// Largest share of the bound that is recovered without a larger one below it that is not, in steps of 5 %, up to 1.5.
+/// The largest push from which the figure recovers, as it does from every smaller one; in steps of 5 % of the bound, up
+/// to 1.5.
 pub fn recovered(body: &Arc<Body>, pair: &ControlPair, direction: Vec3) -> Push {
     let mut best = push(body, pair, direction, 0.0, 0);
     for n in 1..=30 {

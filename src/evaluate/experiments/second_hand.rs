@@ -17,17 +17,17 @@ const DURATION: f64 = 6.0;
 /// Time at the end over which the hold is judged, s.
 const JUDGED: f64 = 1.0;
 
-/// What came of one load.
+/// The result of one load.
 #[derive(Clone, Debug, Default)]
 pub struct Rung {
     /// The run.
     pub record: ExperimentRecord,
-    /// When the other hand took hold, after which it held to the end: time (s), and the share of its strength that the
-    /// arm needs alone and with help.
+    /// `None` unless the other hand held the load at the end: the time at which it took hold (s), and the share of its
+    /// strength that the arm needs alone and with help.
     pub shared: Option<(f64, [f64; 2])>,
     /// Share of the other hand at the end.
     pub share: f64,
-    /// Over the last second: how far the right hand is below where the motion has it, m.
+    /// Over the last second: depth of the right hand below its place in the motion, m.
     pub below: f64,
     /// Over the last second: largest mean share of its strength that a joint of an arm uses.
     pub arm_use: f64,
@@ -53,7 +53,7 @@ fn height(figure: &Figure, kin: &mut Kinematics, desired: bool, at: (SegmentId, 
     posture.root_position + kin.position[s] + kin.rotation[s] * at.1
 }
 
-/// Lifts `mass` kg with the right hand; the left one helps as `when` says.
+/// Lifts `mass` kg with the right hand; the left one helps according to `when`.
 pub fn rung(
     body: &Arc<Body>,
     pair: &ControlPair,

@@ -1,4 +1,4 @@
-//! What people can hold still: arm straight out in front, and elbow bent.
+//! The loads that people can hold still: arm straight out in front, and elbow bent.
 
 use sinew_physics::body::angles::{anatomical_angles, set_anatomical_angles};
 use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES, R_HAND};
@@ -18,8 +18,8 @@ pub enum HeldPosture {
     Curl,
 }
 
-/// Share of strength that the deciding joint needs with the empty hand, and the load in the hand that takes all of it,
-/// kg.
+/// Share of strength that the deciding joint needs with the empty hand, and the load in the hand that takes all of its
+/// strength, kg.
 pub fn hold(body: &Body, what: HeldPosture) -> (f64, f64) {
     let name = match what {
         HeldPosture::StraightArm => "r_shoulder_flexion",

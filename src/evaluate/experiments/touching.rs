@@ -15,7 +15,7 @@ use sinew_physics::motion::builtin::at_ease;
 use sinew_physics::world::{ClipPlayback, MotionSource};
 use std::sync::Arc;
 
-/// What the hand leans on.
+/// The prop on which the hand leans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Prop {
     /// Nothing.
@@ -32,7 +32,7 @@ pub enum Prop {
 pub const FRICTION: f64 = 0.6;
 /// Slope of the desk, rad.
 const SLOPE: f64 = 0.35;
-/// How long it is watched, s.
+/// Time for which it is watched, s.
 const DURATION: f64 = 4.0;
 
 /// A posture that leans: forward from the ankles and in the hips, rad; right shoulder and elbow flexion, rad.
@@ -91,7 +91,7 @@ fn dof(name: &str) -> usize {
         .expect("the DOF exists")
 }
 
-/// Standing at ease, leaning, the right arm put forward; feet flat where they were.
+/// Standing at ease, leaning, the right arm put forward; feet flat in their places.
 fn leaning(body: &Body, lean: LeanPosture) -> Posture {
     let ease = at_ease(body);
     let mut angles = anatomical_angles(&ease);
@@ -110,7 +110,7 @@ fn leaning(body: &Body, lean: LeanPosture) -> Posture {
     out
 }
 
-/// Normal of the face that the hand leans on.
+/// Normal of the face on which the hand leans.
 fn face(what: Prop) -> Vec3 {
     match what {
         Prop::Desk => Quat::from_axis_angle(Vec3::Y, -SLOPE).rotate(Vec3::Z),
@@ -260,9 +260,9 @@ fn halves(mut all: Vec<(f64, f64)>) -> [(f64, f64); 2] {
 pub struct Bump {
     /// The run of the one that is pushed; the other is drawn with it.
     pub record: ExperimentRecord,
-    /// Largest force between them in a tick, N, and when, s.
+    /// Largest force between them in a tick, N, and its time, s.
     pub most: (f64, f64),
-    /// What they gave each other, N·s.
+    /// The impulse between them, N·s.
     pub impulse: f64,
     /// Largest difference of the forces on both, relative to the largest force.
     pub unequal: f64,
@@ -270,11 +270,11 @@ pub struct Bump {
     pub overlap: f64,
     /// Time for which they touched, s.
     pub touched_s: f64,
-    /// When the other fell, s.
+    /// Time at which the other fell, s.
     pub other_fell_s: Option<f64>,
 }
 
-/// Distance of the two pelvises, m; when and for how long the first is pushed, s.
+/// Distance of the two pelvises, m; beginning and length of the push on the first, s.
 const APART: f64 = 0.75;
 const PUSH: (f64, f64) = (0.4, 0.2);
 
@@ -343,7 +343,7 @@ pub fn bump(body: &Arc<Body>, pair: &ControlPair, impulse: f64, panels: usize) -
 /// An arm that is raised against something.
 #[derive(Clone, Debug)]
 pub struct ArmReach {
-    /// The run of the one who raises the arm.
+    /// The run of the figure that raises the arm.
     pub record: ExperimentRecord,
     /// Time of the first touch, s; the share of the time after it in which the arm touches.
     pub met: Option<(f64, f64)>,
@@ -359,19 +359,19 @@ pub struct ArmReach {
     pub over_limit: f64,
 }
 
-/// What the arm is raised against.
+/// The obstacle against which the arm is raised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReachObstacle {
-    /// A wall, nearer than the arm is long.
+    /// A wall, closer than the length of the arm.
     Wall,
-    /// Somebody who stands there.
+    /// A standing figure.
     Other,
 }
 
-/// Time over which the arm is raised, s, and how long it is watched.
+/// Time over which the arm is raised, s, and time for which it is watched.
 const RAISE: f64 = 1.0;
 const WATCHED: f64 = 4.0;
-/// How much nearer than the hand reaches the thing is, m.
+/// Distance by which the obstacle is closer than the reach of the hand, m.
 const TOO_NEAR: f64 = 0.06;
 
 /// Stands and raises the right arm against something, with `arm` times its strength.
@@ -412,7 +412,7 @@ pub fn reach(
     let (mut world, key) = pair.world(body, State::at_rest(ease), strength);
     let figure = world.figure_mut(key).expect("it was just added");
     figure.set_drive(MotionSource::Clip(ClipPlayback::new(Arc::new(clip), 0.0)));
-    // How far the hand would come.
+    // The full reach of the hand.
     let hand = segment_poses(&body.joint_offset, &raised(1.0))[R_HAND.index()];
     let mesh = &body.segment(R_HAND).mesh;
     let tip = (mesh.vertices.iter().map(|p| hand.point(*p).x)).fold(f64::NEG_INFINITY, f64::max);

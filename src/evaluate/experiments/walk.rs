@@ -16,7 +16,7 @@ const LASTS: f64 = 0.1;
 /// A foot stands while the floor pushes it with more than this, N.
 const STANDS: f64 = 20.0;
 
-/// Who walks, and on what.
+/// The person who walks, and the conditions.
 #[derive(Clone, Debug)]
 pub struct Walker {
     /// The body.
@@ -33,7 +33,7 @@ pub struct Walker {
     pub load: Option<(f64, Hands)>,
 }
 
-/// Which hands hold a load.
+/// The hands that hold a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hands {
     /// The right one.
@@ -56,14 +56,14 @@ impl Walker {
     }
 }
 
-/// What is walked.
+/// A walk.
 #[derive(Clone, Debug)]
 pub struct WalkTrial {
     /// The motion.
     pub clip: Arc<Clip>,
-    /// From its end it goes on at its beginning.
+    /// Whether it starts over at its end.
     pub looped: bool,
-    /// How long, s of the world; it begins with the way from standing into the clip.
+    /// Length, s of the world; it begins with the way from standing into the clip.
     pub seconds: f64,
     /// A push at the chest of 0.1 s: time from the beginning, s, and impulse, N·s.
     pub push: Option<(f64, Vec3)>,
@@ -91,19 +91,19 @@ impl WalkTrial {
     }
 }
 
-/// What came of it.
+/// The result.
 #[derive(Clone, Debug)]
 pub struct Walked {
     /// Tracking, strength, torques.
     pub report: RunReport,
-    /// When it fell, s.
+    /// Time at which it fell, s.
     pub fell_s: Option<f64>,
     /// Distance of the capture point from the motion's, rms and largest, m; until a fall.
     pub capture: [f64; 2],
-    /// Largest way that a foot slid in one stance, m: of its contact points, by their share of the load.
+    /// Largest distance that a foot slid in one stance, m: of its contact points, weighted by their share of the load.
     pub slip: f64,
-    /// Largest push of the floor in a tick, in units of the weight: in all, and on one foot, which is what force plates
-    /// under walking people measure (1.1 to 1.3).
+    /// Largest push of the floor in a tick, in units of the weight: in total, and on one foot, which is the value that
+    /// force plates under walking people measure (1.1 to 1.3).
     pub peak: [f64; 2],
     /// Steps, and the largest deviation of a touch-down from its plan, s.
     pub steps: usize,
@@ -123,18 +123,18 @@ impl Walked {
 pub struct FootSliding {
     before: Vec<ContactPoint>,
     way: f64,
-    /// What the foot carries, N.
+    /// Load on the foot, N.
     load: f64,
 }
 
 impl FootSliding {
-    /// What the foot carried in the last tick, N.
+    /// Load on the foot in the last tick, N.
     pub fn load(&self) -> f64 {
         self.load
     }
 
-    /// Takes in the contact points of a tick, of which those on `segments` are the foot's; the way of a stance so far,
-    /// m.
+    /// Takes in the contact points of a tick, of which those on `segments` belong to the foot; returns the distance
+    /// slid in the present stance, m.
     pub fn observe(&mut self, now: &[ContactPoint], segments: [SegmentId; 2]) -> f64 {
         let mine = |c: &&ContactPoint| segments.contains(&c.segment);
         let load: f64 = now.iter().filter(mine).map(|c| c.force.z).sum();

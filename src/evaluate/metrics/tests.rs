@@ -6,7 +6,7 @@ use sinew_physics::figure::ContactPoint;
 use sinew_physics::motion::Target;
 use sinew_physics::strength::MuscleScale;
 
-/// A figure at rest in the zero pose that reports nothing unusual; tests change what they are about.
+/// A figure at rest in the zero pose with an ordinary report; tests change the part that they examine.
 struct Stand {
     body: Body,
     links: Links,

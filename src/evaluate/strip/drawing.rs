@@ -15,7 +15,7 @@ impl Rgba {
     }
 }
 
-/// Where a text is anchored.
+/// The anchor of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum TextAnchor {
@@ -56,7 +56,7 @@ pub enum DrawnItem {
         text: String,
     },
     /// A lit surface. `vertices`: x, y, nearness (larger is nearer) in pixels; `light`: brightness of each vertex, 0…1.
-    /// `outline` is what a flat writer shows instead.
+    /// A flat writer shows `outline` instead.
     Solid {
         outline: Vec<[f64; 2]>,
         vertices: Vec<[f64; 3]>,
@@ -80,7 +80,7 @@ pub struct Drawing {
 }
 
 impl DrawnItem {
-    /// Lower by `by` pixels.
+    /// Moves everything down by `by` pixels.
     fn lower(&mut self, by: f64) {
         match self {
             Self::Polygon { points, .. } => points.iter_mut().for_each(|p| p[1] += by),

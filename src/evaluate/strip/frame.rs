@@ -1,4 +1,4 @@
-//! The content of one panel, and how a strip is drawn.
+//! The content of one panel, and the options of a strip.
 
 use super::things::Thing;
 use crate::metrics::Tick;
@@ -6,7 +6,7 @@ use sinew_physics::body::{DOF_COUNT, Posture, SEGMENT_COUNT};
 use sinew_physics::figure::Flags;
 use sinew_physics::math::Vec3;
 
-/// From where the figure is seen, relative to its heading in the first frame.
+/// The viewing direction, relative to the figure's heading in the first frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum View {
     /// From its right side: it faces right.
@@ -23,14 +23,14 @@ pub enum View {
 pub struct StripFrame {
     /// Time, s.
     pub time_s: f64,
-    /// Where the figure is.
+    /// The actual posture.
     pub posture: Posture,
-    /// Where it should be.
+    /// The desired posture.
     pub desired: Posture,
-    /// What stands around it.
+    /// Its surroundings.
     pub things: Vec<Thing>,
-    /// Sum of contact forces (N) on each segment, of the ground and of all else, and the point it acts at (world, m);
-    /// zero force where nothing touches.
+    /// Sum of contact forces (N) on each segment, of the ground and of everything else, and the point at which it acts
+    /// (world, m); zero force without contact.
     pub contact: [(Vec3, Vec3); SEGMENT_COUNT],
     /// Centre of mass, world, m.
     pub com: Vec3,
@@ -44,7 +44,7 @@ pub struct StripFrame {
     pub loads: Vec<(usize, Vec3, f64)>,
     /// The figure has fallen.
     pub fallen: bool,
-    /// The figure is frozen at its last good state: forces and utilisation are none of this instant's.
+    /// Whether the figure is frozen at its last good state: forces and utilisation do not belong to this instant.
     pub frozen: bool,
 }
 
@@ -103,10 +103,10 @@ impl StripFrame {
     }
 }
 
-/// How a strip is drawn.
+/// The options of a strip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StripOptions {
-    /// From where.
+    /// The viewing direction.
     pub view: View,
     /// Pixels per metre.
     pub scale: f64,

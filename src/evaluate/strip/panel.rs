@@ -43,8 +43,8 @@ const GHOST_RANGE: f64 = 1.5;
 /// the second, m.
 const THING_RANGE: f64 = 1.3;
 const THING_WIDTH: f64 = 1.6;
-/// The same for the parts of another figure: what two do with each other is the picture, until they have gone separate
-/// ways.
+/// The same for the parts of another figure: the picture is about the interaction of the two, until they have
+/// separated.
 const OTHER_RANGE: f64 = 3.5;
 const OTHER_WIDTH: f64 = 3.5;
 /// Surface of a limb without a mesh, m.
@@ -86,7 +86,7 @@ impl Camera {
     }
 }
 
-/// A panel: camera, its centre on the ground and where that is in the picture.
+/// A panel: camera, its centre on the ground, and the place of that centre in the picture.
 struct PanelPlace {
     camera: Camera,
     centre: Vec3,
@@ -261,7 +261,7 @@ fn shows_ghost(frame: &StripFrame) -> bool {
     (frame.desired.root_position - frame.posture.root_position).norm() < GHOST_RANGE
 }
 
-/// How far a panel reaches to the left, to the right and up of its centre, m.
+/// Reach of a panel to the left, to the right and up of its centre, m.
 fn extent(body: &Body, skins: &[Skin], frame: &StripFrame, camera: Camera) -> [f64; 3] {
     let centre = ground_below(frame.posture.root_position);
     let mut out = [0.36, 0.36, 0.0f64];
@@ -300,7 +300,7 @@ fn extent(body: &Body, skins: &[Skin], frame: &StripFrame, camera: Camera) -> [f
     out
 }
 
-/// How near a thing must be to be drawn, and how far a panel widens for it, m.
+/// Largest distance at which a thing is drawn, and the distance by which a panel widens for it, m.
 fn reach_of(thing: &Thing) -> (f64, f64) {
     match thing.kind {
         ThingKind::Obstacle => (THING_RANGE, THING_WIDTH),
@@ -318,7 +318,7 @@ fn near(frame: &StripFrame) -> impl Iterator<Item = &Thing> {
     })
 }
 
-/// Those in front of the figure, or those behind it.
+/// Draws the things in front of the figure, or those behind it.
 fn things(items: &mut Vec<DrawnItem>, frame: &StripFrame, place: &PanelPlace, front: bool) {
     for t in near(frame) {
         let middle = t.mesh.vertices.iter().fold(Vec3::zero(), |m, v| m + *v)
@@ -495,7 +495,7 @@ fn solid(skin: &Skin, pose: &SegmentPose, colour: Rgba, place: &PanelPlace) -> D
         .iter()
         .map(|n| {
             let n = pose.rotation.rotate(*n);
-            // Ambient, sky from above, key light, and a darker rim that sets limbs off from each other.
+            // Ambient, sky from above, key light, and a darker rim that separates limbs from each other.
             let rim = n.dot(near).clamp(0.0, 1.0).sqrt();
             (0.56 + 0.1 * n.z + 0.5 * n.dot(to_light).max(0.0)) * (0.66 + 0.34 * rim)
         })
@@ -624,7 +624,7 @@ fn label(items: &mut Vec<DrawnItem>, frame: &StripFrame, at: [f64; 2]) {
     });
 }
 
-/// Explains the marks; returns where it ends.
+/// Explains the marks; returns the y at which it ends.
 fn legend(items: &mut Vec<DrawnItem>, at: [f64; 2]) -> f64 {
     let mut x = at[0];
     let y = at[1] - 4.0;

@@ -1,4 +1,4 @@
-//! What stands around a figure: obstacles and other figures, as meshes.
+//! The surroundings of a figure: obstacles and other figures, as meshes.
 
 use crate::pose::{SegmentPose, segment_poses};
 use sinew_physics::body::{Body, Mesh, Posture, SEGMENT_COUNT};
@@ -13,23 +13,23 @@ const THICKNESS: f64 = 0.02;
 const SECTORS: u32 = 20;
 const RINGS: u32 = 5;
 
-/// Whose surface it is.
+/// The owner of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ThingKind {
-    /// Of an obstacle.
+    /// An obstacle.
     Obstacle,
-    /// Of a segment of another figure.
+    /// A segment of another figure.
     Other(usize),
 }
 
-/// A surface and where it is.
+/// A surface and its pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thing {
     /// Surface in its own frame, m.
     pub mesh: Mesh,
     /// Its frame in the world.
     pub pose: SegmentPose,
-    /// What it belongs to.
+    /// Its owner.
     pub kind: ThingKind,
 }
 
@@ -83,7 +83,7 @@ fn round(radius: f64, half_length: f64) -> Mesh {
 }
 
 impl Thing {
-    /// An obstacle where it is.
+    /// An obstacle at its place.
     pub fn obstacle(o: &ObstacleSetup) -> Self {
         let mesh = match o.shape {
             Shape::Sphere { radius } => round(radius, 0.0),

@@ -1,45 +1,46 @@
-//! Two surveys of the same clips under the same settings: what got better, what got worse, and what of it is more
-//! than noise.
+//! Two surveys of the same clips under the same settings: the improvements, the regressions, and which of them exceed
+//! noise.
 //!
-//! Without copies runs are deterministic: a verdict that turns is a change, and so is a measure that moves by more
-//! than its stated tolerance ([`SurveyMeasure::least`], [`SurveyMeasure::share`]), which covers how builds round. With
-//! copies the share that completes is compared by the 95 % interval of the difference of two shares, and measures by
-//! their medians: they differ if their 95 % intervals (notches) do not overlap and the tolerance is exceeded.
+//! Without copies runs are deterministic: a verdict that turns is a change, and so is a measure that moves by more than
+//! its stated tolerance ([`SurveyMeasure::least`], [`SurveyMeasure::share`]), which covers the rounding of different
+//! builds. With copies, the share of completed runs is compared by the 95 % interval of the difference of two shares,
+//! and measures by their medians: they differ if their 95 % intervals (notches) do not overlap and the tolerance is
+//! exceeded.
 
 use super::outcome::{Better, MEASURES, SurveyMeasure, SurveyOutcome};
 use super::stats::{Quartiles, difference};
 use super::{MeasuredClip, SurveyRow};
 use std::fmt::Write;
 
-/// Something that changed.
+/// A change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurveyChange {
     /// The clip; empty for the survey as a whole.
     pub clip: String,
-    /// What changed, from what to what.
+    /// The change, with the old and the new value.
     pub text: String,
-    /// Whether it got worse.
+    /// Whether it is for the worse.
     pub worse: bool,
 }
 
-/// What a comparison found.
+/// The result of a comparison.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurveyComparison {
     /// Changes beyond noise, by clip in the order of the new survey, then of the survey as a whole.
     pub changes: Vec<SurveyChange>,
-    /// Clips that were not compared, and why.
+    /// Clips that were not compared, with reasons.
     pub skipped: Vec<(String, &'static str)>,
     /// Clips that were compared.
     pub compared: usize,
 }
 
 impl SurveyComparison {
-    /// How many changes are for the worse.
+    /// Number of changes for the worse.
     pub fn regressions(&self) -> usize {
         self.changes.iter().filter(|c| c.worse).count()
     }
 
-    /// In words, a change a line.
+    /// As text, one line per change.
     pub fn text(&self) -> String {
         let mut out = String::new();
         for (clip, why) in &self.skipped {
@@ -130,7 +131,7 @@ pub fn compare(old: &[SurveyRow], new: &[SurveyRow]) -> SurveyComparison {
     out
 }
 
-/// Runs that were completed, and runs: of the copies where there are any, else of the clip itself.
+/// Completed runs, and all runs: of the copies if there are any, otherwise of the clip itself.
 fn completed(m: &MeasuredClip) -> (usize, usize) {
     match &m.copies {
         Some(c) => (c.completed, c.count),
@@ -138,7 +139,7 @@ fn completed(m: &MeasuredClip) -> (usize, usize) {
     }
 }
 
-/// Whether two shares differ beyond their 95 % interval, and then whether the second is worse.
+/// Whether two shares differ beyond their 95 % interval, and if so, whether the second is worse.
 fn differs(a: (usize, usize), b: (usize, usize)) -> Option<bool> {
     let [low, high] = difference(a, b);
     match (low > 0.0, high < 0.0) {
@@ -216,7 +217,7 @@ fn of_runs(a: &SurveyOutcome, b: &SurveyOutcome, add: &mut impl FnMut(String, bo
     }
 }
 
-/// Whether a measure moved beyond its tolerance, and then whether for the worse.
+/// Whether a measure moved beyond its tolerance, and if so, whether for the worse.
 fn moved(m: &SurveyMeasure, old: f64, new: f64) -> Option<bool> {
     let rise = match m.better {
         Better::Less => new - old,
@@ -226,7 +227,7 @@ fn moved(m: &SurveyMeasure, old: f64, new: f64) -> Option<bool> {
     (rise.abs() > m.least.max(m.share * old.abs())).then_some(rise > 0.0)
 }
 
-/// Three significant digits, no exponent for what people read.
+/// Three significant digits, without an exponent for readability.
 fn number(x: f64) -> String {
     let digits = match x.abs() {
         a if a >= 100.0 => 0,

@@ -1,4 +1,4 @@
-//! Foot contacts of a figure against those that the recording is labelled with.
+//! Foot contacts of a figure against the labels of the recording.
 
 use super::outcome::TouchDowns;
 use super::stats::median;
@@ -7,7 +7,7 @@ use sinew_physics::math::runs::runs;
 
 /// A touch-down and its counterpart are at most this far apart, s: a third of a walking step.
 pub const MATCH_S: f64 = 0.3;
-/// Contacts and gaps shorter than this are chatter, s: that of the labels.
+/// Contacts and gaps shorter than this are chatter, s: the same value as for the labels.
 pub const CHATTER_S: f64 = 0.08;
 
 /// Contact of one foot, tick by tick, without gaps and touches shorter than [`CHATTER_S`].
@@ -16,7 +16,7 @@ pub fn settled(down: &[bool], dt: f64) -> Vec<bool> {
     let short = |i: usize, j: usize| ((j - i) as f64) * dt < CHATTER_S - 1e-9;
     for value in [false, true] {
         for (i, j, v) in runs(&out.clone()) {
-            // What begins before the first or ends after the last tick may be longer than it looks.
+            // A contact or gap that begins before the first tick or ends after the last may be longer than it looks.
             if v == value && i > 0 && j < out.len() && short(i, j) {
                 out[i..j].fill(!value);
             }
@@ -25,7 +25,7 @@ pub fn settled(down: &[bool], dt: f64) -> Vec<bool> {
     out
 }
 
-/// Ticks at which a foot comes down, the first tick apart.
+/// Ticks at which a foot comes down, not counting the first tick.
 fn touch_downs(down: &[bool]) -> Vec<usize> {
     (1..down.len())
         .filter(|i| down[*i] && !down[*i - 1])
@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn touch_downs_are_matched_missed_and_added() {
         let label = [on(&[(0, 10), (30, 60), (80, 100)]), on(&[(0, 100)])];
-        // 3 ticks late, one that nobody recorded, and the last one does not come.
+        // 3 ticks late, one that is not in the recording, and the last one is missing.
         let down = [on(&[(0, 10), (33, 60)]), on(&[(0, 40), (55, 100)])];
         let t = match_touch_downs(&down, &label, DT);
         assert_eq!((t.recorded, t.missed, t.added), (2, 1, 1));

@@ -1,4 +1,4 @@
-//! How far a figure is from a motion that is fixed in the world, tick by tick.
+//! Distance of a figure from a motion that is fixed in the world, tick by tick.
 
 use super::outcome::TrackingErrors;
 use crate::pose::segment_poses;
@@ -6,7 +6,7 @@ use sinew_physics::body::{Body, DOF_COUNT, Posture, SEGMENT_COUNT};
 use sinew_physics::math::Vec3;
 use sinew_physics::math::rounding::short;
 
-/// A posture with the places of its segments.
+/// A posture with the positions of its segments.
 #[derive(Clone, Debug)]
 pub struct PlacedPosture {
     /// The posture.
@@ -16,7 +16,7 @@ pub struct PlacedPosture {
 }
 
 impl PlacedPosture {
-    /// Of a body in `posture`.
+    /// For a body in `posture`.
     pub fn new(body: &Body, posture: &Posture) -> Self {
         Self {
             posture: *posture,

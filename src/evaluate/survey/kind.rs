@@ -1,4 +1,4 @@
-//! What kind of motion a clip is, by measurement of the fitted recording; never by its name.
+//! The kind of motion of a clip, by measurement of the fitted recording; never by its name.
 
 use sinew_physics::body::topology::{L_FOOT, R_FOOT};
 use sinew_physics::body::{Body, Posture};
@@ -18,7 +18,7 @@ const FLIGHT: f64 = 0.1;
 const RUN_SPEED: f64 = 1.2;
 /// Places of one foot that are farther apart than this are two footholds, m.
 const STEP: f64 = 0.12;
-/// Mean speed over the floor from which steps are a walk, m/s, and how many it takes.
+/// Mean speed over the floor from which steps are a walk, m/s, and the number of steps that it takes.
 const WALK: (f64, usize) = (0.35, 3);
 /// Change of heading from which a motion turns, rad (90°).
 const TURN: f64 = std::f64::consts::FRAC_PI_2;
@@ -140,7 +140,7 @@ pub fn kind(body: &Body, postures: &[Posture], label: &[[bool; 2]], rate_hz: f64
     }
 }
 
-/// How often a foot is put down farther than [`STEP`] from where it stood before.
+/// Number of times that a foot is put down farther than [`STEP`] from its last place.
 fn steps(body: &Body, postures: &[Posture], label: &[[bool; 2]]) -> usize {
     let mut count = 0;
     for (side, foot) in [L_FOOT, R_FOOT].into_iter().enumerate() {

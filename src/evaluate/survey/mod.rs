@@ -3,7 +3,7 @@
 //! Every error is against a motion that is fixed in the world: the recording as fitted to the body
 //! ([`TrackingReference::recorded`](sinew_physics::rehearsal::TrackingReference::recorded)) or the motion as prepared
 //! ([`TrackingReference::prepared`](sinew_physics::rehearsal::TrackingReference::prepared)), at the same time on the
-//! clip's clock. Nothing is re-anchored to where the figure is. `docs/survey.md` defines every column.
+//! clip's clock. Nothing is re-anchored to the figure's place. `docs/survey.md` defines every column.
 
 pub mod compare;
 pub mod contacts;

@@ -1,4 +1,4 @@
-//! What came of one run, and of its noisy copies.
+//! The result of one run, and of its noisy copies.
 
 use super::stats::{Quartiles, wilson};
 use sinew_physics::math::rounding::short;
@@ -17,35 +17,35 @@ pub struct TrackingErrors {
 /// Touch-downs against the labels of the recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct TouchDowns {
-    /// How many the recording has.
+    /// Touch-downs of the recording.
     pub recorded: usize,
-    /// Of those, how many the figure has not within 0.3 s.
+    /// Touch-downs of the recording that the figure lacks within 0.3 s.
     pub missed: usize,
-    /// Touch-downs of the figure that the recording has not: steps added.
+    /// Touch-downs of the figure that the recording lacks: added steps.
     pub added: usize,
-    /// Median deviation of those that belong together, ms; `None` without any.
+    /// Median deviation of matched touch-downs, ms; `None` without any.
     pub median_ms: Option<f64>,
     /// Largest deviation, ms.
     pub worst_ms: Option<f64>,
 }
 
-/// What came of one run. Times are on the clip's clock (negative in the way into the clip).
+/// The result of one run. Times are on the clip's clock (negative in the way into the clip).
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SurveyOutcome {
     /// The mean distance from the recording never exceeded 0.5 m (PHC's rule) to the clip's end.
     pub completed: bool,
-    /// When it exceeded that, s.
+    /// Time at which it exceeded that, s.
     pub lost_at_s: Option<f64>,
-    /// When the pelvis was off by 0.25 m in height or 0.8 in tilt, s.
+    /// Time at which the pelvis was off by 0.25 m in height or 0.8 in tilt, s.
     pub anchor_lost_at_s: Option<f64>,
-    /// When the mean distance from the motion as prepared exceeded 0.5 m, to that motion's end, s: what a forecast is
-    /// about.
+    /// Time at which the mean distance from the motion as prepared exceeded 0.5 m, before that motion's end, s: a
+    /// forecast is about this.
     pub prepared_lost_at_s: Option<f64>,
-    /// When our own event `fell` came, s: also on the way in, and in the second after the way out.
+    /// Time of our own event `fell`, s: also on the way in, and in the second after the way out.
     pub fell_at_s: Option<f64>,
-    /// When the state ran away and the figure was frozen, s.
+    /// Time at which the state ran away and the figure was frozen, s.
     pub frozen_at_s: Option<f64>,
-    /// Time of the clip that errors and contacts are measured over: until it is lost or fell, s.
+    /// Time of the clip over which errors and contacts are measured, s: until it is lost or fell.
     pub followed_s: f64,
     /// Errors against the recording as fitted to the body.
     pub recorded: TrackingErrors,
@@ -59,7 +59,7 @@ pub struct SurveyOutcome {
     pub contact_recall: Option<f64>,
     /// Stances.
     pub stances: usize,
-    /// Way that a foot slides in one stance, mm: median of all stances.
+    /// Distance that a foot slides in one stance, mm: median of all stances.
     pub skate_median_mm: Option<f64>,
     /// Largest, mm.
     pub skate_worst_mm: Option<f64>,
@@ -68,7 +68,7 @@ pub struct SurveyOutcome {
     /// Largest vertical push of the floor in a tick, body weights.
     pub peak_force_weights: f64,
     /// Vertical impulse of the floor and the assist, less the change of momentum, over weight (at 9.81 m/s²) × time,
-    /// minus 1: 0 where the laws hold. `None` if loads came or went.
+    /// minus 1: 0 if the laws hold. `None` if loads came or went.
     pub impulse_balance: Option<f64>,
     /// Jerk of the segments over that of the recording.
     pub jerk_ratio: Option<f64>,
@@ -80,11 +80,11 @@ pub struct SurveyOutcome {
     pub limit_s: f64,
     /// The DOF that was longest at its limit; empty if none was.
     pub limit_dof: String,
-    /// How long, s.
+    /// Time for which it was, s.
     pub limit_dof_s: f64,
 }
 
-/// Errors over less time than this are none, s.
+/// Errors over less time than this do not count, s.
 const LEAST_S: f64 = 0.1;
 
 impl SurveyOutcome {
@@ -93,7 +93,7 @@ impl SurveyOutcome {
         (self.followed_s >= LEAST_S).then_some(&self.recorded)
     }
 
-    /// Errors against the motion as prepared, likewise.
+    /// Errors against the motion as prepared, on the same condition.
     pub fn to_prepared(&self) -> Option<&TrackingErrors> {
         (self.followed_s >= LEAST_S).then_some(&self.prepared)
     }
@@ -104,23 +104,23 @@ impl SurveyOutcome {
     }
 }
 
-/// What came of the noisy copies of a clip.
+/// The results of the noisy copies of a clip.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Copies {
-    /// How many were run.
+    /// Number of copies.
     pub count: usize,
-    /// How many were completed.
+    /// Number of completed copies.
     pub completed: usize,
     /// 95 % interval of that share (Wilson).
     pub completed_share: [f64; 2],
-    /// How many fell.
+    /// Number of copies that fell.
     pub fell: usize,
     /// Measures over the copies, in the order of [`MEASURES`]; `None` where no copy has a value.
     pub measures: Vec<Option<Quartiles>>,
 }
 
 impl Copies {
-    /// Of these outcomes.
+    /// From these outcomes.
     pub fn of(outcomes: &[SurveyOutcome]) -> Self {
         let completed = outcomes.iter().filter(|o| o.completed).count();
         Self {
@@ -139,7 +139,7 @@ impl Copies {
     }
 }
 
-/// Which way a measure is better.
+/// The direction in which a measure is better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Better {
     /// Less is better.
@@ -150,16 +150,17 @@ pub enum Better {
     Zero,
 }
 
-/// A number of an outcome that surveys are compared by.
+/// A number of an outcome by which surveys are compared.
 #[derive(Clone, Copy, Debug)]
 pub struct SurveyMeasure {
     /// Name with unit, for people.
     pub name: &'static str,
     /// The number, if the outcome has it.
     pub of: fn(&SurveyOutcome) -> Option<f64>,
-    /// Which way is better.
+    /// The better direction.
     pub better: Better,
-    /// A change of a single run below this, or below `share` of the old value, is no change: builds round differently.
+    /// Tolerance: a change of a single run below this, or below `share` of the old value, does not count, since builds
+    /// round differently.
     pub least: f64,
     /// See `least`.
     pub share: f64,
@@ -180,7 +181,7 @@ const fn measure(
     }
 }
 
-/// What surveys are compared by.
+/// The measures by which surveys are compared.
 pub const MEASURES: [SurveyMeasure; 17] = [
     measure(
         "followed, s",

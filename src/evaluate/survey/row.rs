@@ -10,17 +10,17 @@ use sinew_physics::rehearsal::follow::Followed;
 /// One clip of a survey.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SurveyRow {
-    /// What was asked for: path below the corpus folder, or `builtin:NAME`.
+    /// The requested clip: path below the corpus folder, or `builtin:NAME`.
     pub clip: String,
     /// Hash of the clip's bytes.
     pub input: String,
-    /// Why there is nothing else; `None` if the clip was run.
+    /// The reason why there is no result; `None` if the clip was run.
     pub error: Option<String>,
-    /// What was measured.
+    /// The measurement.
     pub result: Option<MeasuredClip>,
 }
 
-/// What is known of a clip that was run.
+/// The known facts about a clip that was run.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeasuredClip {
     /// Kind of motion, by measurement of the fitted recording.
@@ -44,12 +44,12 @@ pub struct MeasuredClip {
     pub outcome: SurveyOutcome,
     /// Its noisy copies, if there are any.
     pub copies: Option<Copies>,
-    /// How it was followed, if it was asked for more than plain tracking.
+    /// How it was followed, if more than plain tracking was requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub followed: Option<Followed>,
 }
 
-/// What the ground lacks for a motion on its feet (`sinew lint`), in weights and weight × m.
+/// The wrench that the ground lacks for a motion on its feet (`sinew lint`), in weights and weight × m.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Lacks {
     /// Force, root mean square.

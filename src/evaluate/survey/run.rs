@@ -16,7 +16,7 @@ use sinew_physics::motion::{Clip, GRAVITY};
 use sinew_physics::rehearsal::trial::{Conditions, Judge, TrackingReference, Trial, TrialResult};
 use sinew_physics::world::{Figure, WorldError};
 
-/// A foot is on the floor while that pushes it with more than this, N.
+/// A foot is on the floor while the floor pushes it with more than this, N.
 const STANDS: f64 = 20.0;
 const FEET: [[sinew_physics::body::SegmentId; 2]; 2] = [[L_FOOT, L_TOES], [R_FOOT, R_TOES]];
 
@@ -38,7 +38,7 @@ struct Course {
     judge: Judge,
     samples: Vec<TrackedTick>,
     stances: [FootSliding; 2],
-    /// Way of the present stance, m, and the ways of those that have ended.
+    /// Distance slid in the present stance, m, and in the stances that have ended.
     way: [f64; 2],
     ways: Vec<f64>,
     peak: f64,

@@ -24,18 +24,18 @@ pub fn median(values: &[f64]) -> Option<f64> {
 /// First quartile, median and third quartile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Quartiles {
-    /// A quarter of the values is below.
+    /// A quarter of the values are below.
     pub q1: f64,
-    /// Half of the values is below.
+    /// Half of the values are below.
     pub median: f64,
     /// Three quarters of the values are below.
     pub q3: f64,
-    /// How many values.
+    /// Number of values.
     pub count: usize,
 }
 
 impl Quartiles {
-    /// Of `values`; `None` for none.
+    /// For `values`; `None` without any.
     pub fn of(values: &[f64]) -> Option<Self> {
         Some(Self {
             q1: short(quantile(values, 0.25)?),

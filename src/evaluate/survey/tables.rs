@@ -1,4 +1,4 @@
-//! A survey as tables: by clip, by kind of motion, and how its forecasts compare with what came of them.
+//! A survey as tables: by clip, by kind of motion, and its forecasts against the results.
 
 use super::stats::median;
 use super::{MeasuredClip, MotionKind, SurveyRow, TrackingErrors};
@@ -85,7 +85,7 @@ fn at(t: Option<f64>) -> String {
     t.map_or_else(|| NONE.to_owned(), |t| format!("{t:.2}"))
 }
 
-/// `38/76` for two numbers, `–` where there are none.
+/// `38/76` for two numbers, `–` for missing ones.
 fn pair(a: Option<f64>, b: Option<f64>, decimals: usize) -> String {
     match (a, b) {
         (None, None) => NONE.to_owned(),
@@ -199,7 +199,7 @@ pub fn by_clip(rows: &[SurveyRow]) -> SurveyTable {
     out
 }
 
-/// One row per clip that was asked to be followed in whatever way keeps it: the way, what it took, and why.
+/// One row per clip for which every way of following was allowed: the way, its cost, and the reason.
 pub fn ways(rows: &[SurveyRow]) -> SurveyTable {
     let mut out = SurveyTable {
         head: vec![
@@ -243,7 +243,7 @@ pub fn ways(rows: &[SurveyRow]) -> SurveyTable {
     out
 }
 
-/// One row per clip: what was known before it was run.
+/// One row per clip: the facts known before it was run.
 pub fn difficulties(rows: &[SurveyRow]) -> SurveyTable {
     let mut out = SurveyTable {
         head: vec![
@@ -323,7 +323,7 @@ pub fn by_kind(rows: &[SurveyRow]) -> SurveyTable {
             let k = of.iter().filter(|m| yes(m)).count();
             format!("{k} of {}", of.len())
         };
-        // Medians of what was followed; errors of a lost clip are those until it was lost.
+        // Medians over the followed part; errors of a lost clip are those until it was lost.
         let middle = |value: &dyn Fn(&MeasuredClip) -> Option<f64>, decimals: usize| {
             let values: Vec<f64> = of.iter().filter_map(|m| value(m)).collect();
             digits(median(&values), decimals)
@@ -364,7 +364,7 @@ pub fn by_kind(rows: &[SurveyRow]) -> SurveyTable {
     out
 }
 
-/// How many clips of each forecast were followed as prepared, and how many were lost.
+/// For each forecast, the number of clips that were followed as prepared, and of those that were lost.
 pub fn confusion(rows: &[SurveyRow]) -> SurveyTable {
     let mut out = SurveyTable {
         head: vec!["forecast", "followed as prepared", "lost", "followed, %"],
@@ -389,7 +389,7 @@ pub fn confusion(rows: &[SurveyRow]) -> SurveyTable {
     out
 }
 
-/// The tables that fit a page for readers, in Markdown: by kind of motion, and what came of the forecasts.
+/// The tables that fit on a page for readers, in Markdown: by kind of motion, and forecasts against results.
 pub fn summary(rows: &[SurveyRow]) -> String {
     let [kinds, _, _, forecasts] = titled(rows);
     in_markdown([kinds, forecasts])
@@ -419,7 +419,7 @@ pub fn text(rows: &[SurveyRow]) -> String {
 /// Title of [`ways`].
 const WAYS: &str = "How clips were followed, and why so:";
 
-/// Columns that a terminal has no room for.
+/// Columns for which a terminal has no room.
 const WIDE: [&str; 10] = [
     "to prepared: root-rel./global, mm",
     "missed/added",

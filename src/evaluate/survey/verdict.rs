@@ -4,7 +4,7 @@ use super::errors::{PlacedPosture, TrackedTick};
 use sinew_physics::rehearsal::result::LOST;
 
 /// Error of the pelvis height beyond which a clip is lost, m (Liao et al. 2025, *BeyondMimic*, and the trackers that
-/// took its rule over).
+/// adopted its rule).
 pub const ANCHOR_HEIGHT_M: f64 = 0.25;
 /// Difference of the vertical parts of the pelvis's upward axes beyond which a clip is lost (same rule): 0.8 of 2.
 pub const ANCHOR_TILT: f64 = 0.8;

@@ -30,7 +30,7 @@ pub enum Constrained {
     Point(SegmentId, Vec3),
 }
 
-/// Where the centre of mass or a point of a segment should be, and how the segment should be oriented.
+/// The desired place of the centre of mass or of a point of a segment, and the desired orientation of the segment.
 ///
 /// At least one of `position` and `rotation` is given; the centre of mass has no rotation. The part moves there from
 /// its present place. A goal out of reach is approached as closely as balance, strength and joints allow.

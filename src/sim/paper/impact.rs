@@ -107,7 +107,7 @@ impl Impact {
         self.bodies.len() - 1
     }
 
-    /// Adds a condition. Returns false if there is no room.
+    /// Adds a condition. Returns whether there was room.
     pub fn add_row(&mut self, row: ImpactRow) -> bool {
         if self.rows.len() == MOST_ROWS {
             return false;

@@ -61,7 +61,7 @@ pub struct LimitOutcome {
     pub rounds: u32,
     /// Rows were nearly dependent and the solution was damped.
     pub damped: bool,
-    /// False if the set was abandoned because it outgrew the allowed size, or because numbers became infinite.
+    /// Whether the set was completed, not abandoned because it outgrew the allowed size or numbers became infinite.
     pub complete: bool,
 }
 

@@ -145,7 +145,7 @@ pub(in crate::figure) struct Surroundings {
     pub disturbances: Disturbances,
     /// Its support.
     pub support: Support,
-    /// What it touches besides the ground.
+    /// Its contacts besides the ground.
     pub touches: Touches,
     /// Watches whether its balance is lost.
     pub balance: BalanceWatch,

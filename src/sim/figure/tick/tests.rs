@@ -94,7 +94,7 @@ fn absurd(body: &Body) -> Vec<TargetPair> {
     ]
 }
 
-/// Whatever the request, a figure keeps a finite state, the others continue, and its world can be stored.
+/// A figure keeps a finite state under any request, the others continue, and its world can be stored.
 #[test]
 fn a_figure_whose_desired_motion_is_out_of_hand_is_set_aside() {
     let body = Arc::new(Body::adult_man());
