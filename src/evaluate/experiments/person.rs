@@ -56,9 +56,9 @@ pub const FOLDS: f64 = 90.0;
 /// The person who lifts, and the end of the lift.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lifter {
-    /// Of the tables.
+    /// Profile from the tables.
     pub profile: Profile,
-    /// Of strength.
+    /// Percentile of strength.
     pub percentile: f64,
     /// End of the lift.
     pub end: LiftEnd,

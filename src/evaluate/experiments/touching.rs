@@ -255,7 +255,7 @@ fn halves(mut all: Vec<(f64, f64)>) -> [(f64, f64); 2] {
     })
 }
 
-/// Two figures of which one is pushed into the other.
+/// Two figures, one of which is pushed into the other.
 #[derive(Clone, Debug)]
 pub struct Bump {
     /// The run of the one that is pushed; the other is drawn with it.

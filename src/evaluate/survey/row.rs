@@ -27,7 +27,7 @@ pub struct MeasuredClip {
     pub kind: MotionKind,
     /// Length of the fitted recording, s.
     pub clip_s: f64,
-    /// Whether runs of the recording are walked in the prepared motion, which is longer then.
+    /// Whether runs of the recording are walked in the prepared motion, which is longer in that case.
     pub walked: bool,
     /// Largest mean distance of the prepared motion from the recording at the same time, m: more than 0.5 cannot be
     /// completed.

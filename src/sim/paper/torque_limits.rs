@@ -6,7 +6,7 @@ use crate::control::rows::{JointRow, ROW, RowQr, Square, dot};
 use crate::math::dense::eliminate;
 use crate::setup::Metric;
 
-/// A torque may exceed its limit by this part of it (or of 1 N·m) before it counts as a violation.
+/// A torque may exceed its limit by this share of it (or of 1 N·m) before it counts as a violation.
 pub const TOLERANCE: f64 = 1e-9;
 
 /// Whether `torque` is outside `lower…upper` by more than `slack` times the limit (at least 1 N·m).

@@ -135,7 +135,7 @@ struct ExternalContacts {
 struct BarImpulse {
     /// Impulse along the bar, N·s; positive pushes its ends apart.
     impulse: f64,
-    /// That of the last closed substep: first guess of the next one.
+    /// Impulse of the last closed substep: first guess of the next one.
     start: f64,
     /// Its forces in the last substep of a tick: segment, world point, world force, N.
     forces: Option<[(SegmentId, Vec3, Vec3); 2]>,

@@ -45,7 +45,7 @@ impl<T: Send + Sync> PlanProblem for SharedTask<T> {
     fn solve(&self) {
         if self.result.get().is_none() {
             let out = catch_unwind(AssertUnwindSafe(&self.work)).ok();
-            // A result that is there by now is the same.
+            // If another thread has set a result by now, it is the same.
             let _ = self.result.set(out);
         }
     }

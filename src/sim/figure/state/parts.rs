@@ -149,7 +149,7 @@ pub(in crate::figure) struct Surroundings {
     pub touches: Touches,
     /// Watches whether its balance is lost.
     pub balance: BalanceWatch,
-    /// Decides whether its motion is being lost, and helps then.
+    /// Decides whether its motion is being lost, and helps if so.
     pub help: LiveHelp,
 }
 
@@ -189,7 +189,7 @@ pub(in crate::figure) struct StageResults {
     pub rates: [f64; DOF_COUNT],
     /// Available torque at these.
     pub available: TorqueRange,
-    /// Stretched tissue, where it acts.
+    /// Stretched tissue; `None` if none acts.
     pub tissue: Option<Tissue>,
     /// The command to the motors.
     pub command: MotorCommand,

@@ -89,9 +89,9 @@ impl Figure {
     }
 
     /// Whether it falls as a person does ([`bracing`](crate::figure::balance::bracing)): from the loss of balance until
-    /// neither body nor head move down any more. Not if its motion goes to the floor by itself, or has lost balance as
-    /// the figure has, like one that sits down on a seat; nor with the paper's controller, whose falls are those of the
-    /// paper; nor where the feet have to stay.
+    /// neither body nor head moves down any more. This excludes a motion that goes to the floor by itself, or that has
+    /// lost its balance as the figure has, like one that sits down on a seat. It also excludes the paper's controller,
+    /// whose falls are those of the paper, and feet that have to stay in place.
     pub(in crate::figure) fn braces(&self) -> bool {
         let s = &self.setup;
         let person = self.mode().braces_falls(&s.params);

@@ -1,5 +1,5 @@
 //! The exit from the motion under way: directly to another clip, by steps, or by the steps that bring it to a stand.
-//! Both are worked out aside, and taken in a tick that is fixed when they are requested.
+//! Both are planned in the background, and taken in a tick that is fixed when they are requested.
 
 use crate::figure::events::FigureEvent;
 use crate::figure::motion::exit::{ExitGoal, ExitPlan, ExitProblem};
@@ -174,7 +174,7 @@ impl Figure {
 
     /// Comes to a stand where its way is barred: something that presses from the side has pushed it too far off its
     /// motion to keep its steps, and continuing would only increase the pressure. A clip ends in this way; a queued one
-    /// begins from that stand, and so does the rest of a stream. Allocates then.
+    /// begins from that stand, and so does the rest of a stream. Allocates in that case.
     pub(in crate::figure) fn break_off_if_barred(&mut self, world: &TickContext) {
         let (least, tracker) = (self.least_rest(world), &self.desired.tracker);
         let pressed = (self.surroundings.touches).press_aside(least, tracker.is_on_plan());

@@ -36,8 +36,8 @@ impl Figure {
     /// stands as the clip begins, has fallen, or makes no steps, begins at once.
     ///
     /// Returns the world time at which the clip's time 0 plays, s. It is an estimate if the figure switches directly,
-    /// has to stand first, or needs a way into the clip: ways are worked out aside, and taken in a tick that is fixed
-    /// now. Allocates.
+    /// has to stand first, or needs a way into the clip: ways are planned in the background, and taken in a tick that
+    /// is fixed now. Allocates.
     pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: f64) -> f64 {
         if self.motion.rehearsed().is_some() {
             self.leave_rehearsal();
@@ -315,7 +315,7 @@ impl Figure {
     }
 
     /// Comes to a stand from world time `time` on: a walk ends with the steps that this takes, and any other motion is
-    /// held as it is. The steps are worked out aside, while the motion continues. Allocates.
+    /// held as it is. The steps are planned in the background, while the motion continues. Allocates.
     pub fn stop(&mut self, time: f64) {
         self.motion.take_next();
         self.motion.take_stream_entry();

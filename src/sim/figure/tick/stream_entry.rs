@@ -1,5 +1,5 @@
-//! From a stand into a stream that begins in motion. The way is worked out aside, and taken in a tick that is fixed
-//! when it is requested; the caller that feeds the stream puts it before the stream's first sample.
+//! From a stand into a stream that begins in motion. The way is planned in the background, and taken in a tick that is
+//! fixed when it is requested; the caller that feeds the stream puts it before the stream's first sample.
 
 use crate::body::Posture;
 use crate::figure::motion::stream_entry::{StreamEntryPlan, StreamEntryProblem};
