@@ -1,4 +1,4 @@
-//! Line plots as SVG: curves and bands over one axis each way, with a legend. No styling to choose; colours differ for
+//! Line plots as SVG: curves and bands over an x and a y axis, with a legend. No styling to choose; colours differ for
 //! colour-blind eyes.
 
 use super::strip::Rgba;

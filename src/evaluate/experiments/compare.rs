@@ -82,7 +82,7 @@ impl ComparedMotion {
 /// The load or push that is added to a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Burden {
-    /// Mass in the right hand or, half in each, in both, kg.
+    /// Mass in the right hand, or half of it in each hand, kg.
     Load(f64, bool),
     /// Impulse at the chest, N·s.
     Push(Vec3),

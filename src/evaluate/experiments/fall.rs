@@ -93,7 +93,7 @@ fn edge_towards(body: &Body, posture: &Posture, direction: Vec3) -> (Vec3, Vec3)
     (best.1, best.2)
 }
 
-/// `posture`, turned stiffly about the edge of its soles that faces `direction` until the centre of mass is 3° beyond
+/// `posture`, rotated rigidly about the edge of its soles that faces `direction` until the centre of mass is 3° beyond
 /// it.
 pub fn leaning(body: &Body, mut posture: Posture, direction: Vec3) -> Leaning {
     let (pivot, normal) = edge_towards(body, &posture, direction);

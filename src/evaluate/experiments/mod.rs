@@ -124,7 +124,7 @@ impl ControlPair {
     }
 }
 
-/// A load in the right hand or, half of it in each, in both, from the beginning on.
+/// A load in the right hand, or half of it in each hand, from the beginning on.
 fn carried(body: &Body, mass: f64, both: bool) -> Vec<Perturbation> {
     let held = |segment: SegmentId, mass: f64| Perturbation::Load {
         segment,

@@ -72,7 +72,7 @@ pub struct HandSupport {
     pub weight: f64,
     /// Largest share of the friction cone that any tick used.
     pub cone: f64,
-    /// Ticks of the last second in which the hand touched, share.
+    /// Share of the ticks of the last second in which the hand touched.
     pub touching: f64,
     /// Mean vertical force of table or wall on the whole body over the last second, N.
     pub rest: f64,
@@ -244,7 +244,7 @@ pub fn hand_support(
     }
 }
 
-/// Means of the half with the smaller and of that with the larger first number; zeros without any.
+/// Means of the halves with the smaller and with the larger first numbers; zeros for an empty half.
 fn halves(mut all: Vec<(f64, f64)>) -> [(f64, f64); 2] {
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (low, high) = all.split_at(all.len() / 2);

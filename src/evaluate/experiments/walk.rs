@@ -38,7 +38,7 @@ pub struct Walker {
 pub enum Hands {
     /// The right one.
     Right,
-    /// One load in each hand, half of it each.
+    /// One load in each hand, half of the mass each.
     Both,
 }
 

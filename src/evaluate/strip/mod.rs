@@ -18,7 +18,7 @@ pub use things::{Thing, ThingKind};
 
 use sinew_physics::body::Body;
 
-/// Ticks of a run of `ticks` ticks that `count` evenly spaced panels show: from the first to the last, without
+/// The ticks, in a run of `ticks` ticks, that `count` evenly spaced panels show: from the first to the last, without
 /// repetition.
 pub fn evenly_spaced(ticks: u64, count: usize) -> Vec<u64> {
     let last = ticks.saturating_sub(1);

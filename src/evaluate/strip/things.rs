@@ -55,7 +55,7 @@ fn cuboid(half: Vec3, lift: f64) -> Mesh {
     mesh
 }
 
-/// A ball whose halves are drawn apart by `half_length` along z.
+/// A ball whose halves are pulled apart by `half_length` along z.
 fn round(radius: f64, half_length: f64) -> Mesh {
     let mut mesh = Mesh::default();
     let rows = 2 * (RINGS + 1);

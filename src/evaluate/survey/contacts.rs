@@ -36,7 +36,7 @@ fn touch_downs(down: &[bool]) -> Vec<usize> {
 ///
 /// * `down`, `label`: left and right, tick by tick, [`settled`]; `dt`: length of a tick, s.
 ///
-/// Nearest pairs of one foot belong together, each touch-down once.
+/// The nearest pairs of one foot are matched, each touch-down once.
 pub fn match_touch_downs(down: &[Vec<bool>; 2], label: &[Vec<bool>; 2], dt: f64) -> TouchDowns {
     let mut out = TouchDowns::default();
     let mut off = Vec::new();

@@ -5,7 +5,7 @@ use sinew_physics::math::rounding::short;
 /// Standard deviations to either side of a 95 % interval.
 const Z: f64 = 1.959964;
 
-/// Value at `share` (0…1) of the sorted values, between neighbours linearly; `None` for none.
+/// Value at `share` (0…1) of the sorted values, linear between neighbours; `None` without values.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
@@ -16,7 +16,7 @@ pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     Some(sorted[i] + (next - sorted[i]) * u)
 }
 
-/// The middle value; `None` for none.
+/// The middle value; `None` without values.
 pub fn median(values: &[f64]) -> Option<f64> {
     quantile(values, 0.5)
 }
@@ -35,7 +35,7 @@ pub struct Quartiles {
 }
 
 impl Quartiles {
-    /// For `values`; `None` without any.
+    /// For `values`; `None` without values.
     pub fn of(values: &[f64]) -> Option<Self> {
         Some(Self {
             q1: short(quantile(values, 0.25)?),

@@ -33,7 +33,7 @@ pub enum ChosenRests {
 /// The first half of the questions goes to the mode that is set, the second half to the one in charge, which is motors
 /// only while the figure is falling, lying, or playing a rehearsed motion.
 pub trait Mode: std::fmt::Debug + Sync {
-    /// Whether desired velocities belong to the middle of the last substep, and not to the ends of the tick.
+    /// Whether desired velocities belong to the middle of the last substep, rather than to the ends of the tick.
     fn sets_velocities_back(&self) -> bool {
         true
     }
@@ -76,8 +76,8 @@ pub trait Mode: std::fmt::Debug + Sync {
         false
     }
 
-    /// Rests whose reactions the controller chooses, of those that carry `least` newtons, for a figure that has a
-    /// support or not.
+    /// Rests whose reactions the controller chooses, of those that carry `least` newtons, for a figure with or without
+    /// a support.
     fn chosen_rests(&self, least: f64, has_support: bool) -> ChosenRests;
 
     /// Whether a controller decides, so that its accelerations may be applied as they are.

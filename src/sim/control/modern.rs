@@ -77,7 +77,7 @@ const LED_LIMB: f64 = 0.02;
 const LED_WRIST: f64 = 0.2;
 /// Load in a hand at which arm and hand have a quarter of their weight, kg.
 const HALF_ARM: f64 = 2.0;
-/// Degrees of freedom from the shoulder to the wrist, which follow each other.
+/// Degrees of freedom from the shoulder to the wrist; they are consecutive.
 const ARM_DOFS: usize = 7;
 /// Friction that the plan assumes; less than the simulator's.
 const FRICTION_MARGIN: f64 = 0.7 / 0.9;

@@ -254,7 +254,7 @@ impl SpatialLimits {
             let first = k;
             for j in 0..DOF_COUNT {
                 let tau = torques.changed(j, x);
-                // Members of K sit on their limit to rounding: leave them twice the tolerance.
+                // Members of K sit on their limit up to rounding: allow them twice the tolerance.
                 if out.set >> j & 1 == 0 && torques.violates(j, tau, 2.0 * TOLERANCE) {
                     out.set |= 1 << j;
                     order[k] = j;

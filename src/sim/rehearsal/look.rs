@@ -24,7 +24,7 @@ pub struct Look {
     pub lowest: [f64; 4],
 }
 
-/// √(l/g) of a body that falls over, s, l being the height of its centre of mass.
+/// √(l/g) of a body that falls over, s, where l is the height of its centre of mass.
 const FALL_TIME: f64 = 0.32;
 const ENDS: [&[SegmentId]; 4] = [&[L_HAND], &[R_HAND], &[L_FOOT, L_TOES], &[R_FOOT, R_TOES]];
 

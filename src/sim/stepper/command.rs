@@ -26,7 +26,7 @@ pub struct StepInput<'a> {
     pub scale: &'a MuscleScale,
     /// The known state at the start of the tick.
     pub start: TickStart<'a>,
-    /// Acceleration in the last substep of the tick before, from which the first solve starts; zeros without one.
+    /// Acceleration in the last substep of the previous tick, from which the first solve starts; zeros without one.
     pub last_acceleration: &'a [f64; NV],
     /// The command to the motors.
     pub command: &'a MotorCommand,

@@ -36,7 +36,7 @@ use crate::stepper::params::self_contact::{RELAXATION, SLACK, STIFFNESS, TOLERAN
 /// Most pairs that are near each other in one substep; further pairs do not collide.
 pub const MAX_PAIRS: usize = 32;
 
-/// Segments that can meet. A joint's own two segments overlap and are left out.
+/// Segments that can collide. A joint's own two segments overlap and are left out.
 const PAIRS: &[(&[SegmentId], &[SegmentId])] = &[
     (
         &[L_FOREARM, L_HAND, R_FOREARM, R_HAND],

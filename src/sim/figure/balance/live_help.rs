@@ -63,7 +63,7 @@ pub struct LiveHelp {
     /// How long the forecast has called for a change, s.
     since: f64,
     carries: bool,
-    /// For how long the motion has been out of reach, s.
+    /// How long the motion has been out of reach, s.
     out_of_reach: f64,
     /// Time until the figure can be helped again after it was left to fall, s.
     pause: f64,

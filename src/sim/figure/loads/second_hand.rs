@@ -358,7 +358,7 @@ impl HelpingHand {
         })
     }
 
-    /// Distance of forearm and hand from trunk, head and thighs, m; negative where they overlap.
+    /// Distance of forearm and hand from trunk, head and thighs, m; negative if they overlap.
     fn clearance(&self, see: &Sight<'_>, posture: &Posture) -> f64 {
         let poses = forward(see.body, posture);
         let placed = |s: SegmentId| {

@@ -53,7 +53,7 @@ pub(in crate::figure) struct ExitProblem {
     pub ends: Option<Arc<StopCandidates>>,
     /// Time at which the motion leaves its own course for the exit, s.
     pub due: f64,
-    /// World time of the first sample of the way to a stand, and time of the present motion then, s.
+    /// World time of the first sample of the way to a stand, and the corresponding time of the present motion, s.
     pub begin: f64,
     pub before: f64,
 }

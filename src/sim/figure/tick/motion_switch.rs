@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// The input from which a stop is planned.
 struct Given {
-    /// World time of the first sample, and time of the present motion then, s.
+    /// World time of the first sample, and the corresponding time of the present motion, s.
     begin: f64,
     before: f64,
     /// Sample up to which the motion still plays.

@@ -16,7 +16,7 @@ pub(super) struct BarRow {
     pub(super) direction: Vec3,
     /// Derivative of its length by the velocity.
     row: [f64; NV],
-    /// Rate of its length that takes an error back, m/s.
+    /// Rate of its length that corrects an error, m/s.
     pub(super) wanted: f64,
 }
 

@@ -10,7 +10,7 @@ use crate::math::Vec3;
 use crate::motion::arm_ik::ARMS;
 use crate::setup::HeldLoad;
 
-/// Degrees of freedom from the shoulder to the wrist, which follow each other.
+/// Degrees of freedom from the shoulder to the wrist; they are consecutive.
 const ARM_DOFS: usize = 7;
 
 /// Torques of the joints of one arm, N·m.
