@@ -42,7 +42,7 @@ impl Spread {
 pub struct Consistency {
     /// Share of the samples on feet whose zero-moment point is outside the support polygon.
     pub outside: f64,
-    /// How far outside, 0 for samples inside, m.
+    /// Distance outside, 0 for samples inside, m.
     pub distance: Spread,
     /// Force that the feet cannot give within friction, over weight. Includes flight, where the whole force is of this
     /// kind.

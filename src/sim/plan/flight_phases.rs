@@ -145,8 +145,8 @@ impl FlightPhases {
     }
 }
 
-/// Vertical acceleration of the centre of mass in stances between two flights: the floor makes up within the stance for
-/// what gravity takes over the whole time.
+/// Vertical acceleration of the centre of mass in stances between two flights: within the stance the floor makes up for
+/// gravity over the whole time.
 fn pushes(air: &[bool], rate_hz: f64) -> Vec<Option<f64>> {
     let mut out = vec![None; air.len()];
     let share = |u: f64| {

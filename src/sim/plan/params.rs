@@ -4,7 +4,7 @@
 
 use crate::params::Param;
 
-/// Which foot touches the floor, and whether a body stands on its feet at all.
+/// Contacts of the feet with the floor, and whether a body is on its feet at all.
 pub mod contact {
     crate::params::params! {
         /// A point of a foot comes to the floor below this speed.
@@ -51,7 +51,7 @@ pub mod contact {
     }
 }
 
-/// What the height of the pelvis, as a share of its height in a stand, says about the body.
+/// Conclusions from the height of the pelvis, as a share of its height in a stand.
 pub mod pelvis {
     crate::params::params! {
         /// Below it a body sits or lies on the floor: no foot is locked.
@@ -83,7 +83,7 @@ pub mod common {
     }
 }
 
-/// Where and for how long a foot is planted.
+/// Places and durations of stances.
 pub mod stance {
     crate::params::params! {
         /// A recorded foot that strays further from its place has stepped.
@@ -221,7 +221,7 @@ pub mod ankle {
     }
 }
 
-/// Where the zero-moment point is kept, and how the pelvis moves for that.
+/// Limits for the zero-moment point, and how the pelvis moves to keep them.
 pub mod balance {
     crate::params::params! {
         /// Ground force over weight below which the zero-moment point says nothing.

@@ -136,7 +136,7 @@ pub struct OtherSupport {
     pub hands: f64,
 }
 
-/// What carries the body in one sample.
+/// The support of the body in one sample.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SupportPhase {
     /// Feet on the floor: convex hull of their footprints.
@@ -180,10 +180,10 @@ pub struct ShiftProblem<'a> {
     pub track: &'a MassTrack,
     /// Shift of the pelvis that `track` already contains, per sample, m.
     pub so_far: &'a [[f64; 2]],
-    /// What carries the body.
+    /// The support of the body.
     pub support: &'a [SupportPhase],
-    /// What else may carry the body. A body on a seat is left alone, as is one in flight. One that may lean on its
-    /// hands does so where its zero-moment point is outside by more than [`balance::OTHER_SUPPORT`] for long.
+    /// Other supports that the body may use. A body on a seat is left alone, as is one in flight. One that may lean on
+    /// its hands does so where its zero-moment point is outside by more than [`balance::OTHER_SUPPORT`] for long.
     pub other_support: &'a [OtherSupport],
     /// Distance inside the support at which the zero-moment point is kept, m.
     pub inset: f64,
@@ -288,7 +288,7 @@ fn shift_with(problem: &ShiftProblem<'_>, pull: Option<&[[f64; 2]]>) -> Vec<[f64
     let rows: Vec<[f64; 3]> = (0..n)
         .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / balance::PELVIS_LEAD))
         .collect();
-    // Where the zero-moment point would be without any shift.
+    // The zero-moment point without any shift.
     let plain: Vec<[f64; 2]> = (0..n)
         .map(|i| minus(track.zmp[i], answered(&rows, so_far, i)))
         .collect();

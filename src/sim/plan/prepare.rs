@@ -49,7 +49,7 @@ pub struct Draft {
     pub label: Vec<[bool; 2]>,
 }
 
-/// Which parts of the preparation to apply to the draft.
+/// Parts of the preparation to apply to the draft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrepareOptions {
     /// Lock planted feet to the floor.

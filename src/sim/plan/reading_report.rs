@@ -1,4 +1,4 @@
-//! What reading a recording found, guessed and changed.
+//! Findings, guesses and changes made in reading a recording.
 //!
 //! One type for every reader. Serialised, it is the output of `sinew lint --json` (errors in mm, other lengths in m,
 //! angles in degrees); the server converts it to its message.
@@ -91,7 +91,7 @@ pub struct RunningReport {
     pub walked: bool,
 }
 
-/// What reading a recording found, guessed and changed.
+/// Findings, guesses and changes made in reading a recording.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReadingReport {
     /// Bones.

@@ -215,7 +215,7 @@ fn a_step_of_which_the_label_saw_only_the_middle_takes_the_time_that_it_needs() 
     assert!(needed > last - first);
     let (end, start) = swing(&vec![true; n]);
     assert!(end < first && start > last && start - end == needed);
-    // The other foot is not planted before: all the time comes from after, at most half of what is available.
+    // The other foot is not planted before: all the time is taken from after, at most half of it.
     let after: Vec<bool> = (0..n).map(|i| i >= last).collect();
     assert_eq!(swing(&after), (first, first + needed));
     let little: Vec<bool> = (0..n).map(|i| (last..last + 4).contains(&i)).collect();

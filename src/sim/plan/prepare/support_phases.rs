@@ -1,4 +1,4 @@
-//! What carries the body in each sample, and how well the plan stays over it.
+//! The support of the body in each sample, and how well the plan stays over it.
 
 use crate::body::angles::clamp_to_limits;
 use crate::body::topology::FEET;
@@ -42,7 +42,7 @@ pub(in crate::plan) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2]> {
 pub(in crate::plan) struct StandingFeet<'a> {
     /// Soles of the left and the right foot.
     pub soles: &'a [Sole; 2],
-    /// Where they are locked.
+    /// The locks of both feet.
     pub locked: &'a [LockedFoot; 2],
     /// Whether each foot carries, per sample.
     pub carries: &'a [[bool; 2]],

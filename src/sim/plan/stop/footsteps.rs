@@ -37,7 +37,7 @@ struct CaptureStep {
     inside: f64,
 }
 
-/// Where the feet are in the plan.
+/// Places and headings of the feet in the plan.
 #[derive(Clone, Copy)]
 pub(super) struct StepFeet<'a> {
     place: [Vec3; 2],
@@ -45,7 +45,7 @@ pub(super) struct StepFeet<'a> {
     soles: &'a [Sole; 2],
 }
 
-/// Which feet are down while foot `side` swings.
+/// The feet that are down while foot `side` swings.
 fn all_but(side: usize) -> [bool; 2] {
     [side == 1, side == 0]
 }

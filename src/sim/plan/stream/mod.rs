@@ -181,7 +181,7 @@ struct ShiftState {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Difference(#[serde(with = "crate::saved::array")] [f64; NV]);
 
-/// Where the stream lies in the world.
+/// Place of the stream in the world.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Placement {
     /// Transform of the stream; a stream that jumps continues from where it was.
@@ -542,7 +542,7 @@ impl StreamPlan {
         });
     }
 
-    /// Which points of the received feet touch the floor in sample `i`.
+    /// Finds the points of the received feet that touch the floor in sample `i`.
     fn touch(&mut self, i: i64) {
         if i < 0 {
             return;
