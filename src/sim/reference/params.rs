@@ -2,7 +2,7 @@
 
 use crate::params::Param;
 
-/// Which stretches of a recording are runs.
+/// Detection of the runs in a recording.
 pub mod run_detection {
     crate::params::params! {
         /// People run above this speed: half of that at which a leg of 0.9 m would leave the floor, squared.

@@ -1,4 +1,4 @@
-//! How many samples a clip has, and the memory that fitting takes.
+//! Number of samples of a clip, and the memory that fitting takes.
 
 use super::error::RetargetError;
 use super::options::{RATES, RetargetOptions, check_options};
