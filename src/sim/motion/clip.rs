@@ -237,7 +237,7 @@ impl Clip {
     pub fn posture(&self, i: usize) -> &Posture {
         &self.knots[self.lead_in + i].posture
     }
-    /// Which feet (left, right) are planted at sample `i`. Panics if there is none.
+    /// Whether each foot (left, right) is planted at sample `i`. Panics if there is no such sample.
     pub fn planted(&self, i: usize) -> [bool; 2] {
         self.knots[self.lead_in + i].planted
     }

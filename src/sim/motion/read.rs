@@ -4,7 +4,7 @@ use super::bvh;
 use super::recording::{MotionFormat, Recording, RecordingError, RecordingHead};
 
 /// The supported formats, one line each. The first that recognises a file reads it; the last one is given the files
-/// that none recognises, and reports what is wrong with them.
+/// that none recognises, and reports the error in them.
 const FORMATS: &[MotionFormat] = &[bvh::FORMAT];
 
 fn format(bytes: &[u8]) -> &'static MotionFormat {

@@ -17,7 +17,7 @@ pub struct Target {
     /// Desired acceleration.
     #[serde(with = "crate::saved::array")]
     pub acceleration: [f64; NV],
-    /// Which feet the motion keeps on the floor: left, right.
+    /// Whether the motion keeps each foot on the floor: left, right.
     pub planted: [bool; 2],
 }
 

@@ -11,7 +11,7 @@ use crate::math::{Quat, Vec3};
 
 /// Leg length (hip to ankle) for which distances in plans are written, m.
 pub const REFERENCE_LEG: f64 = 0.867;
-/// Where the balanced centre of mass lies in front of the ankles, reference body, m: mid-foot.
+/// Distance of the balanced centre of mass in front of the ankles, reference body, m: mid-foot.
 pub const COM_AHEAD: f64 = 0.045;
 /// Shift of the pelvis below which balancing is finished, m.
 const BALANCED: f64 = 1e-13;
