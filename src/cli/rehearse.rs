@@ -331,7 +331,7 @@ fn show(bar: &ProgressBar, p: &Progress) {
     ));
 }
 
-/// Processor time of this process so far.
+/// Processor time that this process has used.
 fn processor_time() -> Option<Duration> {
     #[cfg(target_os = "linux")]
     {

@@ -132,7 +132,7 @@ pub struct TransitionCandidates {
     now: usize,
     next: NextClip,
     moments: Vec<Moment>,
-    /// The first path known so far that a body can follow: those after it are not needed.
+    /// The first path already found to be one that a body can follow: those after it are not needed.
     #[serde(skip, default = "none_yet")]
     found: AtomicUsize,
 }

@@ -1,6 +1,6 @@
 //! Out of a motion that is playing: into a stand, or into a clip at the place where that looks most alike.
 //!
-//! The seam is a draft like any other: the motion planned so far and its continuation are prepared together, so that
+//! The seam is a draft like any other: the motion already planned and its continuation are prepared together, so that
 //! feet are locked and the zero-moment point is kept across the seam. Planned once when a figure gets a new task;
 //! allocates, 10 to 20 ms for each end.
 
@@ -42,7 +42,7 @@ pub struct StopCandidates {
     streamed: bool,
     #[serde(skip)]
     way: OnceLock<Option<KnownMotion>>,
-    /// The first end known so far to be easy: those after it are not needed.
+    /// The first end already found to be easy: those after it are not needed.
     #[serde(skip, default = "none_yet")]
     easy: AtomicUsize,
 }
@@ -79,8 +79,8 @@ impl StopCandidates {
     /// Largest number of ends that are tried.
     pub const MOST: usize = (stop::SEARCH_TIME * stop::RATE) as usize / stop::SEARCH_STRIDE + 1;
 
-    /// * `known`: the motion so far and as far ahead as it is known, samples at [`stream::RATE`]; it continues at least
-    ///   up to sample `now`.
+    /// * `known`: the motion up to now and as far ahead as it is known, samples at [`stream::RATE`]; it continues at
+    ///   least up to sample `now`.
     pub fn new(body: &Arc<Body>, known: Vec<Sample>, now: usize, to: StandGoal) -> Self {
         let StandGoal {
             posture: goal,

@@ -193,7 +193,7 @@ impl Warnings {
     }
 }
 
-/// The data read so far of a joint whose brace is open.
+/// The data already read of a joint whose brace is open.
 pub(super) struct OpenJoint {
     index: usize,
     /// Line of its name.

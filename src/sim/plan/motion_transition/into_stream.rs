@@ -1,6 +1,6 @@
 //! From a stand into a stream that begins in motion.
 //!
-//! The samples received so far are treated as a clip. Among the moments of its first step, the search takes the one
+//! The samples already received are treated as a clip. Among the moments of its first step, the search takes the one
 //! that steps from the stand reach with the smallest unsupported force ([`super::from_stand`]). The stream continues
 //! after that path.
 

@@ -48,9 +48,9 @@ pub(in crate::plan) struct StandingFeet<'a> {
     pub carries: &'a [[bool; 2]],
 }
 
-/// Whether each planted foot carries the body. Where both are planted and the leg of only one, within its limits, holds
-/// it near its place, the other foot does not carry: it will be declared free in the end, which would leave a body that
-/// is balanced on two feet standing on one.
+/// Whether each planted foot carries the body. Where both feet are planted and only one leg, within its limits, holds
+/// its foot near its place, the other foot does not carry: it will be declared free in the end, which would leave a
+/// body that is balanced on two feet standing on one.
 pub(super) fn within_reach(
     body: &Body,
     postures: &[Posture],

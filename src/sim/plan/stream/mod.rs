@@ -157,7 +157,7 @@ struct Input {
     newest: RepeatedSamples,
 }
 
-/// The samples output so far.
+/// The samples already output.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Output {
     knots: Vec<Knot>,
