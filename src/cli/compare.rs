@@ -88,7 +88,7 @@ fn load_name(mass: f64, both: bool) -> String {
     }
 }
 
-/// One line per pair: how often it stayed up, with which errors, at which computing time.
+/// One line per pair: how often it stayed up, its errors and its computing time.
 fn summary(page: &mut Page, pairs: &[ControlPair], sums: &[Sum], reference: &str) {
     let cost = pairs
         .iter()
@@ -124,7 +124,7 @@ fn summary(page: &mut Page, pairs: &[ControlPair], sums: &[Sum], reference: &str
     );
 }
 
-/// In how many scenes the modern pair stands where another falls, and vice versa.
+/// Numbers of scenes in which the modern pair stands where another falls, and vice versa.
 #[derive(Default)]
 struct StandCounts {
     wins: [u32; 4],

@@ -1,4 +1,4 @@
-//! `sinew completions`: what a shell needs to complete the arguments of `sinew`.
+//! `sinew completions`: prints a script with which a shell completes the arguments of `sinew`.
 
 use super::terminal::print;
 use anyhow::{Context, Result};

@@ -1,4 +1,4 @@
-//! `sinew config`: whether a server could start with its settings, and what they are.
+//! `sinew config`: checks whether a server could start with its settings, and shows them.
 
 use super::exit::usage;
 use super::number::counted;
@@ -26,7 +26,7 @@ enum ConfigAction {
 /// Checks or shows settings.
 ///
 /// # Errors
-/// Settings that are not usable (usage); what they name cannot be used.
+/// Settings that are not usable (usage); files or addresses named by them that cannot be used.
 pub fn run(args: &ConfigArgs) -> anyhow::Result<()> {
     match &args.action {
         ConfigAction::Check(args) => check(args),

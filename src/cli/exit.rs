@@ -1,4 +1,4 @@
-//! How a command ends: its exit code, and the errors that have one of their own.
+//! How a command ends: its exit code, and the errors that have a code of their own.
 
 use std::process::ExitCode;
 
@@ -22,7 +22,7 @@ impl From<()> for ExitOutcome {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Code {
-    /// The command did what it was asked for.
+    /// The command did its work.
     Success = 0,
     /// A file, a motion, a connection or a request failed.
     Error = 1,
@@ -51,7 +51,7 @@ impl From<Code> for ExitCode {
 #[error("{0}")]
 pub struct UsageError(pub String);
 
-/// Makes any error one of usage, with its causes in one sentence.
+/// Turns any error into a usage error, with its causes in one sentence.
 pub fn usage(error: impl Into<anyhow::Error>) -> anyhow::Error {
     UsageError(format!("{:#}", error.into())).into()
 }
@@ -73,7 +73,7 @@ pub fn code(done: anyhow::Result<ExitOutcome>) -> Code {
     match done {
         Ok(ExitOutcome::Done) => Code::Success,
         Ok(ExitOutcome::Fell) => Code::Fall,
-        // The reader has seen enough.
+        // The reader has closed the pipe on purpose.
         Err(error) if error.is::<super::terminal::OutputClosed>() => Code::Success,
         Err(error) => {
             super::terminal::note(&format!("error: {error:#}"));

@@ -47,7 +47,7 @@ fn role(name: &str) -> anyhow::Result<i32> {
     Ok(role.into())
 }
 
-/// Grants, or lists what is granted.
+/// Grants, revokes or lists roles.
 ///
 /// # Errors
 /// No server, no such world, or the server refuses.

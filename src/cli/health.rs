@@ -1,4 +1,4 @@
-//! `sinew health`: asks a server whether it lives, and whether it takes new clients.
+//! `sinew health`: asks a server whether it is alive, and whether it takes new clients.
 
 use super::args::CredentialArgs;
 use super::remote::explain;
@@ -6,7 +6,7 @@ use super::terminal::print_line;
 use sinew_server::health::{LIVENESS, READINESS};
 use std::time::Duration;
 
-/// How long the answer may take.
+/// Longest time to wait for the answer.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Arguments of `sinew health`.

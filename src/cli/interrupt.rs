@@ -1,6 +1,7 @@
-//! What ends a command that runs until it is told to end.
+//! The signals that end a command which otherwise runs for ever.
 
-/// Waits for Ctrl-C or SIGTERM. It listens from its first poll on; they end the process no more from then on.
+/// Waits for Ctrl-C or SIGTERM. It listens from its first poll on; from then on these signals no longer end the
+/// process.
 pub(super) async fn interrupted() {
     let interrupt = tokio::signal::ctrl_c();
     #[cfg(unix)]

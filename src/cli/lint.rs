@@ -1,4 +1,4 @@
-//! `sinew lint`: what retargeting finds in a recording, estimates and changes.
+//! `sinew lint`: reports the findings, estimates and changes of retargeting for a recording.
 
 use super::args::{BodyArgs, RecordingArgs, check_tempo};
 use super::number::{counted, fixed, hertz, metres, rounded, seconds};
@@ -206,7 +206,7 @@ pub fn describe(r: &ReadingReport) -> String {
     out
 }
 
-/// A name and what is to be said of it.
+/// A name and the text that belongs to it.
 type LintLine = (&'static str, String);
 
 /// How the file was understood.
@@ -276,7 +276,7 @@ fn reading(r: &ReadingReport) -> Vec<LintLine> {
     lines
 }
 
-/// What the recording was like, and how far the preparation changed it.
+/// Condition of the recording, and how far the preparation changed it.
 fn preparation(r: &ReadingReport) -> Vec<LintLine> {
     let before_after = |c: Compared<f64>| {
         format!(
@@ -324,7 +324,7 @@ fn preparation(r: &ReadingReport) -> Vec<LintLine> {
     ]
 }
 
-/// What was out of order.
+/// Irregularities.
 fn oddities(r: &ReadingReport) -> Vec<LintLine> {
     let mut lines = Vec::new();
     for c in &r.clamped {

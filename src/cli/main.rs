@@ -90,7 +90,8 @@ enum Subcommands {
     Completions(completions::CompletionsArgs),
 }
 
-/// A negative number after an option is its value, not an option that there is not: what has a range then says it.
+/// Makes a negative number after an option its value rather than an unknown option, so that a range check can report
+/// it.
 fn with_negative_numbers(command: clap::Command) -> clap::Command {
     let allow = |arg: Arg| match arg.is_positional() || !arg.get_action().takes_values() {
         true => arg,

@@ -1,4 +1,4 @@
-//! Numbers as people read them: `120 Hz`, not `119.99999 Hz`; `0.0564 m`, not `0.056444444 m`. JSON and CSV keep every
+//! Numbers rounded for people: `120 Hz`, not `119.99999 Hz`; `0.0564 m`, not `0.056444444 m`. JSON and CSV keep every
 //! digit.
 
 use std::fmt::Display;
@@ -8,7 +8,7 @@ const MEASURED: usize = 3;
 /// Significant digits of rates: 59.94 and 29.97 Hz differ from 60 and 30 Hz.
 const RATE: usize = 4;
 
-/// Most decimals of a rounded number: what is smaller counts as 0.
+/// Largest number of decimals of a rounded number: anything smaller counts as 0.
 const MOST_DECIMALS: i32 = 9;
 
 /// A number with this many decimals, or a dash.

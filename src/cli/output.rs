@@ -30,10 +30,10 @@ pub fn extension(flag: &str, path: &Path, accepted: &[&'static str]) -> Result<&
     }
 }
 
-/// Checks that the folder of a file that is to be written is there, before work whose result would be lost.
+/// Checks that the folder of an output file exists, before work whose result would be lost.
 ///
 /// # Errors
-/// It is not; names the flag and the folder.
+/// It does not exist; names the flag and the folder.
 pub fn check_folder(flag: &str, path: Option<&Path>) -> Result<()> {
     let Some(path) = path else { return Ok(()) };
     match path.parent() {
@@ -49,10 +49,10 @@ pub fn check_folder(flag: &str, path: Option<&Path>) -> Result<()> {
     }
 }
 
-/// Checks that the files of several clips get names of their own ([`for_clip`]).
+/// Checks that the files of several clips get different names ([`for_clip`]).
 ///
 /// # Errors
-/// Two of these clips have one name.
+/// Two of these clips have the same name.
 pub fn check_names(mut clips: Vec<String>) -> Result<()> {
     clips.sort_unstable();
     match clips.windows(2).find(|two| two[0] == two[1]) {

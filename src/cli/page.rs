@@ -25,17 +25,17 @@ pub fn progress(name: &'static str, steps: u64) -> ProgressBar {
     bar
 }
 
-/// The page as it grows, and where its pictures go.
+/// The page as it grows, and the folder of its pictures.
 pub struct Page {
     folder: PathBuf,
     text: String,
 }
 
 impl Page {
-    /// An empty page in `folder`, which is made if it is not there.
+    /// An empty page in `folder`, which is created if necessary.
     ///
     /// # Errors
-    /// A folder that cannot be made.
+    /// A folder that cannot be created.
     pub fn new(folder: &Path) -> Result<Self> {
         std::fs::create_dir_all(folder)
             .with_context(|| format!("cannot create {}", folder.display()))?;
@@ -76,7 +76,7 @@ impl Page {
         self.line("");
     }
 
-    /// A table in the form of Markdown.
+    /// A table in Markdown.
     pub fn table(&mut self, head: &[&str], rows: &[Vec<String>]) {
         self.line(&format!("| {} |", head.join(" | ")));
         self.line(&format!("|{}", "---|".repeat(head.len())));
@@ -86,7 +86,7 @@ impl Page {
         self.line("");
     }
 
-    /// A drawing with the text that stands for it, as `name.svg`.
+    /// A drawing with its alternative text, as `name.svg`.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -128,7 +128,7 @@ impl Page {
         Ok(())
     }
 
-    /// Adds strips seen from the side: file name, what there is to see, title.
+    /// Adds strips seen from the side: file name, description, title.
     pub fn strips(
         &mut self,
         body: &Body,
@@ -141,7 +141,7 @@ impl Page {
     }
 }
 
-/// What the folder holds in all.
+/// Number and total size of the files in the folder.
 fn size(folder: &Path) -> Result<String> {
     let mut bytes = 0;
     let mut files = 0u64;

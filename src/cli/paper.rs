@@ -34,7 +34,7 @@ const PANELS: usize = 7;
 const LOADS: [f64; 4] = [1.0, 3.0, 4.0, 5.0];
 /// Experiments, for the progress bar.
 const STEPS: u64 = 10;
-/// Built-in motions that the controllers are compared on, and those during which they are pushed.
+/// Built-in motions with which the controllers are compared, and those during which they are pushed.
 const COMPARED: [&str; 5] = ["idle", "wave", "lift", "crate", "squat"];
 const PUSHED: [&str; 2] = ["idle", "wave"];
 
@@ -307,7 +307,7 @@ fn lifts(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.plot("lift-error", &plot)
 }
 
-/// Bodies that lift the same things.
+/// Several bodies that lift the same loads.
 fn crowd() -> Vec<Arc<Body>> {
     let person = |sex, age| {
         let profile = Profile::ordinary(sex, age);
@@ -684,7 +684,7 @@ fn hands(page: &mut Page, body: &Arc<Body>) -> Result<()> {
     page.strips(body, &strips)
 }
 
-/// Support ratio of the hand at both ends of the way of the centre of mass.
+/// Support ratio of the hand at both ends of the path of the centre of mass.
 fn ratio(s: &HandSupport) -> String {
     let [(from, low), (to, high)] = s.ratio;
     if from >= to {
@@ -798,7 +798,7 @@ fn time(page: &mut Page, body: &Arc<Body>) -> Result<()> {
         ControlPair::modern(),
     ] {
         let (mut world, _) = scene(body, &pair, 3.0, arm);
-        // The first second warms caches; the paper's preset falls apart later, which is not the case to time.
+        // The first second warms caches; the paper's preset falls apart later, and that part should not be timed.
         let ticks = (2.4 * pair.rate_hz) as usize;
         let mut us = Vec::with_capacity(ticks);
         for _ in 0..ticks {

@@ -56,7 +56,7 @@ fn contains(group: &ParamGroup, p: &Param, text: &str) -> bool {
         .any(|t| t.to_lowercase().contains(text))
 }
 
-/// The meaning in one line.
+/// The meaning on one line.
 fn meaning(p: &Param) -> String {
     p.what.split_whitespace().collect::<Vec<_>>().join(" ")
 }

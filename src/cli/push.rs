@@ -90,7 +90,7 @@ pub fn run(args: &PushArgs) -> anyhow::Result<()> {
     runtime.block_on(push(args))
 }
 
-/// Checks what clap cannot.
+/// Checks the conditions that clap cannot.
 fn check(args: &PushArgs) -> anyhow::Result<()> {
     for (name, value, high) in [
         ("--loss", args.loss, 0.9),
@@ -136,7 +136,7 @@ async fn push(args: &PushArgs) -> anyhow::Result<()> {
     let world = world_resource(&args.world);
     client.world(&world).await.map_err(|e| explain(&e))?;
 
-    // Which body the figure has decides how the motion is retargeted.
+    // The body of the figure decides how the motion is retargeted.
     let name = format!("{world}/figures/{}", args.figure);
     let existing = client
         .figures()
@@ -152,7 +152,7 @@ async fn push(args: &PushArgs) -> anyhow::Result<()> {
     let reference = convert::body::by_name("body", body_name)?;
     let body = engine::build_body(reference.profile)?;
     let clip = prepared(args, &recording, &body)?;
-    // From standing, by the steps that lead into the motion.
+    // Starts from a stand, with the steps that lead into the motion.
     let lead = clip.lead_in();
     let start = engine::place_of(&clip.sample(-lead).posture);
     let created = existing.is_none();
@@ -227,7 +227,7 @@ fn prepared(args: &PushArgs, recording: &Recording, body: &Body) -> anyhow::Resu
     Ok(repeats.flatten().unwrap_or(clip))
 }
 
-/// Sends the clip at its own pace and prints each second how it arrives.
+/// Sends the clip at its own pace and prints once a second how it arrives.
 async fn stream(
     args: &PushArgs,
     clip: &Clip,
@@ -273,10 +273,10 @@ async fn stream(
         if let Some(at) = network.arrival(t) {
             tokio::time::sleep_until((began + Duration::from_secs_f64(at)).into()).await;
             if !driver.send(vec![frame]).await {
-                break; // the reason comes below
+                break; // the reason is reported below
             }
         }
-        // Feedback is read as it comes; its arrival does not hold the motion up.
+        // Feedback is read when available; the motion does not wait for it.
         while let Some(ready) = futures_util::FutureExt::now_or_never(driver.feedback()) {
             match ready.map_err(|e| explain(&e))? {
                 Some(f) => {
@@ -306,7 +306,7 @@ async fn stream(
     Ok(())
 }
 
-/// Time from a frame's capture to its use, as feedback shows it (so with the way back).
+/// Time from a frame's capture to its use, as feedback shows it (so it includes the way back).
 #[derive(Clone, Copy, Debug, Default)]
 struct FrameDelay {
     sum: f64,

@@ -1,4 +1,4 @@
-//! `sinew rehearse`: finds out what has to be added to a recording, or how much help it takes, so that a body does it.
+//! `sinew rehearse`: finds the changes to a recording, or the help, with which a body can do it.
 
 use super::args::{BodyArgs, FileArgs, LoadSpec};
 use super::exit::{usage, within};
@@ -63,7 +63,7 @@ pub struct HelpArgs {
 }
 
 impl HelpArgs {
-    /// Checks what clap cannot.
+    /// Checks the conditions that clap cannot.
     ///
     /// # Errors
     /// A share out of range.
@@ -127,11 +127,11 @@ pub struct RehearseArgs {
     pub json: bool,
 }
 
-/// A recording in the forms that it takes.
+/// A recording in the forms needed by a rehearsal.
 pub(super) struct Forms {
-    /// What it is judged by: as recorded and as prepared.
+    /// The reference by which it is judged: as recorded and as prepared.
     pub reference: TrackingReference,
-    /// What is rehearsed.
+    /// The clip that is rehearsed.
     pub as_recorded: Arc<Clip>,
 }
 
@@ -251,7 +251,7 @@ fn conditions(args: &RehearseArgs, body: &Arc<Body>) -> Conditions {
     }
 }
 
-/// The clip, fitted to the body as it is judged, as it is tracked and as it is rehearsed.
+/// The clip, fitted to the body in three forms: for judging, for tracking and for the rehearsal.
 fn read(args: &RehearseArgs, body: &Body) -> Result<(String, Forms)> {
     let fitted = |preparation: Preparation| {
         let options = args.file.apply(RetargetOptions {
@@ -286,7 +286,7 @@ fn read(args: &RehearseArgs, body: &Body) -> Result<(String, Forms)> {
     ))
 }
 
-/// The forecast of plain tracking, with the loads that are carried.
+/// The forecast of plain tracking, including the loads.
 fn forecast_of(conditions: &Conditions, clip: &Clip) -> Forecast {
     let mut links = sinew_physics::body::Links::new(&conditions.body);
     for load in conditions.perturbations.iter().filter_map(|p| p.load()) {
@@ -331,7 +331,7 @@ fn show(bar: &ProgressBar, p: &Progress) {
     ));
 }
 
-/// Processor time of this process so far.
+/// Processor time that this process has used.
 fn processor_time() -> Option<Duration> {
     #[cfg(target_os = "linux")]
     {
@@ -346,7 +346,7 @@ fn processor_time() -> Option<Duration> {
     None
 }
 
-/// How long a strip goes on after the recording, s.
+/// How long a strip continues after the recording, s.
 const AFTER: f64 = 1.0;
 
 /// A row of frames of one run.
@@ -394,7 +394,7 @@ fn json(
     })
 }
 
-/// Processor seconds for each second of the motion that was rehearsed.
+/// Processor seconds per second of the rehearsed motion.
 fn per_second(found: &FollowResult, took: Option<f64>) -> Option<f64> {
     let report = found.followed.rehearsal.as_ref()?;
     Some(took? / report.duration_s)

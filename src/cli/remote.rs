@@ -1,6 +1,6 @@
 //! Names and errors of servers, for the commands that talk to one.
 
-/// A world's resource name from what a user typed: `demo` or `worlds/demo`.
+/// A world's resource name from the user's input: `demo` or `worlds/demo`.
 pub fn world_resource(name: &str) -> String {
     if name.starts_with("worlds/") {
         name.to_owned()

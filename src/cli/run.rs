@@ -43,8 +43,8 @@ use scenario::Scenario;
 /// Longest accepted duration of a run, s.
 const MAX_DURATION: f64 = 86_400.0;
 
-/// Runs the command. A figure that falls is a result, not an error: the report says so, and the outcome with
-/// `--fail-on-fall`.
+/// Runs the command. A figure that falls is a result, not an error: the report says so, and with `--fail-on-fall` so
+/// does the outcome.
 ///
 /// # Errors
 /// Bad arguments, unreadable clips, files that cannot be written.
@@ -61,7 +61,7 @@ pub fn run(args: &RunArgs) -> Result<ExitOutcome> {
         },
         args,
     };
-    // Bad parameters are worth knowing before clips are read.
+    // Report bad parameters before clips are read.
     World::new(scenario.params).map_err(refused)?;
     let options = args.file.apply(RetargetOptions {
         tempo: args.tempo,
@@ -99,7 +99,7 @@ pub fn run(args: &RunArgs) -> Result<ExitOutcome> {
     };
     if args.json {
         match print(&text) {
-            // What the exit code says does not depend on the reader.
+            // The exit code does not depend on the reader of the output.
             Err(e) if e.is::<super::terminal::OutputClosed>() => {}
             other => other?,
         }
@@ -107,7 +107,7 @@ pub fn run(args: &RunArgs) -> Result<ExitOutcome> {
     Ok(outcome)
 }
 
-/// What is wrong with the parameters of the world, by the flag that is to be changed.
+/// Describes the error in the parameters of the world, naming the flag that has to be changed.
 fn refused(error: WorldError) -> anyhow::Error {
     match error {
         WorldError::Range {
@@ -127,7 +127,7 @@ fn refused(error: WorldError) -> anyhow::Error {
     }
 }
 
-/// Checks what clap cannot.
+/// Checks the conditions that clap cannot.
 fn check(args: &RunArgs) -> Result<()> {
     args.paper.params().map_err(usage)?;
     check_tempo(args.tempo)?;
@@ -197,7 +197,7 @@ fn run_all(scenario: &Scenario<'_>, sources: &[LoadedClip]) -> Result<Vec<serde_
                     let Some(source) = sources.get(i) else { break };
                     let result = run_one(scenario, source, sources.len() > 1, &table);
                     if result.is_err() {
-                        // The command has failed: no further clip is begun.
+                        // The command has failed: start no further clip.
                         next.store(sources.len(), Ordering::Relaxed);
                     }
                     let mut results = results
@@ -208,7 +208,7 @@ fn run_all(scenario: &Scenario<'_>, sources: &[LoadedClip]) -> Result<Vec<serde_
             });
         }
     });
-    // Clips that were not begun have no result; then another one has an error.
+    // A clip that was not started has no result; in that case another one has an error.
     let results = results.into_inner().expect("all threads have ended");
     let documents = results.into_iter().flatten().collect::<Result<Vec<_>>>()?;
     table.legend()?;

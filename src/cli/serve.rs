@@ -13,8 +13,8 @@ use std::sync::Arc;
 use tokio::net::TcpSocket;
 use tracing_subscriber::EnvFilter;
 
-/// Connections that the system holds until they are accepted: as many as Linux allows. One that finds the queue full
-/// tries again after a second, whoever filled it.
+/// Connections that the system holds until they are accepted: as many as Linux allows. A connection that finds the
+/// queue full, for whatever reason, tries again after a second.
 const BACKLOG: u32 = 4096;
 
 /// Arguments of `sinew serve`.
@@ -52,14 +52,14 @@ fn pair(text: &str) -> Result<(String, String), String> {
         .ok_or_else(|| "expected NAME=VALUE".to_owned())
 }
 
-/// Variables of the environment. What is no UTF-8 in them is replaced: no setting has it.
+/// Variables of the environment. Anything in them that is not UTF-8 is replaced: no setting contains it.
 fn variables() -> impl Iterator<Item = (String, String)> {
     let text = |s: std::ffi::OsString| s.to_string_lossy().into_owned();
     std::env::vars_os().map(move |(name, value)| (text(name), text(value)))
 }
 
 impl ServeArgs {
-    /// Settings from all sources, and where each comes from.
+    /// Settings from all sources, and the source of each.
     ///
     /// # Errors
     /// One is not usable.
@@ -107,7 +107,7 @@ pub fn run(args: &ServeArgs) -> anyhow::Result<()> {
 }
 
 async fn serve(args: &ServeArgs, config: Arc<Config>, filter: EnvFilter) -> anyhow::Result<()> {
-    // The port is taken now, so that a mistake is told at once, and accepts when there is somebody to answer.
+    // Binds the port now, so that a mistake is reported at once; accepts connections only when the server can answer.
     let cannot_listen = || {
         format!(
             "cannot listen on {}: is another server running? --listen selects another port",
@@ -117,8 +117,8 @@ async fn serve(args: &ServeArgs, config: Arc<Config>, filter: EnvFilter) -> anyh
     let socket = bind(config.listen).with_context(cannot_listen)?;
     let address = socket.local_addr()?;
     let log = || telemetry::init_logs(filter, config.log_json, stderr_shows_colour());
-    // What is damaged in a data directory is logged as it is opened. Otherwise the address is the first line even where
-    // both outputs are one.
+    // Damage in a data directory is logged as it is opened. Otherwise the address is the first line even where both
+    // outputs are the same.
     let opens = !config.data_dir.is_empty();
     let log = if opens {
         log();
@@ -137,7 +137,7 @@ async fn serve(args: &ServeArgs, config: Arc<Config>, filter: EnvFilter) -> anyh
     }
     let listener = socket.listen(BACKLOG).with_context(cannot_listen)?;
     let serving = tokio::spawn(sinew_server::serve(app, listener, interrupted(), stop));
-    // One write: a reader that wants the first line only takes the rest with it. A server without readers serves all
+    // One write: a reader that wants only the first line takes the rest with it. A server without readers serves all
     // the same.
     match print(&greeting(address, &config, &figures)) {
         Err(error) if !error.is::<OutputClosed>() => note(&format!("warning: {error:#}")),
@@ -155,8 +155,8 @@ async fn serve(args: &ServeArgs, config: Arc<Config>, filter: EnvFilter) -> anyh
     serving.await?.map_err(|e| anyhow::anyhow!(e))
 }
 
-/// Settings that differ from their defaults. `sinew config show` lists all: here they would take the address off the
-/// terminal.
+/// Settings that differ from their defaults. `sinew config show` lists all of them; here they would push the address
+/// off the terminal.
 fn changed(config: &Config) -> impl Iterator<Item = (&'static str, String)> {
     let defaults = Config::default().shown();
     let both = config.shown().into_iter().zip(defaults);
@@ -164,20 +164,20 @@ fn changed(config: &Config) -> impl Iterator<Item = (&'static str, String)> {
         .map(|((name, _, value), _)| (name, value))
 }
 
-/// A socket that has the address and does not accept yet.
+/// A socket that holds the address but does not accept yet.
 fn bind(address: SocketAddr) -> std::io::Result<TcpSocket> {
     let socket = if address.is_ipv4() {
         TcpSocket::new_v4()?
     } else {
         TcpSocket::new_v6()?
     };
-    // A server that was just stopped does not keep its address.
+    // Allows the address of a server that has just stopped to be used again.
     socket.set_reuseaddr(true)?;
     socket.bind(address)?;
     Ok(socket)
 }
 
-/// What is printed when the server is ready.
+/// The text printed when the server is ready.
 fn greeting(address: SocketAddr, config: &Config, figures: &[&str]) -> String {
     let viewer = config.viewer;
     let scheme = if config.tls_cert.is_empty() {

@@ -13,7 +13,7 @@ use std::path::Path;
 pub struct LoadedClip {
     /// File stem or built-in name.
     pub name: String,
-    /// As it was given.
+    /// The argument as given.
     pub spec: String,
     /// The motion.
     pub clip: Clip,
@@ -31,7 +31,7 @@ pub fn warn(source: &LoadedClip) {
 /// Prefix of built-in motions.
 pub const BUILTIN: &str = "builtin:";
 
-/// There is no built-in motion of this name.
+/// The error for an unknown built-in motion.
 pub fn no_builtin(name: &str) -> UsageError {
     UsageError(format!(
         "there is no built-in motion {name:?}; the built-in motions are {}",

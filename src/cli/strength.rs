@@ -101,7 +101,7 @@ pub fn run(args: &StrengthArgs) -> Result<()> {
     }
 }
 
-/// The directions that need most, and what becomes of them.
+/// The directions that need most, and their values in the file.
 fn table(envelope: &Envelope, file: &StrengthFile) -> String {
     let mut all: Vec<(usize, usize)> = (0..DOF_NAMES.len())
         .flat_map(|d| [(d, 0), (d, 1)])

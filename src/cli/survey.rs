@@ -1,4 +1,5 @@
-//! `sinew survey`: every clip of a corpus through the physics, judged by one set of rules; a table of what came of it.
+//! `sinew survey`: runs every clip of a corpus through the physics and judges all by one set of rules; prints a table
+//! of the results.
 
 mod args;
 mod corpus;
@@ -25,18 +26,19 @@ use sinew_physics::world::WorldParams;
 use std::io::Write;
 use std::sync::Arc;
 
-/// Most copies of a clip.
+/// Largest number of copies of a clip.
 const MAX_COPIES: u32 = 1000;
 
 /// Runs the command.
 ///
-/// # Errors Bad arguments, an empty corpus, files that cannot be written, settings that differ from those compared
-/// with, regressions.
+/// # Errors
+/// Bad arguments, an empty corpus, files that cannot be written, settings that differ from those compared with,
+/// regressions.
 pub fn run(args: &SurveyArgs) -> Result<()> {
     check(args).map_err(super::exit::usage)?;
     let body = Arc::new(args.body.build()?);
     let clips = corpus::gather(&args.corpus)?;
-    // What it is compared with, and where it is to be written, is worth knowing before an hour of work.
+    // Check the survey to compare with, and the place to write to, before an hour of work.
     let old = args.compare.as_deref().map(file::read).transpose()?;
     if let Some(page) = &args.page {
         page.check()?;
@@ -105,7 +107,7 @@ fn check(args: &SurveyArgs) -> Result<()> {
     args.load.iter().try_for_each(LoadSpec::check_rehearsable)
 }
 
-/// Everything that the numbers depend on besides clips and build, by name.
+/// Everything besides clips and build on which the numbers depend, by name.
 fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_json::Value> {
     let p = &body.profile;
     let loads: Vec<String> = (args.load.iter())
@@ -142,7 +144,7 @@ fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_jso
         "noise_deg": args.noise.degrees,
     });
     match all {
-        // Surveys of plain tracking are as they were before there was anything else.
+        // Surveys of plain tracking keep the form they had before other ways to follow existed.
         serde_json::Value::Object(map) if args.follow == FollowArg::Strict => map,
         serde_json::Value::Object(mut map) => {
             let follow = Follow::from(args.follow).name();

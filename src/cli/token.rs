@@ -1,4 +1,4 @@
-//! `sinew token`: makes bearer tokens for small set-ups, signed with a secret that the server has, too.
+//! `sinew token`: makes bearer tokens for small set-ups, signed with a secret that the server shares.
 
 use super::exit::UsageError;
 use super::terminal::{note, print_line};
@@ -48,7 +48,7 @@ fn role(text: &str) -> Result<Role, String> {
         .ok_or_else(|| "expected viewer, perturber, driver, director, owner or creator".to_owned())
 }
 
-/// Prints a token on standard output, and nothing else there.
+/// Prints a token, and nothing else, on standard output.
 ///
 /// # Errors
 /// The file with the secret cannot be used, or a name is not allowed.

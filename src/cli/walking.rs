@@ -100,7 +100,7 @@ pub fn run(args: &WalkingArgs) -> Result<()> {
     page.finish()
 }
 
-/// The motion of a recording; if it is a run, turned into a walk and as recorded.
+/// The motion of a recording; a run is returned both turned into a walk and as recorded.
 fn motions(spec: &str, body: &Body) -> Result<Vec<LoadedMotion>> {
     let read = |kind: &str, walk_runs| -> Result<(LoadedMotion, bool)> {
         let options = RetargetOptions {
@@ -215,7 +215,7 @@ fn toward(heading: f64, k: usize, impulse: f64) -> Vec3 {
     }
 }
 
-/// Pushes of all impulses and directions at `moments`; the motion goes on as it is.
+/// Pushes of all impulses and directions at `moments`; the motion itself continues unchanged.
 fn map(
     walker: &Walker,
     clip: &Arc<Clip>,

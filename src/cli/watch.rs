@@ -37,10 +37,10 @@ pub struct WatchArgs {
     credentials: CredentialArgs,
 }
 
-/// Most ticks from one frame to the next.
+/// Largest number of ticks from one frame to the next.
 const MOST_EVERY: f64 = 1000.0;
 
-/// Checks what clap cannot.
+/// Checks the conditions that clap cannot.
 fn check(args: &WatchArgs) -> anyhow::Result<()> {
     within("--every", f64::from(args.every), [1.0, MOST_EVERY])?;
     match args.count {

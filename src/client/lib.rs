@@ -1,4 +1,4 @@
-//! A thin client: one connection, the generated clients over it, and the few steps that every user of a stream takes.
+//! A thin client: one connection, the generated clients over it, and the few steps that every user of a stream needs.
 
 mod network;
 mod simulation;
@@ -20,19 +20,19 @@ use tonic::service::interceptor::InterceptedService;
 use tonic::transport::{Certificate, Channel, ClientTlsConfig, Endpoint, Identity};
 use tonic::{Code, Request, Status, Streaming};
 
-/// Largest message that is taken: an offline simulation with frames.
+/// Largest message that is accepted: an offline simulation with frames.
 const MAX_MESSAGE: usize = 64 * 1024 * 1024;
-/// Window of one stream: a few frames, so that what is read is never old.
+/// Window of one stream: a few frames, so that the frames read are never old.
 const STREAM_WINDOW: u32 = 64 * 1024;
 /// Batches on their way to the server.
 const DRIVE_QUEUE: usize = 8;
 
-/// How a client says who it is, and how it knows the server.
+/// How a client identifies itself, and how it verifies the server.
 #[derive(Clone, Default)]
 pub struct Credentials {
     /// Bearer token.
     pub token: Option<String>,
-    /// Roots that the server's certificate is checked with, PEM; `None`: those of the system.
+    /// Root certificates with which the server's certificate is checked, PEM; `None`: those of the system.
     pub ca: Option<Vec<u8>>,
     /// Certificate and private key of the client, PEM.
     pub certificate: Option<(Vec<u8>, Vec<u8>)>,
@@ -65,10 +65,10 @@ impl Interceptor for WithToken {
     }
 }
 
-/// What the generated clients call through.
+/// The channel through which the generated clients call.
 pub type Service = InterceptedService<Channel, WithToken>;
 
-/// Why a connection is not made.
+/// Why a connection cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ConnectError {
     /// Not an address.
@@ -77,7 +77,7 @@ pub enum ConnectError {
     /// The credentials cannot be used.
     #[error("the credentials cannot be used: {0}")]
     Credentials(String),
-    /// Nobody answers.
+    /// There is no answer.
     #[error("no server answers at {address}: {}", why(error))]
     Refused {
         /// The address.
@@ -108,7 +108,7 @@ impl Client {
     /// Connects to `host:port`, `http://host:port` or `https://host:port`.
     ///
     /// # Errors
-    /// The address is none, or nobody answers there.
+    /// The address is not valid, or there is no answer.
     pub async fn connect(address: &str) -> Result<Self, ConnectError> {
         Self::connect_with(address, &Credentials::default()).await
     }
@@ -116,7 +116,7 @@ impl Client {
     /// As [`Client::connect`], with credentials. Roots or a certificate turn TLS on.
     ///
     /// # Errors
-    /// The address is none, the credentials cannot be used, or nobody answers there.
+    /// The address is not valid, the credentials cannot be used, or there is no answer.
     pub async fn connect_with(
         address: &str,
         credentials: &Credentials,
@@ -179,7 +179,7 @@ impl Client {
         Ok(answer.status() == ServingStatus::Serving)
     }
 
-    /// A page of the server, as text, for example `/metrics`. At most 16 MiB of it are taken.
+    /// A page of the server, as text, for example `/metrics`. At most 16 MiB of it are read.
     ///
     /// # Errors
     /// There is no such page, or the server does not answer.
@@ -259,7 +259,7 @@ impl Client {
         }
     }
 
-    /// Frames of a world as they come.
+    /// Frames of a world as they arrive.
     ///
     /// # Errors
     /// Those of the server.
@@ -280,7 +280,7 @@ impl Client {
     /// Begins to drive figures live.
     ///
     /// # Errors
-    /// Those of the server, for example that someone else drives one of the figures.
+    /// Those of the server, for example when another driver already has one of the figures.
     pub async fn drive(&self, header: pb::DriveHeader) -> Result<LiveDriver, Status> {
         use pb::drive_figures_request::Message;
         let (send, receive) = mpsc::channel(DRIVE_QUEUE);
@@ -310,7 +310,7 @@ fn tls(credentials: &Credentials) -> ClientTlsConfig {
     }
 }
 
-/// An error with what it comes from.
+/// An error with its causes.
 fn why(error: &dyn std::error::Error) -> String {
     let mut out = error.to_string();
     let mut source = error.source();
@@ -321,7 +321,7 @@ fn why(error: &dyn std::error::Error) -> String {
     out
 }
 
-/// A live drive. Dropping it gives the figures back.
+/// A live drive. Dropping it releases the figures.
 #[derive(Debug)]
 pub struct LiveDriver {
     send: mpsc::Sender<pb::DriveFiguresRequest>,

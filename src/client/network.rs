@@ -1,4 +1,4 @@
-//! A simulated network, to try out what delays and losses do to live motion.
+//! A simulated network, to try out the effect of delays and losses on live motion.
 
 /// A network that delays and drops frames, the same way for the same seed.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ impl Network {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// When a frame that is sent at `t` (s) arrives, not before those sent earlier; `None` if it is lost.
+    /// Arrival time of a frame sent at `t` (s), not before that of earlier frames; `None` if it is lost.
     pub fn arrival(&mut self, t: f64) -> Option<f64> {
         let (late, lost) = (self.random(), self.random());
         if lost < self.loss {

@@ -1,10 +1,10 @@
-//! A simulation without a world, put together step by step.
+//! A simulation without a world, assembled step by step.
 
 use super::Client;
 use sinew_wire::pb;
 use tonic::Status;
 
-/// A clip tracked by one figure, with what happens to it meanwhile. Everything that is not said has its default.
+/// A clip tracked by one figure, with the events that affect it. Everything left out has its default.
 #[derive(Clone, Debug)]
 pub struct Simulation {
     request: pb::SimulateClipRequest,
@@ -77,7 +77,7 @@ impl Simulation {
         self
     }
 
-    /// Asks for one frame in `divisor` ticks, with these fields of `FigureFrame`, in double precision.
+    /// Asks for one frame per `divisor` ticks, with these fields of `FigureFrame`, in double precision.
     #[must_use]
     pub fn frames(mut self, divisor: i32, fields: &[&str]) -> Self {
         let paths = fields.iter().map(|&f| f.to_owned()).collect();
@@ -113,7 +113,7 @@ impl Client {
     /// The body `bodies/{body}`: segments, joints and degrees of freedom in the order of frames, without surfaces.
     ///
     /// # Errors
-    /// Those of the server, for example that the name is none.
+    /// Those of the server, for example when there is no body of that name.
     pub async fn body(&self, name: &str) -> Result<pb::Body, Status> {
         let request = pb::GetBodyRequest {
             name: name.to_owned(),

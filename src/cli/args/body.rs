@@ -1,4 +1,4 @@
-//! Which body the figure has.
+//! The body of the figure.
 
 use crate::exit::{UsageError, usage};
 use crate::number::kilograms;
@@ -38,10 +38,10 @@ impl BodyArgs {
         self.age.or(self.height).or(self.mass).is_some()
     }
 
-    /// The profile of the body: that of the name, changed by age, height and mass.
+    /// The profile of the named body, changed by age, height and mass.
     ///
     /// # Errors
-    /// A name by value together with one of the values.
+    /// The name describes a body by values, and one of the options is given as well.
     pub fn profile(&self) -> Result<Profile> {
         let base = self
             .body
@@ -75,7 +75,7 @@ impl BodyArgs {
         Body::humanoid(profile).map_err(|e| self.refused(&profile, e))
     }
 
-    /// What is wrong with a profile, by the option that is to be changed.
+    /// Describes the error in a profile, naming the option that has to be changed.
     fn refused(&self, profile: &Profile, error: BodyError) -> anyhow::Error {
         let BodyError::Profile {
             field,

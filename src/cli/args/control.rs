@@ -189,7 +189,7 @@ impl PaperOptions {
         Ok(out)
     }
 
-    /// Names of the options that were given and that other controllers do not read.
+    /// Names of the given options that only the paper's controller reads.
     pub fn of_paper_only(&self) -> impl Iterator<Item = &'static str> {
         let given = [
             ("--metric", self.metric.is_some()),

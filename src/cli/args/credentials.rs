@@ -1,4 +1,4 @@
-//! How a command says who it is to a server, and how it knows the server.
+//! How a command identifies itself to a server, and how it verifies the server.
 
 use anyhow::Context as _;
 use sinew_client::{Client, Credentials};
@@ -22,10 +22,10 @@ pub struct CredentialArgs {
 }
 
 impl CredentialArgs {
-    /// Connects with them.
+    /// Connects with these credentials.
     ///
     /// # Errors
-    /// A file cannot be read, or nobody answers.
+    /// A file cannot be read, or there is no answer.
     pub async fn connect(&self, address: &str) -> anyhow::Result<Client> {
         let read = |path: &Path| std::fs::read(path).with_context(|| path.display().to_string());
         let token = match &self.token_file {

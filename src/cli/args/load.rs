@@ -12,7 +12,7 @@ use std::fmt;
 use std::str::FromStr;
 
 /// `KG@SEGMENT[+SEGMENT|+auto|+always][@T0..T1]`: a load held by one or two segments, from T0 to T1 seconds; either end
-/// may be left out. The other hand of a hand helps when one arm is too weak, or always.
+/// may be left out. With `auto` the other hand helps when one arm is too weak, with `always` at all times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadSpec {
     /// Carrying segment.
@@ -54,10 +54,10 @@ impl LoadSpec {
         }
     }
 
-    /// Checks that a rehearsal can have the load, which is otherwise found out only where plain tracking fails.
+    /// Checks that a rehearsal can carry the load; otherwise the error would come only after plain tracking has failed.
     ///
     /// # Errors
-    /// A load of two hands, or one that comes or goes.
+    /// A load held by two hands, or one that is picked up or put down during the clip.
     pub fn check_rehearsable(&self) -> anyhow::Result<()> {
         let error = if self.second.is_some() || self.help.is_some() {
             FollowError::TwoHands
@@ -71,7 +71,7 @@ impl LoadSpec {
     }
 }
 
-/// As it can be given.
+/// In the form of the argument.
 impl fmt::Display for LoadSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}@{}", self.mass_kg, self.segment.name())?;

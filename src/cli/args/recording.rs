@@ -34,7 +34,7 @@ pub struct FileArgs {
 }
 
 impl FileArgs {
-    /// `options` with the unit and the axis that are given.
+    /// `options` with the given unit and axis.
     #[must_use]
     pub fn apply(&self, options: RetargetOptions) -> RetargetOptions {
         RetargetOptions {
@@ -82,7 +82,7 @@ pub struct RecordingArgs {
     pub tempo: f64,
 }
 
-/// Checks a tempo. Retargeting checks it as well, but not for motions that are built in, nor by the name of the flag.
+/// Checks a tempo. Retargeting checks it as well, but not for built-in motions, nor does its message name the flag.
 ///
 /// # Errors
 /// It is outside its range.
@@ -91,7 +91,7 @@ pub fn check_tempo(tempo: f64) -> anyhow::Result<()> {
 }
 
 impl RecordingArgs {
-    /// The ordinary preparation of a file that is read so.
+    /// The ordinary preparation of a file with these options.
     pub fn options(&self) -> RetargetOptions {
         self.file.apply(RetargetOptions {
             tempo: self.tempo,

@@ -9,25 +9,25 @@ pub enum SpecError {
     /// Wrong form.
     #[error("{got:?} is not of the form {form}")]
     Form {
-        /// What was given.
+        /// The given text.
         got: String,
-        /// What is expected.
+        /// The expected form.
         form: &'static str,
     },
     /// Not a number.
     #[error("{what}: {got:?} is not a number")]
     Number {
-        /// Which part.
+        /// The part concerned.
         what: &'static str,
-        /// What was given.
+        /// The given text.
         got: String,
     },
     /// Out of range.
     #[error("{what}: {value} is outside {lower}…{upper}")]
     Range {
-        /// Which part, with unit.
+        /// The part concerned, with unit.
         what: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
         /// Least.
         lower: f64,

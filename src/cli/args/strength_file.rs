@@ -1,4 +1,4 @@
-//! Strength files: `sinew.v1.StrengthScale` as JSON, so that a request takes the same text.
+//! Strength files: `sinew.v1.StrengthScale` as JSON, so that the same text can be used in a request.
 
 use crate::exit::UsageError;
 use anyhow::{Context, Result};
@@ -75,9 +75,9 @@ impl StrengthFile {
         Self::parse(&text).map_err(|e| UsageError(format!("{}: {e:#}", path.display())).into())
     }
 
-    /// The strength that a text says.
+    /// Parses the text of a strength file.
     fn parse(text: &str) -> Result<StrengthScale> {
-        // Only by names: a list would be taken as the fields in their order.
+        // Fields are accepted only by name: a list would be read as the fields in their order.
         let value: serde_json::Value = serde_json::from_str(text).context("not JSON")?;
         anyhow::ensure!(value.is_object(), "not a strength file");
         let file: Self = serde_json::from_value(value).context("not a strength file")?;

@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// Time in which the last frames that were sent can still be shown.
+/// Time after the end in which viewers can still receive the last frames.
 pub(super) const TAIL: Duration = Duration::from_secs(1);
 
 /// Arguments of `sinew bench`.
@@ -113,7 +113,7 @@ pub(super) enum Storing {
 }
 
 impl Storing {
-    /// As the arguments and the settings have it.
+    /// The name used by the arguments and the settings.
     pub(super) fn name(self) -> String {
         let value = self.to_possible_value().expect("no value is hidden");
         value.get_name().to_owned()

@@ -1,4 +1,4 @@
-//! What it costs to store worlds: the same load on servers that store in different ways, as a table of ratios.
+//! The cost of storing worlds: the same load on servers that store in different ways, as a table of ratios.
 
 use super::args::Storing;
 use super::report::{BenchReport, Delays};
@@ -11,7 +11,7 @@ pub(super) struct BenchComparison {
     rows: Vec<ComparisonRow>,
 }
 
-/// The reports of servers that store in one way, one of each round.
+/// The reports of servers that store in one way, one per round.
 #[derive(Debug, Serialize)]
 struct ComparisonRow {
     durability: Storing,
@@ -22,9 +22,9 @@ struct ComparisonRow {
 struct ComparisonColumn {
     head: &'static str,
     digits: usize,
-    /// What it shows of a report.
+    /// The column's value in a report.
     value: fn(&BenchReport) -> Option<f64>,
-    /// The ratio to the first row is shown beside.
+    /// Whether the ratio to the first row is shown beside it.
     compared: bool,
 }
 
@@ -73,13 +73,13 @@ const COLUMNS: [ComparisonColumn; 11] = [
     compared("p99, ms", 1, |r| p99(&r.clients.changes)),
     plain("commits/s", 0, |r| Some(r.disk.commits_per_s)),
     plain("kB/s", 0, |r| Some(r.disk.bytes_per_s * 1e-3)),
-    // Not every system counts it.
+    // Some systems do not count it.
     plain("kB/s on disk", 0, |r| {
         r.disk.disk_bytes_per_s.map(|b| b * 1e-3)
     }),
 ];
 
-/// The middle of some numbers.
+/// The median of some numbers.
 fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let upper = *values.get(values.len() / 2)?;
@@ -94,7 +94,7 @@ impl ComparisonRow {
 }
 
 impl BenchComparison {
-    /// Rows in this order, without reports. A way that is named twice has one row.
+    /// Rows in this order, without reports. A method that is named twice has one row.
     pub(super) fn new(ways: &[Storing]) -> Self {
         let mut rows: Vec<ComparisonRow> = Vec::new();
         for way in ways {
@@ -115,7 +115,7 @@ impl BenchComparison {
         }
     }
 
-    /// A table in Markdown: medians of the rounds, and in brackets how often the first row's.
+    /// A table in Markdown: medians of the rounds, with their ratio to the first row in brackets.
     pub(super) fn text(&self) -> String {
         let mut out = String::from("| durability |");
         for column in &COLUMNS {

@@ -1,4 +1,4 @@
-//! The load: drivers that send by a schedule, viewers that notice what they are shown, and calls.
+//! The load: drivers that send by a schedule, viewers that record the frames they receive, and calls.
 
 use super::args::{BenchArgs, TAIL};
 use crate::remote::explain;
@@ -17,18 +17,18 @@ use tokio::sync::{Semaphore, mpsc};
 use tokio::task::JoinHandle;
 use tonic::Status;
 
-/// Largest delay that is told apart, µs: a minute.
+/// Largest delay that is resolved, µs: a minute.
 const LONGEST_US: u64 = 60_000_000;
 /// Significant digits of a delay.
 const DIGITS: u8 = 3;
 /// The joint that drivers move: the right elbow.
 const ELBOW: usize = 19;
-/// Frames of a driver that wait for its connection, 17 s at 60 Hz. The schedule does not wait for it; what does not fit
-/// is lost, and counted.
+/// Frames of a driver that wait for its connection, 17 s at 60 Hz. The schedule does not wait for the connection;
+/// frames that do not fit are lost, and counted.
 const QUEUE: usize = 1024;
 /// Calls that wait for their answers.
 const CALLS: usize = 4096;
-/// What viewers ask for: enough to draw a figure.
+/// Fields that viewers request: enough to draw a figure.
 const FIELDS: [&str; 2] = ["root_pose", "joint_rotations"];
 
 /// Name of a figure.
@@ -36,31 +36,32 @@ pub(super) fn figure(i: u32) -> String {
     format!("f{i}")
 }
 
-/// What is measured.
+/// The schedule of a measurement.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Schedule {
-    /// Time before what is measured.
+    /// Time before the measurement.
     pub warm_up: Duration,
-    /// Time that is measured.
+    /// Duration of the measurement.
     pub length: Duration,
 }
 
-/// When number `i` of `rate` per second is due. Streams begin at different phases (0…1) of the period, so that they do
+/// Due time of number `i` of `rate` per second. Streams begin at different phases (0…1) of the period, so that they do
 /// not all send at once.
 fn due(begun: Instant, (rate, phase): (f64, f64), i: u64) -> Instant {
     begun + Duration::from_secs_f64((i as f64 + phase) / rate)
 }
 
-/// What was measured on this side.
+/// The measurements of the clients.
 #[derive(Debug)]
 pub(super) struct LoadMeasures {
-    /// From when a frame of motion was due to be sent to when a viewer had the frame that shows it, µs.
+    /// From the time a frame of motion was due to be sent until a viewer had the frame that shows it, µs.
     pub shown: Histogram<u64>,
-    /// From when a frame of motion was due to be sent to when it was, µs: what of that is this side's fault.
+    /// From the time a frame of motion was due to be sent until it was sent, µs: the part of the delay caused by the
+    /// clients.
     pub sent: Histogram<u64>,
-    /// From when a read was due to its answer, µs.
+    /// From the time a read was due until its answer, µs.
     pub calls: Histogram<u64>,
-    /// From when a change was due to its answer, µs.
+    /// From the time a change was due until its answer, µs.
     pub changes: Histogram<u64>,
     /// Errors, by where and code.
     pub errors: BTreeMap<String, u64>,
@@ -69,20 +70,20 @@ pub(super) struct LoadMeasures {
 /// The state of a bench.
 pub(super) struct Load {
     schedule: Schedule,
-    /// When the schedule began; nothing until all streams are open.
+    /// Start of the schedule; empty until all streams are open.
     begun: OnceLock<Instant>,
     stopped: AtomicBool,
     measured: Mutex<LoadMeasures>,
-    /// Frames of motion that were due while it was measured.
+    /// Frames of motion due during the measurement.
     pub due: AtomicU64,
-    /// Frames that viewers received meanwhile.
+    /// Frames that viewers received during the measurement.
     pub frames: AtomicU64,
-    /// Ticks that they missed meanwhile.
+    /// Ticks that viewers missed during the measurement.
     pub missed: AtomicU64,
 }
 
 impl Load {
-    /// Not begun yet.
+    /// A load that has not begun yet.
     pub(super) fn new(schedule: Schedule) -> anyhow::Result<Self> {
         let histogram = || Histogram::new_with_bounds(1, LONGEST_US, DIGITS);
         Ok(Self {
@@ -102,7 +103,7 @@ impl Load {
         })
     }
 
-    /// The time that is measured.
+    /// The time of the measurement.
     pub(super) fn window(&self) -> Range<Instant> {
         let begun = *self.begun.get_or_init(Instant::now);
         let from = begun + self.schedule.warm_up;
@@ -118,7 +119,7 @@ impl Load {
     }
 
     pub(super) fn measured(&self) -> MutexGuard<'_, LoadMeasures> {
-        // Entries are whole.
+        // Entries are always complete, so a poisoned lock does no harm.
         self.measured.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -135,10 +136,10 @@ fn micros(since: Instant) -> u64 {
     (since.elapsed().as_micros() as u64).clamp(1, LONGEST_US)
 }
 
-/// Something that is due again and again: its number, and when that was due.
+/// One of a series of scheduled calls: its number, and its due time.
 type DueCall = (u64, Instant);
 
-/// Opens all streams, and begins.
+/// Opens all streams, then begins.
 pub(super) async fn start(
     load: &Arc<Load>,
     args: &BenchArgs,
@@ -183,8 +184,8 @@ pub(super) async fn start(
     Ok(tasks)
 }
 
-/// Tells what is due when it is due. A thread of its own sleeps more exactly than the timer of the runtime, which
-/// counts in milliseconds.
+/// Announces calls when they are due. A separate thread sleeps more exactly than the timer of the runtime, which counts
+/// in milliseconds.
 #[allow(
     clippy::disallowed_methods,
     reason = "the schedule is one of absolute times"
@@ -271,14 +272,14 @@ async fn driver(
         };
         match ended {
             Some(why) => load.error("driving", &why),
-            // The figures are kept until viewers have seen the last frame.
+            // Keeps the figures until viewers have seen the last frame.
             None => tokio::time::sleep(TAIL).await,
         }
     });
     Ok((queue, task))
 }
 
-/// Opens the stream of a viewer, of a world whose driver sends at this pace.
+/// Opens the stream of a viewer, for a world whose driver sends at this pace.
 async fn viewer(
     load: &Arc<Load>,
     client: &Client,
@@ -311,7 +312,7 @@ async fn viewer(
     }))
 }
 
-/// What a viewer has seen.
+/// The frames that a viewer has received.
 #[derive(Default)]
 struct ViewerLog {
     tick: Option<i64>,
@@ -332,7 +333,7 @@ impl ViewerLog {
             load.frames.fetch_add(1, Ordering::Relaxed);
             load.missed.fetch_add(missed as u64, Ordering::Relaxed);
         }
-        // A frame that shows one shows those before, too: their successors took their places.
+        // A frame that shows one sequence number accounts for the earlier ones, too: later frames replaced them.
         let mut delays = Vec::new();
         for f in &frame.figures {
             let newest = self.newest.entry(f.figure_index).or_insert(-1);
@@ -353,12 +354,12 @@ impl ViewerLog {
     }
 }
 
-/// What is called of one world after the other.
+/// The calls made to one world after the other.
 #[derive(Clone, Copy, Debug)]
 enum WorldCall {
-    /// Its latest frame.
+    /// Reads its latest frame.
     Read,
-    /// That nothing pushes its first figure: it is carried out by the next tick, and written down like any change.
+    /// Clears all perturbations of its first figure. The next tick executes this, and it is recorded like any change.
     Change,
 }
 
@@ -384,7 +385,7 @@ impl WorldCall {
     }
 }
 
-/// Calls when it is due.
+/// Makes calls when they are due.
 fn calls(
     load: &Arc<Load>,
     clients: &[Client],

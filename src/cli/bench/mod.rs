@@ -1,8 +1,8 @@
 //! `sinew bench`: loads a server by a schedule and reports how late its ticks and frames are.
 //!
-//! The load is open: what is to be sent has its time beforehand, and each delay is counted from that time, whether or
-//! not the server kept up. A server that stalls for a second is charged with that second by everything that was due in
-//! it (no coordinated omission).
+//! The load is open: every message has a due time set in advance, and each delay is counted from that time, whether or
+//! not the server kept up. If a server stalls for a second, every message due in that second is charged with the delay
+//! (no coordinated omission).
 
 mod args;
 mod comparison;
@@ -33,25 +33,25 @@ use std::time::{Duration, Instant};
 
 /// Streams over one connection: below what servers and proxies allow.
 const STREAMS_PER_CONNECTION: usize = 64;
-/// Worlds that are created at a time.
+/// Number of worlds created at the same time.
 const AT_A_TIME: usize = 8;
-/// Time in which the server counts what it has measured.
+/// Time for the server to update its counters.
 const COUNTING: Duration = Duration::from_millis(500);
 
-/// Ready once the bench is to end before its time.
+/// Ready when the bench should end early.
 type Interrupt = BoxFuture<'static, ()>;
 
-/// Loads the server, prints what was measured, and takes away what it made, also if it is interrupted.
+/// Loads the server, prints the measurements, and removes everything it made, also if it is interrupted.
 ///
 /// # Errors
-/// No server, a world that cannot be created, nothing that was measured, or an interruption.
+/// No server, a world that cannot be created, an empty measurement, or an interruption.
 pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()?;
     runtime.block_on(async {
         let mut interrupt = interrupted().boxed();
-        // Polled once, so that it listens before there is anything to be taken away.
+        // Polled once, so that it listens before there is anything to clean up.
         if (&mut interrupt).now_or_never().is_some() {
             anyhow::bail!("interrupted");
         }
@@ -76,7 +76,7 @@ pub fn run(args: &BenchArgs) -> anyhow::Result<()> {
 }
 
 /// The same load on one server after the other, each of which stores in another way. Rounds are interleaved, so that
-/// what the machine does beside it meets all of them.
+/// other activity of the machine affects all of them.
 async fn compare(args: &BenchArgs, interrupt: &mut Interrupt) -> anyhow::Result<BenchComparison> {
     let mut comparison = BenchComparison::new(&args.own.durability);
     for round in 1..=args.own.rounds {
@@ -89,7 +89,7 @@ async fn compare(args: &BenchArgs, interrupt: &mut Interrupt) -> anyhow::Result<
     Ok(comparison)
 }
 
-/// Loads a server of its own, which ends with it.
+/// Loads a server of its own, which ends with the bench.
 async fn bench_own(
     args: &BenchArgs,
     storing: Option<Storing>,
@@ -123,7 +123,7 @@ async fn bench(
     };
     if let (Some(_), Some(client)) = (&args.address, clients.first()) {
         tokio::select! {
-            // Once more: it does not wait for a server that does not answer.
+            // A second interruption ends the wait for a server that does not answer.
             () = interrupted() => {}
             () = delete(client, &names) => {}
         }
@@ -131,7 +131,7 @@ async fn bench(
     measured
 }
 
-/// Makes worlds and figures.
+/// Creates worlds and figures.
 async fn create(args: &BenchArgs, client: &Client, names: &[String]) -> anyhow::Result<()> {
     let bar = progress("worlds", names.len() as u64);
     for some in names.chunks(AT_A_TIME) {
@@ -162,7 +162,7 @@ async fn create(args: &BenchArgs, client: &Client, names: &[String]) -> anyhow::
     Ok(())
 }
 
-/// Takes the worlds away again.
+/// Deletes the worlds again.
 async fn delete(client: &Client, names: &[String]) {
     for some in names.chunks(AT_A_TIME) {
         let gone = some.iter().map(|id| async move {
@@ -175,7 +175,7 @@ async fn delete(client: &Client, names: &[String]) {
                 })
                 .await
         });
-        // Those that were not made are not there.
+        // Worlds that were never created are simply not there.
         futures_util::future::join_all(gone).await;
     }
 }
@@ -192,7 +192,7 @@ async fn measure(
     })?);
     let page = async || MetricsPage::read(&clients[0]).await;
     let disk = || own.and_then(OwnServer::disk_bytes);
-    page().await?; // a server without metrics is told at once
+    page().await?; // a server without metrics is reported at once
     let work = load::start(&load, args, clients, names).await?;
     let window = load.window();
     tokio::time::sleep_until(window.start.into()).await;

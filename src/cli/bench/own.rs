@@ -1,4 +1,4 @@
-//! A server of its own for a bench: another process, so that both do not share threads.
+//! A server started for a bench, in a process of its own so that the two do not share threads.
 
 use super::args::{BenchArgs, Storing};
 use anyhow::Context as _;
@@ -6,14 +6,14 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 
-/// A directory that goes with this.
+/// A directory that is removed when this value is dropped.
 struct DataDir(PathBuf);
 
 impl DataDir {
     fn new(parent: Option<&Path>) -> anyhow::Result<Self> {
         let parent = parent.map_or_else(std::env::temp_dir, Path::to_owned);
         let dir = parent.join(format!("sinew-bench-{}", std::process::id()));
-        // One that is there is not of this bench, and stays.
+        // An existing directory does not belong to this bench, and stays.
         std::fs::create_dir(&dir).with_context(|| format!("making {}", dir.display()))?;
         Ok(Self(dir))
     }
@@ -25,16 +25,16 @@ impl Drop for DataDir {
     }
 }
 
-/// A server that ends with this.
+/// A server that ends when this value is dropped.
 pub(super) struct OwnServer {
     child: Child,
     address: String,
-    /// Removed when the server has ended.
+    /// Removed after the server has ended.
     _data: Option<DataDir>,
 }
 
 impl OwnServer {
-    /// Starts this binary as a server with room for the load, which stores as its settings say or in a given way.
+    /// Starts this binary as a server with room for the load, storing as its settings say or in a given way.
     pub(super) fn start(args: &BenchArgs, storing: Option<Storing>) -> anyhow::Result<Self> {
         let worlds = u64::from(args.worlds);
         let viewers = worlds * u64::from(args.viewers);
@@ -64,7 +64,7 @@ impl OwnServer {
             command.args(["--set", &format!("durability={}", storing.name())]);
             command.arg("--data-dir").arg(&dir.0);
         }
-        // From here on whatever goes wrong ends the server, and then takes its directory away.
+        // From here on any error ends the server and then removes its directory.
         let mut own = Self {
             child: command.spawn().context("the server cannot be started")?,
             address: String::new(),
@@ -84,12 +84,12 @@ impl OwnServer {
         Ok(own)
     }
 
-    /// Where it listens.
+    /// The address at which it listens.
     pub(super) fn address(&self) -> &str {
         &self.address
     }
 
-    /// Bytes that it has had written to disk, as Linux counts them: whole pages.
+    /// Bytes that the server has written to disk, as Linux counts them: whole pages.
     pub(super) fn disk_bytes(&self) -> Option<f64> {
         let counts = std::fs::read_to_string(format!("/proc/{}/io", self.child.id())).ok()?;
         let line = counts.lines().find_map(|l| l.strip_prefix("write_bytes: "));

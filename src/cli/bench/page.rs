@@ -1,4 +1,4 @@
-//! What a server says of itself: its page of metrics.
+//! The page of metrics of a server.
 
 use crate::remote::explain;
 use anyhow::Context as _;
@@ -38,7 +38,7 @@ impl MetricsPage {
         self.get(name) - before.get(name)
     }
 
-    /// Buckets of a histogram without labels, as counted since `before`: upper bound and how many are at most that.
+    /// Buckets of a histogram without labels, counted since `before`: upper bound, and number of values at or below it.
     pub(super) fn buckets(&self, before: &Self, name: &str) -> Vec<(f64, f64)> {
         let start = format!("{name}_bucket{{le=\"");
         let mut buckets: Vec<(f64, f64)> = self
@@ -54,8 +54,8 @@ impl MetricsPage {
     }
 }
 
-/// The value below which a share `q` of what is in the buckets lies: linear within a bucket, as Prometheus has it; the
-/// largest finite bound for what lies beyond. `None` for empty buckets.
+/// The value below which a share `q` of the values in the buckets lies: linear within a bucket, as in Prometheus; the
+/// largest finite bound for values beyond that. `None` for empty buckets.
 pub(super) fn quantile(buckets: &[(f64, f64)], q: f64) -> Option<f64> {
     let total = buckets.last()?.1;
     if total <= 0.0 {

@@ -1,4 +1,4 @@
-//! What was measured, as text and as JSON.
+//! The measurements, as text and as JSON.
 
 use super::args::BenchArgs;
 use super::load::Load;
@@ -17,11 +17,11 @@ pub(super) struct Delays {
     pub p50_ms: f64,
     pub p99_ms: f64,
     p999_ms: f64,
-    /// Of delays that the server counts in buckets: the bound of the largest.
+    /// For delays that the server counts in buckets: the bound of the largest.
     max_ms: f64,
 }
 
-/// What was asked of the server.
+/// The load that the server was given.
 #[derive(Debug, Serialize)]
 struct Setup {
     worlds: u32,
@@ -34,18 +34,18 @@ struct Setup {
     seconds: f64,
 }
 
-/// What the server counted, meanwhile.
+/// Measurements of the server during the bench.
 #[derive(Debug, Serialize)]
 pub(super) struct Server {
     /// How long after its deadline a tick began.
     pub tick_lateness: Option<Delays>,
-    /// Time of a tick.
+    /// Duration of a tick.
     tick: Option<Delays>,
     /// From the arrival of motion to its frame, within the server.
     input_to_frame: Option<Delays>,
     pub ticks: f64,
     pub ticks_skipped: f64,
-    /// Frames that viewers were too slow for.
+    /// Frames dropped because viewers were too slow.
     frames_dropped: f64,
     budget_used: f64,
     budget_limit: f64,
@@ -55,33 +55,34 @@ pub(super) struct Server {
     threads: f64,
 }
 
-/// What a server with a data directory wrote meanwhile.
+/// Data written by a server with a data directory during the bench.
 #[derive(Debug, Serialize)]
 pub(super) struct DiskWrites {
-    /// Of worlds: states, inputs and hashes.
+    /// Data of worlds: states, inputs and hashes.
     pub bytes_per_s: f64,
-    /// With all that the log and the file system add, in whole pages; of a server of its own, on Linux.
+    /// Including everything that the log and the file system add, in whole pages; only for a server of its own, on
+    /// Linux.
     pub disk_bytes_per_s: Option<f64>,
     pub commits_per_s: f64,
-    /// Time of a commit.
+    /// Duration of a commit.
     pub commit: Option<Delays>,
-    /// What was left out because the disk was too slow.
+    /// Entries left out because the disk was too slow.
     pub lost_entries: f64,
 }
 
-/// What its clients saw.
+/// Measurements of the clients.
 #[derive(Debug, Serialize)]
 pub(super) struct Clients {
-    /// From when motion was due to be sent to when a viewer had the frame that shows it.
+    /// From the time motion was due to be sent until a viewer had the frame that shows it.
     pub input_to_frame: Option<Delays>,
-    /// From when motion was due to be sent to when it was: how far these clients kept the schedule.
+    /// From the time motion was due to be sent until it was sent: how well these clients kept the schedule.
     sending: Option<Delays>,
-    /// From when a read was due to its answer.
+    /// From the time a read was due until its answer.
     calls: Option<Delays>,
-    /// From when a change was due to its answer.
+    /// From the time a change was due until its answer.
     pub changes: Option<Delays>,
     motion_frames: u64,
-    /// Of those, times figures and viewers: what no viewer had been shown a second after the end.
+    /// Number of those, times figures and viewers, that no viewer had received a second after the end.
     not_shown: u64,
     frames: u64,
     /// Ticks that viewers were not sent.
@@ -122,10 +123,10 @@ fn counted(before: &MetricsPage, after: &MetricsPage, name: &str) -> Option<Dela
 }
 
 impl BenchReport {
-    /// Of what lies between two pages of the server, and the bytes that it brought to disk meanwhile.
+    /// Covers the time between two pages of the server; includes the bytes that it wrote to disk in that time.
     ///
     /// # Errors
-    /// No tick was computed meanwhile.
+    /// No tick was computed in that time.
     pub(super) fn new(
         args: &BenchArgs,
         load: &Load,
@@ -183,7 +184,7 @@ impl BenchReport {
         })
     }
 
-    /// For people.
+    /// The report as text.
     pub(super) fn text(&self) -> String {
         let (setup, server, clients) = (&self.setup, &self.server, &self.clients);
         let mut out = format!(

@@ -1,4 +1,4 @@
-//! `rows.md`: what the paper shows or promises beyond its equations, each with figures and strips.
+//! `rows.md`: results that the paper shows or promises beyond its equations, each with figures and strips.
 
 mod second_hand;
 
@@ -22,10 +22,10 @@ use std::sync::Arc;
 
 /// Panels of a strip.
 const PANELS: usize = 7;
-/// Candidates of the search that are listed.
+/// Number of candidates of the search to list.
 const LISTED: usize = 6;
 
-/// A motion with a flight, synthesised with its truth: none that is built in leaves the floor.
+/// A motion with a flight, synthesised so that the truth is known: no built-in motion leaves the floor.
 const JUMP: &str = "jump";
 static JUMPING: &[u8] = include_bytes!("../../../tests/corpus/jump.vrm.bvh");
 

@@ -220,7 +220,7 @@ impl RunArgs {
         self.duration.unwrap_or_else(|| clip.duration() + ends)
     }
 
-    /// Strength by the options, or by the file.
+    /// Strength from the options, or from the file.
     pub(super) fn strength_scale(&self) -> Result<StrengthScale> {
         match &self.strength_file {
             Some(path) => StrengthFile::read(path),

@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// Posture, torques and limits of every tick, written as the run goes.
+/// Posture, torques and limits of every tick, written during the run.
 pub(super) struct RunCsv {
     path: PathBuf,
     file: BufWriter<File>,

@@ -1,4 +1,4 @@
-//! What `--report` writes.
+//! The document written by `--report`.
 
 use super::scenario::Scenario;
 use crate::args::{ControllerArg, StepperArg};
@@ -30,13 +30,13 @@ pub(super) struct Document<'a> {
     gravity_mps2: f64,
     loads: Vec<LoadEntry>,
     pushes: Vec<PushEntry>,
-    /// As they were given.
+    /// In the form of the arguments.
     obstacles: Vec<&'a str>,
     /// Clips that followed.
     then: Vec<ThenEntry<'a>>,
     #[serde(flatten)]
     measures: &'a RunReport,
-    /// What was to be expected of the clip.
+    /// The forecast for the clip.
     forecast: &'a Forecast,
     /// `null` for built-in motions, which are made for the body.
     retarget: serde_json::Value,
@@ -50,7 +50,7 @@ struct ThenEntry<'a> {
 
 #[derive(Serialize)]
 struct BodyEntry {
-    /// As `--body` and the API take it.
+    /// In the form used by `--body` and the API.
     name: String,
     sex: &'static str,
     age_years: f64,

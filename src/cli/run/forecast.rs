@@ -1,4 +1,4 @@
-//! What will come of a clip, told beside what came of it.
+//! The forecast for a clip, printed beside its result.
 
 use super::scenario::Scenario;
 use sinew_physics::body::Links;
@@ -6,7 +6,7 @@ use sinew_physics::forecast::{Forecast, forecast};
 use sinew_physics::motion::Clip;
 use sinew_physics::strength::Strength;
 
-/// The forecast for a clip as it is played: with the strength and the loads of the scenario.
+/// The forecast for a clip with the strength and the loads of the scenario.
 pub(super) fn of(scenario: &Scenario<'_>, clip: &Clip) -> Forecast {
     let (args, body) = (scenario.args, &scenario.body);
     let mut links = Links::new(body);
@@ -21,7 +21,7 @@ pub(super) fn of(scenario: &Scenario<'_>, clip: &Clip) -> Forecast {
     forecast(body, &links, &strength, scale, clip)
 }
 
-/// The forecast in a line.
+/// The forecast on one line.
 pub(super) fn line(forecast: &Forecast) -> String {
     format!(
         "{:<14} forecast: {}, demand {:.2}: {}",

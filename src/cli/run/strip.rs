@@ -26,7 +26,7 @@ pub(super) fn goal_mark(c: &Constraint, time: f64) -> Option<Thing> {
     Some(Thing::obstacle(&setup))
 }
 
-/// Loads in the figure's hands at `time` (s). One that the other hand helps with is where it was taken up.
+/// Loads in the figure's hands at `time` (s). One that the other hand helps to carry is drawn where it was picked up.
 pub(super) fn held_loads(scenario: &Scenario<'_>, time: f64) -> Vec<(usize, Vec3, f64)> {
     let held = |l: &&LoadSpec| l.from_s < time && time <= l.to_s && l.mass_kg > 0.0;
     let place = |l: &LoadSpec| {

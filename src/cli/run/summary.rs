@@ -1,4 +1,4 @@
-//! What is printed while clips run and when they are done.
+//! Output while clips run and when they are done.
 
 use super::args::RunArgs;
 use super::forecast;
@@ -27,9 +27,9 @@ pub(super) struct SummaryTable<'a> {
     bars: &'a MultiProgress,
     /// Width of the column of clip names, characters.
     width: usize,
-    /// Nothing is printed: `--json`, or the reader has ended.
+    /// Whether nothing is printed: with `--json`, or after the reader has ended.
     silent: AtomicBool,
-    /// Files or the exit code are wanted as well, so that a reader that ends does not end the run.
+    /// Whether files or the exit code are wanted as well, so that a reader that ends does not end the run.
     more_than_print: bool,
 }
 
@@ -64,18 +64,18 @@ impl<'a> SummaryTable<'a> {
         self.print(&format!("{above}\n{below}"))
     }
 
-    /// The line of one clip and that of its forecast, at once: other threads print, too.
+    /// Prints the line of one clip and that of its forecast in one call, because other threads print, too.
     pub(super) fn rows(&self, name: &str, report: &RunReport, told: &Forecast) -> Result<()> {
         let (width, line, forecast) = (self.width, line(report), forecast::line(told));
         self.print(&format!("{name:<width$} {line}\n{forecast}"))
     }
 
-    /// What the columns mean.
+    /// The meaning of the columns.
     pub(super) fn legend(&self) -> Result<()> {
         self.print(LEGEND)
     }
 
-    /// Any text between the bars.
+    /// Prints any text between the bars.
     fn print(&self, text: &str) -> Result<()> {
         if self.silent.load(Ordering::Relaxed) {
             return Ok(());
@@ -103,7 +103,7 @@ const HEADING: [(&str, &str); 2] = [
     ),
 ];
 
-/// What the columns of [`line`] mean.
+/// The meaning of the columns of [`line`].
 const LEGEND: &str = "
 joint error     target minus actual joint angle over all degrees of freedom: root mean square and maximum, degrees
 tracking error  mean distance of the segment origins from those of the target, mm:

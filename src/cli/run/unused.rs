@@ -1,4 +1,4 @@
-//! What was given and has no effect.
+//! Arguments that were given but have no effect.
 
 use super::args::RunArgs;
 use crate::args::{ControllerArg, StepperArg};
@@ -6,7 +6,7 @@ use crate::number::seconds;
 use crate::source::LoadedClip;
 use crate::terminal::note;
 
-/// Warns of it on standard error.
+/// Warns of them on standard error.
 pub(super) fn warn(args: &RunArgs, sources: &[LoadedClip]) {
     let late = |s: &LoadedClip| {
         let texts = too_late(args, args.seconds(&s.clip)).into_iter();
@@ -34,7 +34,7 @@ fn not_read(args: &RunArgs) -> Vec<String> {
         out.extend(of_paper.map(|o| format!("{o} has no effect: it needs --controller paper")));
     }
     if args.self_contact && args.stepper_kind() != StepperArg::Torque {
-        // These steppers hand over to torques where accelerations are not feasible.
+        // These steppers switch to torques where accelerations are not feasible.
         out.push(
             "--self-contact has no effect while accelerations move the body: it needs --stepper torque".to_owned(),
         );
@@ -42,7 +42,7 @@ fn not_read(args: &RunArgs) -> Vec<String> {
     out
 }
 
-/// What begins at the end of a run, s, or after it.
+/// Arguments that take effect only at the end of a run, s, or after it.
 fn too_late(args: &RunArgs, end: f64) -> Vec<String> {
     let loads = args.load.iter().map(|l| ("--load", l.from_s));
     let pushes = args.push.iter().map(|p| ("--push", p.at_s));

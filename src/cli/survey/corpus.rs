@@ -1,4 +1,4 @@
-//! Which clips a survey is about.
+//! The clips of a survey.
 
 use crate::exit::UsageError;
 use crate::source::{BUILTIN, no_builtin};
@@ -6,15 +6,15 @@ use anyhow::{Context, Result, ensure};
 use sinew_physics::motion::builtin::BUILTIN_NAMES;
 use std::path::{Path, PathBuf};
 
-/// Most clips of a survey.
+/// Largest number of clips of a survey.
 const MAX_CLIPS: usize = 10_000;
 
 /// One clip.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CorpusClip {
-    /// Folder and file name, or `builtin:NAME`: the same wherever the corpus lies.
+    /// Folder and file name, or `builtin:NAME`: the same wherever the corpus is stored.
     pub name: String,
-    /// Where its bytes are.
+    /// Source of its bytes.
     pub source: ClipSource,
 }
 
@@ -26,11 +26,11 @@ pub(super) enum ClipSource {
     Builtin(String),
 }
 
-/// The clips of files, folders and `builtin:NAME`, in the order given; those of a folder by name.
+/// The clips of files, folders and `builtin:NAME`, in the given order; those of a folder by name.
 ///
 /// # Errors
-/// A path or a built-in motion that is not there, a folder that cannot be listed or holds none, two clips of one name,
-/// too many.
+/// A path or a built-in motion that does not exist, a folder that cannot be listed or holds no clips, two clips of the
+/// same name, too many clips.
 pub(super) fn gather(corpus: &[String]) -> Result<Vec<CorpusClip>> {
     let mut out: Vec<CorpusClip> = Vec::new();
     for spec in corpus {

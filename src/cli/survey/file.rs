@@ -10,9 +10,9 @@ use sinew_evaluate::survey::SurveyRow;
 use sinew_evaluate::survey::tables::{self, SurveyTable};
 use std::path::Path;
 
-/// Counts up when rows change their meaning.
+/// Incremented when rows change their meaning.
 const FORMAT: u32 = 1;
-/// Settings that two surveys may differ in without being asked: what a comparison is there to show.
+/// Settings in which two surveys may differ without an explicit option: differences that a comparison should show.
 const FREE: [&str; 1] = ["gravity_mps2"];
 
 /// A survey as read.
@@ -28,7 +28,7 @@ pub(super) struct Survey {
 /// Reads a survey.
 ///
 /// # Errors
-/// A file that cannot be read or is no survey of this format.
+/// A file that cannot be read or is not a survey of this format.
 pub(super) fn read(path: &Path) -> Result<Survey> {
     let text =
         std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
@@ -72,7 +72,7 @@ pub(super) fn write_survey(
     write(path, text)
 }
 
-/// A table as objects with the heads as names.
+/// A table as objects with the column heads as names.
 fn objects(table: &SurveyTable) -> Value {
     let object = |row: &Vec<String>| -> Value {
         let cells = table.head.iter().zip(row);
@@ -81,10 +81,10 @@ fn objects(table: &SurveyTable) -> Value {
     table.rows.iter().map(object).collect()
 }
 
-/// Refuses to compare what was not made alike.
+/// Refuses to compare surveys made under different conditions.
 ///
 /// # Errors
-/// Names the settings that differ, with both values, and those of `across` that there are not.
+/// Names the settings that differ, with both values, and those of `across` that do not exist.
 pub(super) fn check_settings(
     old: &Map<String, Value>,
     new: &Map<String, Value>,

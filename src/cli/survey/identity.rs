@@ -1,4 +1,4 @@
-//! What a result of a survey depends on, as hashes.
+//! Everything that determines a survey's result, as hashes.
 
 use anyhow::{Context, Result};
 

@@ -1,8 +1,8 @@
 //! The work of a survey: clips and copies on several threads, continued where an interrupted run stopped.
 //!
-//! A job is one run of one clip: the clip itself, or one noisy copy. Each result is a line of the partial file as
-//! soon as it is there, under a key made of the bytes of the clip, the settings, the build and the copy, so that
-//! whatever has changed is run again.
+//! A job is one run of one clip: the clip itself, or one noisy copy. Each result becomes a line of the partial file as
+//! soon as it is available, under a key made of the bytes of the clip, the settings, the build and the copy, so that a
+//! job is run again if any of these has changed.
 
 use super::args::SurveyArgs;
 use super::corpus::{ClipSource, CorpusClip};
@@ -38,14 +38,14 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 
-/// What came of one job.
+/// The result of one job.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 enum JobResult {
     /// The clip itself.
     Clip(Box<MeasuredClip>),
     /// A copy of it.
     Copy(Box<SurveyOutcome>),
-    /// It cannot be run, and why.
+    /// It cannot be run; the reason.
     Failed(String),
 }
 
@@ -60,7 +60,7 @@ struct PartialLine {
 struct JobInput {
     entry: CorpusClip,
     bytes: Result<Vec<u8>, String>,
-    /// What was found for it and its copies, by whichever of them is first.
+    /// The plan for it and its copies, made by the first job that needs it.
     plan: OnceLock<Result<FollowPlan, String>>,
 }
 
@@ -70,7 +70,7 @@ struct FollowPlan {
     found: FollowResult,
 }
 
-/// Runs everything that no partial file has, and puts the rows together in the order of the clips.
+/// Runs every job without a result in the partial file, and collects the rows in the order of the clips.
 ///
 /// # Errors
 /// The partial file cannot be written.
@@ -89,7 +89,7 @@ pub(super) fn run_all(
             entry: entry.clone(),
             bytes: match &entry.source {
                 ClipSource::Builtin(name) => Ok(name.clone().into_bytes()),
-                // The tables say that it cannot be read.
+                // The tables report that it cannot be read.
                 ClipSource::File(path) => std::fs::read(path).map_err(|e| e.to_string()),
             },
             plan: OnceLock::new(),
@@ -162,7 +162,7 @@ pub(super) fn run_all(
         .collect())
 }
 
-/// Built-in motions have no file that could have noise.
+/// Number of copies; 0 for a built-in motion, which has no file to which noise could be added.
 fn copies(args: &SurveyArgs, input: &JobInput) -> u32 {
     match input.entry.source {
         ClipSource::File(_) if input.bytes.is_ok() => args.copies,
@@ -170,8 +170,8 @@ fn copies(args: &SurveyArgs, input: &JobInput) -> u32 {
     }
 }
 
-/// The row of a clip from its own result and those of its copies. A copy that cannot be run, where the clip can, is
-/// one that is lost.
+/// The row of a clip from its own result and those of its copies. A copy that cannot be run counts as lost if the clip
+/// can be run.
 fn row(input: &JobInput, done: Vec<JobResult>) -> SurveyRow {
     let mut row = SurveyRow {
         clip: input.entry.name.clone(),
@@ -200,7 +200,7 @@ fn row(input: &JobInput, done: Vec<JobResult>) -> SurveyRow {
 }
 
 fn progress(jobs: u64) -> ProgressBar {
-    // Drawn to the standard error stream, and not at all where that is no terminal.
+    // Drawn to standard error, and not at all if that is not a terminal.
     let style =
         ProgressStyle::with_template("{wide_bar:.cyan/dim} {pos}/{len} runs, {eta} left, {msg}")
             .expect("the template is a constant")
@@ -208,14 +208,14 @@ fn progress(jobs: u64) -> ProgressBar {
     ProgressBar::new(jobs).with_style(style)
 }
 
-/// Where results are kept until the survey is written.
+/// File of the results until the survey is written.
 fn partial(out: &Path) -> PathBuf {
     let mut name = out.file_name().map(ToOwned::to_owned).unwrap_or_default();
     name.push(".partial");
     out.with_file_name(name)
 }
 
-/// Takes the partial file of a finished survey away.
+/// Removes the partial file of a finished survey.
 pub(super) fn forget_partial(out: &Path) {
     // A file that stays is read again and does no harm.
     let _ = std::fs::remove_file(partial(out));
@@ -237,7 +237,7 @@ fn keep(file: &Mutex<(File, std::io::Result<()>)>, key: &str, done: &JobResult) 
     };
     let mut text =
         serde_json::to_string(&line).expect("results have string keys and finite numbers");
-    // A line before it that was cut short ends here.
+    // Ends an incomplete line before this one.
     text.insert(0, '\n');
     text.push('\n');
     let mut held = file
@@ -249,7 +249,7 @@ fn keep(file: &Mutex<(File, std::io::Result<()>)>, key: &str, done: &JobResult) 
     }
 }
 
-/// One job. A panic is a row with its message, not the end of the survey.
+/// Runs one job. A panic becomes a row with its message and does not end the survey.
 fn one(args: &SurveyArgs, body: &Arc<Body>, input: &JobInput, copy: u32) -> JobResult {
     let work = || match &input.bytes {
         Err(why) => Err(anyhow!("{why}")),
@@ -269,7 +269,7 @@ fn one(args: &SurveyArgs, body: &Arc<Body>, input: &JobInput, copy: u32) -> JobR
     }
 }
 
-/// A recording with what was said of it.
+/// A fitted recording with its report.
 struct FittedRecording {
     reference: TrackingReference,
     prepared: Option<ReadingReport>,
@@ -341,8 +341,8 @@ fn fitted(
     })
 }
 
-/// Loads and pushes of a run whose clip begins `lead` seconds after its beginning, and all else that it depends on.
-/// Pushes belong to the clip's bytes and to the copy.
+/// Loads and pushes of a run whose clip begins `lead` seconds after its start, and everything else on which the run
+/// depends. Pushes are determined by the clip's bytes and the copy.
 fn conditions(
     args: &SurveyArgs,
     body: &Arc<Body>,
@@ -384,7 +384,7 @@ fn conditions(
     }
 }
 
-/// Finds out how a clip is followed, without pushes: nobody knows of them before.
+/// Decides how a clip is followed, without pushes, which nothing can know in advance.
 fn plan(
     args: &SurveyArgs,
     body: &Arc<Body>,
@@ -425,7 +425,7 @@ fn plan(
     Ok(FollowPlan { fitted, found })
 }
 
-/// What is known of a clip whose way was found.
+/// The facts known about a clip once the way to follow it has been decided.
 fn planned(
     args: &SurveyArgs,
     body: &Arc<Body>,
@@ -446,7 +446,7 @@ fn planned(
     })
 }
 
-/// The state with the noise of a copy on it: the place of the pelvis, its turn and all joints.
+/// The state with the noise of a copy added: to the place of the pelvis, its rotation and all joints.
 fn disturbed(args: &SurveyArgs, mut state: State, seed: u64) -> State {
     let mut rng = Pcg64Mcg::seed_from_u64(seed);
     let angle = args.noise.degrees.to_radians();
@@ -499,13 +499,13 @@ fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<Fitted
     })
 }
 
-/// A seed of its own for each clip, copy and purpose.
+/// A different seed for each clip, copy and purpose.
 fn seed(bytes: &[u8], copy: u32, purpose: u32) -> u64 {
     let text = identity::hash(&[bytes, &copy.to_le_bytes(), &purpose.to_le_bytes()]);
     u64::from_str_radix(&text, 16).expect("a hash is sixteen hexadecimal digits")
 }
 
-/// What is known of a clip besides how it ran.
+/// The facts known about a clip besides the result of its run.
 fn measured(
     args: &SurveyArgs,
     conditions: &Conditions,
@@ -544,7 +544,7 @@ fn measured(
     }
 }
 
-/// The forecast of plain tracking, with the loads that are carried from the beginning on.
+/// The forecast of plain tracking, with the loads that are carried from the start.
 fn forecast_of(args: &SurveyArgs, conditions: &Conditions, clip: &Clip) -> Forecast {
     let body = &conditions.body;
     let mut links = Links::new(body);
@@ -555,7 +555,7 @@ fn forecast_of(args: &SurveyArgs, conditions: &Conditions, clip: &Clip) -> Forec
     forecast(body, &links, &strength, &conditions.strength, clip)
 }
 
-/// A load that is carried from the beginning on.
+/// Adds a load that is carried from the start.
 fn add(links: &mut Links, body: &Body, load: &LoadSpec) {
     if let Some(held) = load.perturbation(body, f64::INFINITY).load() {
         for (segment, point, mass) in held.shares() {

@@ -1,11 +1,11 @@
-//! `--page`: tables within a page that people write, with the command that makes them again.
+//! `--page`: writes tables into a page that people maintain, with the command that reproduces them.
 
 use crate::output::write;
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-/// `FILE#SECTION`: what lies between the marks of a section is replaced.
+/// `FILE#SECTION`: the text between the marks of a section is replaced.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PageSpec {
     /// The page.
@@ -39,10 +39,10 @@ impl FromStr for PageSpec {
 }
 
 impl PageSpec {
-    /// Whether the page has the section.
+    /// Checks that the page has the section.
     ///
     /// # Errors
-    /// It has not, or cannot be read.
+    /// It does not, or the page cannot be read.
     pub(super) fn check(&self) -> Result<()> {
         replaced(&self.text()?, &self.section, "", "").map(|_| ())
     }
@@ -63,7 +63,7 @@ impl PageSpec {
     }
 }
 
-/// The command that was given, without places of this machine: of paths from the root only the last part is kept.
+/// The given command, without paths of this machine: of absolute paths only the last part is kept.
 pub(super) fn command(arguments: impl Iterator<Item = String>) -> String {
     let mut words = vec!["sinew".to_owned()];
     for word in arguments.skip(1) {
@@ -75,7 +75,7 @@ pub(super) fn command(arguments: impl Iterator<Item = String>) -> String {
         if !section.is_empty() {
             shown = format!("{shown}#{section}");
         }
-        // The command stands in a comment, which two hyphens and a bracket would end.
+        // The command is inside a comment, which two hyphens and a bracket would end.
         let shown = shown.replace("-->", "");
         let plain = |c: char| c.is_alphanumeric() || "-_./:,@+#=".contains(c);
         words.push(if !shown.is_empty() && shown.chars().all(plain) {
@@ -87,12 +87,12 @@ pub(super) fn command(arguments: impl Iterator<Item = String>) -> String {
     words.join(" ")
 }
 
-/// `text` with what lies between the marks of `section` replaced.
+/// `text` with the part between the marks of `section` replaced.
 fn replaced(text: &str, section: &str, command: &str, tables: &str) -> Result<String> {
     let begin = format!("<!-- survey {section} begin");
     let end = format!("<!-- survey {section} end -->");
     let mark = text.match_indices(&begin).find(|(i, m)| {
-        // The name ends here, so that `a` is not found in `a-b`.
+        // The name must end here, so that `a` is not found in `a-b`.
         text[i + m.len()..].starts_with([':', ' '])
     });
     let Some((from, _)) = mark else {

@@ -1,4 +1,4 @@
-//! `--push` of a survey: as for `sinew run`, or at a time and in a direction that the clip and the copy decide.
+//! `--push` of a survey: as for `sinew run`, or at a time and in a direction determined by the clip and the copy.
 
 use crate::args::PushSpec;
 use rand::{Rng, SeedableRng};
@@ -17,9 +17,9 @@ const MOST: f64 = 1e5;
 /// A push.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SurveyPush {
-    /// At a time and in a direction that are given.
+    /// At a given time and in a given direction.
     At(PushSpec),
-    /// At a time within the clip and in a level direction that follow from a seed.
+    /// At a time within the clip and in a horizontal direction that follow from a seed.
     Random {
         /// Pushed segment.
         segment: SegmentId,

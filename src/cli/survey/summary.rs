@@ -1,4 +1,4 @@
-//! `--summary`: one page about all stored surveys, and the few numbers of each clip that it is made of.
+//! `--summary`: one page about all stored surveys, and the few numbers of each clip from which it is made.
 
 use super::page::{PageSpec, command};
 use crate::output::write;
@@ -14,7 +14,7 @@ use std::path::Path;
 const NUMBERS: &str = "summary.json";
 /// File of the page, in the folder.
 const PAGE: &str = "README.md";
-/// Survey whose clips are listed: it says how each is kept.
+/// Survey whose clips are listed, with the way in which each is kept.
 const LISTED: &str = "assisted";
 
 /// A survey in short.
@@ -22,7 +22,7 @@ const LISTED: &str = "assisted";
 struct SurveyDigest {
     /// Its name.
     name: String,
-    /// The command that makes it.
+    /// The command that reproduces it.
     command: String,
     /// Its clips.
     clips: Vec<ClipDigest>,
@@ -33,9 +33,9 @@ struct SurveyDigest {
 struct ClipDigest {
     clip: String,
     kind: MotionKind,
-    /// Never further than 0.5 m from the recording (PHC).
+    /// Whether it was never further than 0.5 m from the recording (PHC).
     completed: bool,
-    /// Height and tilt of the pelvis were kept.
+    /// Whether height and tilt of the pelvis were kept.
     upright: bool,
     fell: bool,
     /// Mean distance from the recording relative to the pelvis, mm.
@@ -80,7 +80,7 @@ impl ClipDigest {
     }
 }
 
-/// Clips that could be read, in short.
+/// Digests of the clips that could be read.
 fn clips(rows: &[SurveyRow]) -> Vec<ClipDigest> {
     let read = rows.iter().filter_map(|r| Some((r, r.result.as_ref()?)));
     read.map(|(row, m)| ClipDigest::of(&row.clip, m)).collect()
@@ -109,7 +109,7 @@ pub(super) fn put(
     write(&spec.file.join(PAGE), page(&all))
 }
 
-/// The surveys of a folder; none if it has no file of them.
+/// The surveys of a folder; empty if the folder has no file of surveys.
 fn read(folder: &Path) -> Result<Vec<SurveyDigest>> {
     let path = folder.join(NUMBERS);
     if !path.exists() {
@@ -120,7 +120,7 @@ fn read(folder: &Path) -> Result<Vec<SurveyDigest>> {
     serde_json::from_str(&text).with_context(|| format!("{} is no summary", path.display()))
 }
 
-/// All surveys as JSON, a clip a line.
+/// All surveys as JSON, one clip per line.
 fn numbers(all: &[SurveyDigest]) -> Result<String> {
     let mut surveys = Vec::new();
     for d in all {
@@ -252,7 +252,7 @@ mod tests {
         );
     }
 
-    /// Surveys of which every measure is stored as well have the same numbers there.
+    /// A survey whose measures are all stored as well has the same numbers there.
     #[test]
     fn the_summary_agrees_with_the_stored_surveys() {
         let all = read(folder()).unwrap();

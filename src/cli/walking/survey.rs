@@ -70,7 +70,7 @@ fn cases(man: &Arc<Body>) -> Result<Vec<Case>> {
     Ok(out)
 }
 
-/// Joint tracking error of a motion in one variation, or when it falls; true if it does not fall.
+/// Joint tracking error of a motion in one variation, or the time of its fall, and whether it stays up.
 fn cell(motion: &LoadedMotion, bvh: &Bvh, case: &Case) -> Result<(String, bool)> {
     let options = RetargetOptions {
         tempo: case.tempo,

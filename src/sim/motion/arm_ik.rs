@@ -1,8 +1,8 @@
 //! The analytic inverse of an arm: shoulder and elbow that bring a point of the hand to a place.
 //!
-//! The elbow's angle follows from the distance between shoulder and place (law of cosines), the shoulder points the arm
-//! there and turns the elbow towards a given direction. Every step is closed form. Rounds alike everywhere: it runs
-//! within the tick.
+//! The elbow's angle follows from the distance between shoulder and place (law of cosines). The shoulder then points
+//! the arm at the place and turns the elbow towards a given direction. Every step is closed form. Rounding is the same
+//! on every machine, since this runs within the tick.
 
 use super::leg_ik::{hinge_for_distance, point_and_roll};
 use crate::body::topology::{
@@ -19,7 +19,7 @@ pub const ARMS: [[SegmentId; 3]; 2] = [
     [R_UPPER_ARM, R_FOREARM, R_HAND],
 ];
 
-/// How an arm is held: its joints.
+/// The joint angles of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Arm {
     shoulder: Quat,
@@ -27,7 +27,7 @@ pub struct Arm {
     hinge: [f64; 4],
 }
 
-/// Where the joints of an arm are in a posture: the shoulder, and the first angles of elbow and wrist.
+/// Indices of the joints of an arm in a posture: the shoulder, and the first angles of elbow and wrist.
 pub fn joints(arm: [SegmentId; 3]) -> (usize, [usize; 2]) {
     match arm.map(|s| JOINT[s.index()]) {
         [Joint::Ball(b), Joint::Hinge2(elbow), Joint::Hinge2(wrist)] => (b, [elbow, wrist]),
@@ -36,7 +36,7 @@ pub fn joints(arm: [SegmentId; 3]) -> (usize, [usize; 2]) {
 }
 
 impl Arm {
-    /// As in a posture.
+    /// The arm of a posture.
     pub fn of(posture: &Posture, arm: [SegmentId; 3]) -> Self {
         let (shoulder, [e, w]) = joints(arm);
         let h = &posture.hinge;
@@ -46,7 +46,7 @@ impl Arm {
         }
     }
 
-    /// Holds the arm of a posture like this.
+    /// Gives the arm of a posture these angles.
     pub fn hold(&self, posture: &mut Posture, arm: [SegmentId; 3]) {
         let (shoulder, [e, w]) = joints(arm);
         posture.ball[shoulder] = self.shoulder;
@@ -54,12 +54,12 @@ impl Arm {
         [h[e], h[e + 1], h[w], h[w + 1]] = self.hinge;
     }
 
-    /// False if an angle is none.
+    /// Whether every angle is finite.
     pub fn is_finite(&self) -> bool {
         self.shoulder.is_finite() && self.hinge.iter().all(|a| a.is_finite())
     }
 
-    /// So much of the way to another.
+    /// Moves by `share` of the way to another arm.
     pub fn toward(&self, to: &Self, share: f64) -> Self {
         Self {
             shoulder: self.shoulder.slerp(to.shoulder, share),
@@ -68,8 +68,8 @@ impl Arm {
     }
 }
 
-/// Bends the elbow within its limits so that a point of the hand is so far from the shoulder: axis of the hinge, its
-/// angle, rad, and where the point is then, frame of the upper arm, m.
+/// Bends the elbow within its limits so that a point of the hand is at the given distance from the shoulder. Returns
+/// the axis of the hinge, its angle, rad, and the resulting place of the point, frame of the upper arm, m.
 pub(super) fn bend_elbow(
     body: &Body,
     arm: [SegmentId; 3],
@@ -88,8 +88,8 @@ pub(super) fn bend_elbow(
 ///
 /// * `point`: hand frame, m; `place`: chest frame, m; `pole`: where the elbow points, chest frame, any length.
 ///
-/// The elbow stays within its limits; those of the shoulder are for the caller to check. Returns how the arm is held
-/// then, and the distance that is missing, m: 0 where the place is within reach. O(1), no allocation.
+/// The elbow stays within its limits; the caller checks those of the shoulder. Returns the arm and the remaining
+/// distance, m: 0 where the place is within reach. O(1), no allocation.
 pub fn reach(body: &Body, arm: [SegmentId; 3], point: Vec3, place: Vec3, pole: Vec3) -> (Arm, f64) {
     let shoulder = body.joint_offset[arm[0].index()];
     let way = place - shoulder;

@@ -1,7 +1,7 @@
 //! Motions that need no recording: written for any body, balanced and within its limits.
 //!
 //! Each motion is a smooth plan (joint angles of the upper body, orientation and height of the pelvis, poses of the
-//! feet, path of the centre of mass over the floor); `shape` turns it into postures: legs by inverse kinematics, and
+//! feet, path of the centre of mass over the floor). `shape` turns it into postures: legs by inverse kinematics, and
 //! the pelvis shifted until the centre of mass is where the plan wants it. Lengths scale with the body's legs. The
 //! figure starts at the origin, facing +x, on the floor z = 0.
 

@@ -1,12 +1,12 @@
 //! Reading BVH motion capture (Biovision hierarchy).
 //!
-//! One pass over the bytes, no recursion, memory and time linear in their number: what a file declares (joints, frames,
-//! channels) is believed only as far as the bytes bear it out. The hierarchy and the head of the motion part are read
-//! word by word, so line breaks, indentation and brace placement do not matter there; each frame is one line. LF, CRLF
-//! and lone CR end a line.
+//! One pass over the bytes, no recursion, memory and time linear in their number: counts that a file declares (joints,
+//! frames, channels) are trusted only as far as the bytes bear them out. The hierarchy and the head of the motion part
+//! are read word by word, so line breaks, indentation and brace placement do not matter there; each frame is one line.
+//! LF, CRLF and lone CR end a line.
 //!
-//! Numbers stay in file units and file axes, angles in degrees; what they mean in metres and which way is up is for
-//! retargeting to find out.
+//! Numbers stay in file units and file axes, angles in degrees. Retargeting finds out the unit in metres and the up
+//! axis.
 
 mod parse;
 
@@ -15,7 +15,7 @@ use super::skeleton::{JointPose, MAX_JOINTS, RecordedJoint};
 use crate::math::{Quat, Vec3, vec3::vec3};
 use parse::{BvhReader, Warnings, parse_frames, parse_hierarchy, parse_motion_head};
 
-/// BVH as one of the formats that are read.
+/// BVH as one of the supported formats.
 pub(super) const FORMAT: MotionFormat = MotionFormat {
     name: "BVH",
     recognises: |bytes| {
@@ -72,7 +72,7 @@ impl BvhChannel {
         Self::ALL[self as usize].1
     }
 
-    /// True for a position channel.
+    /// Whether it is a position channel.
     pub fn is_position(self) -> bool {
         (self as usize) < 3
     }
@@ -92,8 +92,8 @@ pub struct BvhJoint {
     pub parent: Option<usize>,
     /// Position in the parent's frame where no position channel says otherwise, file units.
     pub offset: [f64; 3],
-    /// Channels in the order of the file; rotations are applied in this order, each about the axes the one before has
-    /// turned.
+    /// Channels in the order of the file. Rotations are applied in this order, each about the axes as turned by the one
+    /// before.
     pub channels: Vec<BvhChannel>,
     /// Offset of the End Site, if there is one (it may be zero), file units.
     pub end_site: Option<[f64; 3]>,
@@ -120,7 +120,7 @@ pub struct Bvh {
     pub frame_time: f64,
     /// Number of frames that are present (a declaration off by one is accepted with a warning).
     pub frame_count: usize,
-    /// What was odd about the file, for the user's report.
+    /// Oddities of the file, for the user's report.
     pub warnings: Vec<String>,
     /// Channel values, frame after frame, each in joint and channel order.
     values: Vec<f64>,
@@ -135,7 +135,7 @@ pub struct Bvh {
 /// Bytes of a channel value in memory.
 const VALUE_BYTES: u64 = 8;
 
-/// What the head of a file says, before its frames are read.
+/// The head of a file, before its frames are read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BvhHead {
     /// As [`Bvh::joints`].
@@ -159,8 +159,8 @@ impl BvhHead {
         Self::read(&mut BvhReader::new(bytes), &mut Warnings::default())
     }
 
-    /// What it says to a reader of recordings. Of the frames that it declares, those count that `bytes` of a file can
-    /// hold: two for each number.
+    /// The head as a reader of recordings needs it. Of the declared frames, counts only those that `bytes` of a file
+    /// can hold: two for each number.
     fn recording(&self, bytes: u64) -> RecordingHead {
         let frame_count = self.frame_count.min(bytes / 2);
         let values = frame_count.saturating_mul(self.channel_count as u64);
@@ -262,7 +262,7 @@ impl Bvh {
     ///
     /// Accepted beyond the letter of the format: any channel order and number per joint, a rotation order of its own at
     /// each joint, joints without End Site or with an empty one, names with blanks, keywords in any case, one frame
-    /// more or fewer than declared. Such things are noted in [`Bvh::warnings`] where they may matter.
+    /// more or fewer than declared. Such deviations are noted in [`Bvh::warnings`] where they may matter.
     ///
     /// # Errors
     /// The first thing that cannot be read, with its line and, in the motion part, its frame and column.
@@ -317,8 +317,8 @@ impl Bvh {
         self.channel_count
     }
 
-    /// The same motion as a mirror shows it, x against −x of the file. Names stay: what is called left is on the right
-    /// then.
+    /// The same motion as a mirror shows it, x against −x of the file. Names stay: the joint called left is then on the
+    /// right.
     pub fn mirrored(&self) -> Self {
         let mut out = self.clone();
         for joint in &mut out.joints {
@@ -401,7 +401,7 @@ impl Bvh {
     }
 
     /// Finds inner joints whose position channels are increments on the offset: all frames stay closer to zero than to
-    /// the offset and below half its length, which no bone does that is given whole.
+    /// the offset and below half its length, which does not happen to a bone whose position is given in full.
     fn find_relative_positions(&mut self, warnings: &mut Warnings) {
         for (j, joint) in self.joints.iter().enumerate() {
             let positions = joint.channels.iter().filter(|c| c.is_position()).count();

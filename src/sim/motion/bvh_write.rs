@@ -36,8 +36,8 @@ fn zxy_angles(q: Quat) -> [f64; 3] {
 
 /// Text of a BVH file that shows `postures` of `body`, `1/rate_hz` seconds apart.
 ///
-/// Positions carry six decimals of a centimetre and angles seven of a degree, so reading it back gives every joint to
-/// well below a micrometre. Angles run on over ±180° from frame to frame. O(postures); the postures must be finite.
+/// Positions carry six decimals of a centimetre and angles seven of a degree, so every joint is read back to well below
+/// a micrometre. Angles continue beyond ±180° from frame to frame. O(postures); the postures must be finite.
 pub fn write_bvh(body: &Body, postures: &[Posture], rate_hz: f64) -> String {
     let mut out = String::with_capacity(4096 + postures.len() * 57 * 12);
     write_all(&mut out, body, postures, rate_hz).expect("a String takes any text");
@@ -51,7 +51,7 @@ fn write_all(
     rate_hz: f64,
 ) -> std::fmt::Result {
     writeln!(out, "HIERARCHY")?;
-    // Segments are in depth-first order: a joint closes when the next one's parent is not itself.
+    // Segments are in depth-first order: a joint closes when it is not the parent of the next one.
     let mut open: Vec<usize> = Vec::new();
     for s in 0..SEGMENT_COUNT {
         while open.last().is_some_and(|top| s > 0 && *top != PARENT[s]) {

@@ -3,7 +3,7 @@
 //! Between two samples every coordinate is a quintic in the exponential chart of the earlier one, so that position,
 //! velocity and acceleration are continuous and the sampled velocity and acceleration are exact derivatives of the
 //! sampled posture. The derivatives at the samples are finite differences of their neighbours. Sampling allocates
-//! nothing and rounds alike everywhere, since it feeds the tick.
+//! nothing, and its rounding is the same on every machine, since it feeds the tick.
 
 mod planar;
 mod seam;
@@ -22,11 +22,11 @@ use crate::math::{Quat, Vec3, trig};
 use seam::Seam;
 use serde::{Deserialize, Serialize, Serializer};
 
-/// Most samples of a clip: 15 minutes at 120 Hz, some 130 MB.
+/// Largest number of samples of a clip: 15 minutes at 120 Hz, some 130 MB.
 pub const MAX_SAMPLES: usize = 108_000;
 /// Accepted sample rates, Hz.
 pub const RATE_RANGE: [f64; 2] = [1.0, 1000.0];
-/// Largest coordinate of the pelvis, m: keeps differences of positions exact to a micrometre by far.
+/// Largest coordinate of the pelvis, m. Differences of positions up to there are exact to far better than a micrometre.
 const FARTHEST: f64 = 1e5;
 /// Largest hinge angle, rad; beyond it is noise, not a joint.
 const LARGEST_ANGLE: f64 = 100.0;
@@ -96,7 +96,7 @@ pub struct Clip {
     seam: Option<Box<Seam>>,
 }
 
-/// What a clip is made of.
+/// The serialised parts of a clip.
 #[derive(Serialize, Deserialize)]
 struct ClipSamples {
     name: String,
@@ -121,7 +121,7 @@ impl Serialize for Clip {
 impl TryFrom<ClipSamples> for Clip {
     type Error = ClipError;
 
-    /// Takes postures as they are: they are checked, not normalised once more, since that would change their last bits.
+    /// Takes postures as they are: they are checked, but not normalised again, since that would change their last bits.
     fn try_from(from: ClipSamples) -> Result<Self, ClipError> {
         let (postures, planted) = from.samples.into_iter().unzip();
         let clip = Self::of(&from.name, from.rate_hz, postures, planted, false)?;
@@ -197,7 +197,7 @@ impl Clip {
         Ok(clip)
     }
 
-    /// Declares the first `lead_in` and the last `lead_out` samples to be the way into the motion and out of it
+    /// Declares the first `lead_in` and the last `lead_out` samples to be the path into the motion and out of it
     /// ([`crate::plan::stop`]): times count from the first sample between them, and repetition leaves them out. At
     /// least one sample stays between.
     pub fn with_ends(mut self, lead_in: usize, lead_out: usize) -> Self {
@@ -225,11 +225,11 @@ impl Clip {
     pub fn duration(&self) -> f64 {
         (self.len() - 1) as f64 / self.rate_hz
     }
-    /// Length of the way into the motion, s: it plays at negative times.
+    /// Length of the path into the motion, s: it plays at negative times.
     pub fn lead_in(&self) -> f64 {
         self.lead_in as f64 / self.rate_hz
     }
-    /// Length of the way out of the motion, s: it plays after [`Self::duration`].
+    /// Length of the path out of the motion, s: it plays after [`Self::duration`].
     pub fn lead_out(&self) -> f64 {
         self.lead_out as f64 / self.rate_hz
     }
@@ -237,7 +237,7 @@ impl Clip {
     pub fn posture(&self, i: usize) -> &Posture {
         &self.knots[self.lead_in + i].posture
     }
-    /// Which feet (left, right) are planted at sample `i`. Panics if there is none.
+    /// Whether each foot (left, right) is planted at sample `i`. Panics if there is no such sample.
     pub fn planted(&self, i: usize) -> [bool; 2] {
         self.knots[self.lead_in + i].planted
     }
@@ -256,9 +256,10 @@ impl Clip {
 
     /// The motion at time `t` (s).
     ///
-    /// Lead-in and lead-out included; before them and after them it stands still in the first or last posture (also for
-    /// a time that is no number). In between, posture, velocity and acceleration are continuous. A recording without
-    /// them that starts or ends in full motion has its true velocity up to its ends, so there it stops at once.
+    /// Lead-in and lead-out are included. Before and after them the motion stands still in the first or last posture
+    /// (also for a time that is NaN). In between, posture, velocity and acceleration are continuous. A recording
+    /// without lead-in and lead-out that starts or ends in full motion has its true velocity up to its ends, so it
+    /// stops there at once.
     ///
     /// Section 3.2 of the paper.
     pub fn sample(&self, t: f64) -> Target {
@@ -276,8 +277,8 @@ impl Clip {
     ///
     /// Each round starts where the last one ended: displacement along the ground and change of heading are carried
     /// over. Towards the end of a round the remaining difference to the start (posture, velocity, acceleration) is
-    /// blended in, so that the seam is as smooth as the clip. A time that is no number counts as 0. A clip with a
-    /// lead-in comes from there instead of from earlier rounds.
+    /// blended in, so that the seam is as smooth as the clip. A NaN time counts as 0. A clip with a lead-in comes from
+    /// there instead of from earlier rounds.
     pub fn sample_looped(&self, t: f64) -> Target {
         let Some(seam) = &self.seam else {
             return self.rest(self.lead_in);
@@ -511,7 +512,7 @@ fn turn_root(rotation: Quat, v: &mut [f64; NV]) {
     v[..3].copy_from_slice(&turned.to_array());
 }
 
-/// Pelvis axes to world axes for both rates; the same rotation does for the acceleration, because ω × ω = 0.
+/// Pelvis axes to world axes for both rates; the same rotation serves for the acceleration, because ω × ω = 0.
 fn turn_root_rates(target: &mut Target) {
     let rotation = target.posture.root_rotation;
     turn_root(rotation, &mut target.velocity);

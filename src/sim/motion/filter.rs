@@ -7,7 +7,7 @@
 use crate::math::banded::Pentadiagonal;
 use crate::math::{Quat, Vec3};
 
-/// Cut-offs above this fraction of the sample rate leave the signal alone: nothing is left to remove.
+/// Cut-offs above this fraction of the sample rate leave the signal alone: there is nothing to remove.
 const TOP_FRACTION: f64 = 0.45;
 
 /// A digital second-order low-pass, `y[n] = b·x − a·y`, with unit gain at rest.
@@ -282,7 +282,7 @@ mod tests {
         let s: Vec<f64> = (0..48).map(|i| f(f64::from(i) / 24.0)).collect();
         let r = resample(&s, 24.0, 120.0, 236);
         for (i, x) in r.iter().enumerate() {
-            // A natural spline has no curvature at its ends, whatever the curve has.
+            // A natural spline has no curvature at its ends, whatever that of the curve.
             let bound = if i < 200 { 2e-4 } else { 2e-3 };
             assert!((x - f(i as f64 / 120.0)).abs() < bound, "sample {i}");
         }

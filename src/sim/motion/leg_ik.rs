@@ -1,9 +1,9 @@
 //! Plain forward kinematics of a posture, and the analytic inverse of a leg.
 //!
-//! A leg is a ball hip, a hinge knee and a ball ankle: the knee angle follows from the distance between hip and ankle
-//! (law of cosines, for any offsets between the joints), the hip points the leg at the ankle and turns the knee's hinge
-//! axis as near as it can to a given direction, the ankle does the rest. Every step is closed form, so the foot pose is
-//! met to rounding. Rounds alike everywhere: live streams are prepared within the tick.
+//! A leg is a ball hip, a hinge knee and a ball ankle. The knee angle follows from the distance between hip and ankle
+//! (law of cosines, for any offsets between the joints). The hip points the leg at the ankle and turns the knee's hinge
+//! axis as near as it can to a given direction, and the ankle does the rest. Every step is closed form, so the foot
+//! pose is met to rounding. Rounding is the same on every machine: live streams are prepared within the tick.
 
 use crate::body::topology::{
     DOF_AXIS, DOF_LEN, DOF_START, JOINT, Joint, L_FOOT, L_SHANK, L_THIGH, L_TOES, PARENT, R_FOOT,
@@ -35,8 +35,9 @@ fn joint_rotation(posture: &Posture, segment: usize) -> Quat {
 
 /// World pose of every segment: origin (m) and `world_from_segment`, in segment order.
 ///
-/// Rotations stay quaternions and positions are of the world, as motion is planned in. `dynamics::Kinematics` finds the
-/// same to rounding as matrices relative to the pelvis, and `evaluate::pose` is the oracle of both; their bits differ.
+/// Rotations stay quaternions and positions are in the world, since motion is planned there. `dynamics::Kinematics`
+/// computes the same to rounding, as matrices relative to the pelvis, and `evaluate::pose` is the oracle of both; their
+/// bits differ.
 ///
 /// O(segments), no allocation.
 pub fn forward(body: &Body, posture: &Posture) -> [(Vec3, Quat); SEGMENT_COUNT] {
@@ -61,7 +62,7 @@ pub fn center_of_mass(body: &Body, poses: &[(Vec3, Quat); SEGMENT_COUNT]) -> Vec
     sum * (1.0 / mass)
 }
 
-/// World direction of the knee's hinge axis of `posture`: the plane its leg bends in is across it.
+/// World direction of the knee's hinge axis of `posture`: normal to the plane in which its leg bends.
 pub fn knee_axis(posture: &Posture, left: bool) -> Vec3 {
     let thigh = leg_segments(left)[0].index();
     let world_from_thigh = posture.root_rotation * joint_rotation(posture, thigh);
@@ -75,8 +76,8 @@ fn hinge_axis(left: bool) -> Vec3 {
 
 /// Sets hip, knee, ankle and toe of one leg so that the foot takes a wanted pose; the pelvis stays where it is.
 ///
-/// The knee keeps bending in the plane it bends in now: the hinge axis of `posture` decides, so a smooth sequence of
-/// postures and targets gives a smooth sequence of legs. See [`solve_leg_in_plane`] for the rest.
+/// The knee keeps bending in its present plane: the hinge axis of `posture` decides, so a smooth sequence of postures
+/// and targets gives a smooth sequence of legs. See [`solve_leg_in_plane`] for the rest.
 pub fn solve_leg(
     body: &Body,
     posture: &mut Posture,
@@ -94,8 +95,8 @@ pub fn solve_leg(
 /// * `toe`: toe extension, rad; clamped to the body's limits.
 ///
 /// The knee flexes between its limits and never backwards. A target out of reach leaves the leg stretched (or fully
-/// bent) towards it, with the foot's orientation as wanted. Hip and ankle angles are not held to their limits: whether
-/// they must be, and what gives way, is for the caller to say. O(1), no allocation.
+/// bent) towards it, with the foot's orientation as wanted. Hip and ankle angles are not held to their limits: the
+/// caller decides whether they must be, and what gives way. O(1), no allocation.
 pub fn solve_leg_in_plane(
     body: &Body,
     posture: &mut Posture,
@@ -123,7 +124,7 @@ pub fn solve_leg_in_plane(
     let knee_rotation = Quat::exp(n * knee);
     let reach = a + knee_rotation.rotate(b); // thigh frame
 
-    // Turn the thigh frame so that `reach` points at the ankle and n lies as near to `axis` as that leaves open.
+    // Turn the thigh frame so that `reach` points at the ankle and n is as near to `axis` as that allows.
     let direction = to_ankle.normalized_or(-pelvis.rotate(Vec3::Z));
     let world_from_thigh = point_and_roll(reach, n, direction, axis, pelvis.rotate(Vec3::X));
 
@@ -142,11 +143,11 @@ pub fn solve_leg_in_plane(
     }
 }
 
-/// Angle of the hinge with axis `n` at the end of `a` that brings the end of `b` to `distance` from the start of `a`;
-/// the flexed of the two solutions, stretched or folded where there is none.
+/// Angle of the hinge with axis `n` at the end of `a` that brings the end of `b` to `distance` from the start of `a`:
+/// the flexed one of the two solutions, or stretched or folded where there is none.
 ///
-/// Start to end is `r(θ) = a + R(θ) b`. With the parts of a and b across n,
-/// `|r|² = |a|² + |b|² + 2 (a·n)(b·n) + 2 C cos(θ − φ)`, `C = |a⊥||b⊥|`: longest at θ = φ, shorter on both sides.
+/// Start to end is `r(θ) = a + R(θ) b`. With the parts of a and b across n, `|r|² = |a|² + |b|² + 2 (a·n)(b·n) + 2 C
+/// cos(θ − φ)`, `C = |a⊥||b⊥|`: longest at θ = φ, shorter on both sides.
 pub(crate) fn hinge_for_distance(a: Vec3, b: Vec3, n: Vec3, distance: f64) -> f64 {
     let (an, bn) = (a.dot(n), b.dot(n));
     let (across_a, across_b) = (a - n * an, b - n * bn);
@@ -159,8 +160,8 @@ pub(crate) fn hinge_for_distance(a: Vec3, b: Vec3, n: Vec3, distance: f64) -> f6
     stretched + trig::atan2((1.0 - cosine * cosine).sqrt(), cosine)
 }
 
-/// Rotation that takes `reach` to the unit vector `direction` and turns `n` as near to `axis` as that leaves open
-/// (`spare` where `axis` does not say).
+/// Rotation that takes `reach` to the unit vector `direction` and turns `n` as near to `axis` as that allows (`spare`
+/// where `axis` gives no direction).
 pub(crate) fn point_and_roll(
     reach: Vec3,
     n: Vec3,
@@ -213,7 +214,7 @@ mod tests {
         posture
     }
 
-    /// What became of a leg target.
+    /// The result of solving for a leg target.
     #[derive(Debug)]
     struct LegResult {
         /// Distance between the wanted and the reached ankle position, m.
@@ -289,7 +290,7 @@ mod tests {
                 assert!((found.0 - target.0).norm() < 1e-9);
                 assert!(angle_between(found.1, target.1) < 1e-9);
                 assert_eq!(other.hinge[t], truth.hinge[t]);
-                // Given the true knee axis the whole leg comes back; near full stretch the knee angle is
+                // Given the true knee axis, the whole leg is recovered; near full stretch the knee angle is
                 // ill-conditioned.
                 let mut again = other;
                 let axis = knee_axis(&truth, left);
@@ -332,7 +333,7 @@ mod tests {
             let Joint::Hinge1(k) = JOINT[leg_segments(left)[1].index()] else {
                 panic!()
             };
-            posture.hinge[k] = random.random_range(0.2..2.4); // off the stretched knee, which is not at 0 here
+            posture.hinge[k] = random.random_range(0.2..2.4); // away from the stretched knee, which is not at 0 here
             let target = forward(&body, &posture)[foot];
             let mut other = posture;
             solve_leg(&body, &mut other, left, target, 0.0);
@@ -366,7 +367,7 @@ mod tests {
         assert!(angle_between(poses[foot].1, turned) < 1e-12);
         let toe = DOF_START[L_TOES.index()];
         assert_eq!(posture.hinge[9], body.upper[toe], "toe angle is clamped");
-        // Too near: the knee stops at its limit, and a target in the hip itself is no trap.
+        // Too near: the knee stops at its limit, and a target in the hip itself does no harm.
         for near in [0.05, 1e-15, 0.0] {
             let target = (hip + direction * near, Quat::identity());
             solve_leg(&body, &mut posture, true, target, 0.0);

@@ -21,5 +21,5 @@ pub use read::read;
 pub use recording::{Recording, RecordingError, UpAxis};
 pub use target::{Target, TargetPair};
 
-/// Gravity that motions are made and planned for, and that a share of the weight refers to, m/s².
+/// Gravity for which motions are made and planned, and on which shares of the weight are based, m/s².
 pub const GRAVITY: f64 = 9.81;

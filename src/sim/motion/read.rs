@@ -3,8 +3,8 @@
 use super::bvh;
 use super::recording::{MotionFormat, Recording, RecordingError, RecordingHead};
 
-/// The formats that are read, one line each. The first that recognises a file reads it; the last one is given the
-/// files that none recognises, and says what is wrong with them.
+/// The supported formats, one line each. The first that recognises a file reads it; the last one is given the files
+/// that none recognises, and reports the error in them.
 const FORMATS: &[MotionFormat] = &[bvh::FORMAT];
 
 fn format(bytes: &[u8]) -> &'static MotionFormat {
@@ -22,7 +22,7 @@ pub fn read(bytes: &[u8]) -> Result<Recording, RecordingError> {
     (format.read)(bytes)
 }
 
-/// Reads what a file says before its frames.
+/// Reads the head of a file, before its frames.
 ///
 /// # Errors
 /// The first thing that cannot be read, with its place in the file.
@@ -31,7 +31,7 @@ pub fn read_head(bytes: &[u8]) -> Result<RecordingHead, RecordingError> {
     (format.head)(bytes)
 }
 
-/// Name of the format that a file is read as.
+/// Name of the format as which a file is read.
 pub fn format_name(bytes: &[u8]) -> &'static str {
     format(bytes).name
 }

@@ -1,8 +1,8 @@
-//! What every file format of motion becomes: the joints of a recorded skeleton and how those that matter move.
+//! The common form of every motion file format: the joints of a recorded skeleton and how those that matter move.
 //!
 //! A format gives its skeleton, its rate, its unit and axis where it states them, and the world pose of each joint in
 //! each frame. [`Recording`] finds the bones of the body in the skeleton and keeps, as rotations and translations
-//! relative to the parent, only the joints that lead to them: what is kept is bounded by [`MAX_POINTS`], however many
+//! relative to the parent, only the joints that lead to them: the memory is bounded by [`MAX_POINTS`], however many
 //! joints the file has. Numbers stay in file units and file axes.
 //!
 //! [`read`](super::read::read) chooses the format of a file.
@@ -12,24 +12,24 @@ use super::skeleton::{JointPose, RecordedJoint};
 use super::skeleton_map::{MapError, SideMap, SkeletonMap, map_skeleton};
 use crate::math::{Quat, Vec3};
 
-/// Most frames of a recording: bounds time and memory (8 min at 120 Hz).
+/// Largest number of frames of a recording: bounds time and memory (8 min at 120 Hz).
 pub const MAX_FRAMES: usize = 60_000;
-/// Most frames times joints that matter, 60 joints in the longest file: bounds memory.
+/// Largest number of frames times joints that matter, 60 joints in the longest file: bounds memory.
 pub const MAX_POINTS: usize = 60 * MAX_FRAMES;
 /// Bytes that a [`Recording`] takes for each point of a frame.
 pub const POINT_BYTES: u64 = 56;
-/// Shortest bone end that is taken as one, file units.
+/// Shortest bone end that is kept, file units.
 const SHORTEST_TIP: f64 = 1e-9;
-/// Farthest place of a joint that is believed, file units.
+/// Farthest place of a joint that is accepted, file units.
 const FARTHEST: f64 = 1e9;
 
 /// A file format of motion.
 pub(super) struct MotionFormat {
-    /// Name as people write it.
+    /// Everyday name of the format.
     pub name: &'static str,
     /// Whether a file that begins with these bytes is of this format.
     pub recognises: fn(&[u8]) -> bool,
-    /// Reads what is needed to bound the memory of reading the rest.
+    /// Reads the data needed to bound the memory of reading the rest.
     pub head: fn(&[u8]) -> Result<RecordingHead, RecordingError>,
     /// Reads the whole file.
     pub read: fn(&[u8]) -> Result<Recording, RecordingError>,
@@ -44,7 +44,7 @@ pub enum UpAxis {
     Z,
 }
 
-/// What a file says before its frames are read.
+/// The head of a file, before its frames are read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordingHead {
     /// Joints in file order.
@@ -57,7 +57,7 @@ pub struct RecordingHead {
     pub reading_bytes: u64,
 }
 
-/// What a file says besides its frames.
+/// Facts that a file states besides its frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordingFacts {
     /// Joints in file order.
@@ -70,7 +70,7 @@ pub struct RecordingFacts {
     pub unit_m: Option<f64>,
     /// Axis that points up, where the format states it.
     pub up: Option<UpAxis>,
-    /// What was odd about the file, for the user's report.
+    /// Oddities of the file, for the user's report.
     pub warnings: Vec<String>,
 }
 
@@ -111,7 +111,7 @@ pub enum RecordingError {
     Unreadable {
         /// Name of the format.
         format: &'static str,
-        /// What cannot be read, with its place in the file.
+        /// The part that cannot be read, with its place in the file.
         reason: String,
     },
     /// The skeleton has no human shape or names.
@@ -183,7 +183,7 @@ fn kept(joints: &[RecordedJoint], map: &SkeletonMap) -> Vec<bool> {
 struct RecordedPointPaths {
     paths: Vec<PointPath>,
     index: Vec<Option<usize>>,
-    /// How many of them are joints; the others are tips.
+    /// Number of joints among them; the others are tips.
     bones: usize,
 }
 
@@ -214,7 +214,7 @@ impl RecordedPointPaths {
             .map(|j| path(*j, all[*j].parent.and_then(|p| index[p])))
             .collect();
         let bones = paths.len();
-        // Tips: where a bone ends that has no mapped joint below it.
+        // Tips: the ends of bones with no mapped joint below.
         for s in &map.sides {
             let hand = s.hand.is_none().then_some(s.forearm);
             for j in [s.toes.or(Some(s.foot)), hand].into_iter().flatten() {
@@ -262,7 +262,7 @@ impl RecordedPointPaths {
 }
 
 impl Recording {
-    /// A recording from what a file says and the world poses of its joints.
+    /// Makes a recording from the facts of a file and the world poses of its joints.
     ///
     /// * `world`: writes the poses of all joints in one frame, in file order, into the vector, which it clears first.
     ///

@@ -2,8 +2,8 @@
 
 use crate::math::{Quat, Vec3};
 
-/// Most joints of a skeleton that is read; rigs with full faces have about 300. Bounds the quadratic searches of the
-/// tree.
+/// Largest number of joints of a skeleton that is read; rigs with full faces have about 300. Bounds the quadratic
+/// searches of the tree.
 pub const MAX_JOINTS: usize = 1024;
 
 /// One joint of a recorded skeleton.

@@ -1,4 +1,4 @@
-//! Which bone of a recorded skeleton is which segment of the body.
+//! Maps the bones of a recorded skeleton to the segments of the body.
 //!
 //! Names come first: every common dialect (CMU, LAFAN, Mixamo, VRM and Unity, Daz and Poser, 3ds Max Biped,
 //! MotionBuilder, generic `upper_arm.L` and `left_hip`) writes a side and a part, with differing separators, case and
@@ -28,7 +28,7 @@ pub struct SideMap {
     pub toes: Option<usize>,
 }
 
-/// What each segment is read from.
+/// The joints from which each segment is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SkeletonMap {
     /// Joint that carries both legs and the trunk.
@@ -41,7 +41,7 @@ pub struct SkeletonMap {
     pub head: Option<usize>,
     /// Left and right limbs.
     pub sides: [SideMap; 2],
-    /// True if names were of no use and the tree decided.
+    /// Whether the tree decided because names were of no use.
     pub by_structure: bool,
 }
 
@@ -51,7 +51,7 @@ pub enum MapError {
     /// More joints than any human skeleton has.
     #[error("{0} joints; at most {MAX_JOINTS} are read")]
     TooManyJoints(usize),
-    /// Several joints have the name that a segment is to be read from.
+    /// Several joints have the name from which a segment is read.
     #[error(
         "the bone of {segment} is ambiguous: {} joints are named {name:?}, below {}; rename all but one",
         parents.len(),
@@ -70,22 +70,22 @@ pub enum MapError {
         "no bone found for {segments:?} among {bones} joints, neither by name nor by structure"
     )]
     Missing {
-        /// Segments that found no bone.
+        /// Segments for which no bone was found.
         segments: Vec<&'static str>,
         /// Joints in the file.
         bones: usize,
     },
 }
 
-/// A body part as names tell it, still ambiguous where dialects disagree.
+/// A body part as its name tells it, still ambiguous where dialects disagree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NamedPart {
     Head,
-    Shoulder, // clavicle or upper arm, depending on what else there is
+    Shoulder, // clavicle or upper arm, depending on the other joints
     UpperArm,
     Forearm,
     Hand,
-    Palm, // CMU finger base: its joint is the wrist, the joint called hand only twists the forearm
+    Palm, // CMU finger base: its joint is the wrist; the joint called hand only twists the forearm
     Thigh,
     Leg, // shank, unless another bone is the shank
     Shank,
@@ -154,7 +154,7 @@ fn part_of(stem: &str) -> Option<NamedPart> {
     })
 }
 
-/// Words that say whose rig it is, not which bone.
+/// Words that name the rig rather than a bone.
 const RIG_WORDS: [&str; 16] = [
     "mixamorig",
     "bip",
@@ -177,7 +177,7 @@ const RIG_WORDS: [&str; 16] = [
 /// Sided bones that look like a part but move nothing: CMU's joint between pelvis and hip.
 const DECOYS: [&str; 1] = ["hipjoint"];
 
-/// Side and part that a bone name tells.
+/// Side and part that a bone name indicates.
 fn read_name(name: &str) -> Option<(Option<Side>, NamedPart)> {
     let words = words(name);
     let mut side = None;
@@ -227,11 +227,11 @@ fn read_name(name: &str) -> Option<(Option<Side>, NamedPart)> {
     None
 }
 
-/// The tree of a file, with what the mapping asks of it.
+/// The tree of a file, with the properties needed by the mapping.
 struct Tree<'a> {
     joints: &'a [RecordedJoint],
     children: Vec<Vec<usize>>,
-    /// Length of the longest way to a leaf below each joint, file units.
+    /// Length of the longest path to a leaf below each joint, file units.
     reach: Vec<f64>,
 }
 
@@ -271,7 +271,7 @@ impl<'a> Tree<'a> {
         }
         false
     }
-    /// Joints from below `top` down to `bottom`, both ends: `top` excluded, `bottom` included.
+    /// Joints from `top` (excluded) down to `bottom` (included).
     fn path(&self, top: usize, bottom: usize) -> Vec<usize> {
         let mut out = vec![];
         let mut at = Some(bottom);
@@ -323,7 +323,7 @@ pub fn map_skeleton(joints: &[RecordedJoint]) -> Result<SkeletonMap, MapError> {
     }
 }
 
-/// The first segment that names lead to several joints for. Bones that the tree decides on may be called anything.
+/// The first segment whose name several joints share. Bones that the tree decides may be called anything.
 fn ambiguous(joints: &[RecordedJoint], map: &SkeletonMap) -> Option<MapError> {
     let [l, r] = &map.sides;
     let limb = |s: &SideMap, names: [&'static str; 7]| {
@@ -444,7 +444,7 @@ fn by_names(tree: &Tree<'_>) -> Result<SkeletonMap, Vec<&'static str>> {
     finish(tree, [sides[0], sides[1]], head, false).ok_or_else(|| vec!["pelvis"])
 }
 
-/// Pelvis, trunk and head from the limbs.
+/// Finds pelvis, trunk and head, given the limbs.
 fn finish(
     tree: &Tree<'_>,
     sides: [SideMap; 2],
@@ -458,7 +458,8 @@ fn finish(
     }
     let trunk = tree.path(pelvis, chest);
     let head = head.filter(|h| tree.is_below(*h, chest)).or_else(|| {
-        // No head by name: the branch of the chest that carries no arm; its last joint before fingers or eyes fan out.
+        // No head by name: take the branch of the chest that carries no arm, up to its last joint before fingers or
+        // eyes fan out.
         let branch = tree.children[chest]
             .iter()
             .copied()
@@ -474,8 +475,8 @@ fn finish(
         }
         Some(at)
     });
-    // Two of our joints bend the trunk. The abdomen follows the first bone; where the first has no length (CMU's lower
-    // back), the next.
+    // Two of the body's joints bend the trunk. The abdomen follows the first bone; where that has no length (CMU's
+    // lower back), the next.
     let lengthless = |i: usize| length(tree.joints[trunk[i]].offset) < 1e-6;
     let abdomen = if trunk.len() >= 3
         && trunk
@@ -568,8 +569,8 @@ fn by_structure(tree: &Tree<'_>) -> Option<SkeletonMap> {
     if legs.len() < 2 || arms.len() < 2 {
         return None;
     }
-    // Which is left is settled by position later (the caller swaps); here +x of the file's rest pose counts as left,
-    // the usual case.
+    // Positions decide later which side is left (the caller swaps); here +x of the file's rest pose counts as left, the
+    // usual case.
     let x = |start: usize| {
         let mut at = start;
         let mut sum = 0.0;

@@ -1,4 +1,4 @@
-//! What a figure is asked to do at one instant.
+//! The motion that a figure should do at one instant.
 
 use crate::body::{NV, Posture, State};
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ pub struct Target {
     /// Desired acceleration.
     #[serde(with = "crate::saved::array")]
     pub acceleration: [f64; NV],
-    /// Which feet the motion keeps on the floor: left, right.
+    /// Whether the motion keeps each foot on the floor: left, right.
     pub planted: [bool; 2],
 }
 
@@ -32,7 +32,7 @@ impl Target {
         }
     }
 
-    /// True if every number is finite.
+    /// Whether every number is finite.
     pub fn is_finite(&self) -> bool {
         let mut rates = self.velocity.iter().chain(&self.acceleration);
         self.posture.is_finite() && rates.all(|x| x.is_finite())
@@ -57,8 +57,8 @@ pub struct TargetPair {
 }
 
 impl TargetPair {
-    /// Sets the velocities back by `share` of the tick. A body that is stepped by semi-implicit Euler has at time t the
-    /// velocity of half a substep earlier: that is the one its error has to be measured from, or limbs lag behind by
+    /// Sets the velocities back by `share` of the tick. A body that is stepped by semi-implicit Euler has, at time t,
+    /// the velocity of half a substep earlier. Its error has to be measured from that velocity, or limbs lag behind by
     /// their acceleration.
     pub fn set_velocities_back(&mut self, share: f64) {
         for (now, next) in self.now.velocity.iter_mut().zip(&mut self.next.velocity) {

@@ -1,8 +1,8 @@
-//! What one foot can hold alone: the zero-moment points that its ankle is strong enough for.
+//! The support that one foot can give alone: the zero-moment points for which its ankle is strong enough.
 //!
-//! Soles reach farther than the muscles over them: in an adult man the toes end 20 cm before the ankle, but the calf
-//! holds the weight no farther than 14 cm before it. A motion planned up to the edge of the sole leaves no torque for
-//! the body to correct anything with.
+//! Soles reach farther than the muscles over them: an adult man's toes end 20 cm in front of the ankle, but his calf
+//! holds the weight no farther than 14 cm in front of it. A motion planned up to the edge of the sole leaves no torque
+//! with which the body could correct anything.
 
 use super::foot_lock::{FootPlacement, Sole};
 use crate::body::Body;
@@ -12,7 +12,7 @@ use crate::motion::GRAVITY;
 use crate::plan::params::ankle;
 use crate::strength::{MuscleScale, Strength};
 
-/// Where a body is over its foot.
+/// Position of a body relative to its supporting foot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Over {
     /// Height of the centre of mass, m.
@@ -21,24 +21,24 @@ pub struct Over {
     pub speed: f64,
     /// From the zero-moment point to the centre of mass, over the floor, m.
     pub lean: [f64; 2],
-    /// What a runner's foot carries, in units of the weight; absent in a walk.
+    /// Load on a runner's foot, in units of the weight; absent in a walk.
     pub load: Option<f64>,
 }
 
-/// Limits of the support of one foot that carries a whole body.
+/// Limits of the support of one foot that carries the whole body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AnkleTorqueLimit {
-    /// Distance before the ankle at which the weight of the body takes [`ankle::STRENGTH_SHARE`] of the strength of the
-    /// ankle, or [`ankle::LEAST_SOLE`] of the sole, m.
+    /// Distance in front of the ankle at which the weight of the body takes [`ankle::STRENGTH_SHARE`] of the strength
+    /// of the ankle, or [`ankle::LEAST_SOLE`] of the sole, m.
     front: f64,
-    /// How much farther that is than what the ankle holds, m.
+    /// How much farther that is than the ankle can hold, m.
     lacks: f64,
     /// Height of the ankle over the floor, m.
     ankle: f64,
 }
 
 impl AnkleTorqueLimit {
-    /// Of a body of average strength, standing with its foot flat. Allocates.
+    /// For a body of average strength, standing with its foot flat. Allocates.
     pub fn new(body: &Body) -> Self {
         let weight = GRAVITY * body.segments.iter().map(|s| s.mass).sum::<f64>();
         let (mut lower, mut upper) = ([0.0; DOF_COUNT], [0.0; DOF_COUNT]);
@@ -83,7 +83,7 @@ impl AnkleTorqueLimit {
         if let Some(load) = load {
             front = self.front / load.max(ankle::LEAST_LOAD);
         }
-        // A runner is over the ball of the foot before that matters.
+        // A runner is over the ball of the foot before this limit matters.
         if at.is_on_ball() && load.is_none() {
             front = front.max(sole.toe_joint.x + ankle::BALL);
         }
@@ -190,10 +190,10 @@ mod tests {
             });
             most
         };
-        // Where the moment about the ankle is what it gives.
+        // The moment about the ankle equals the ankle's strength there.
         assert!((reach(1.0) - one.front).abs() < 1e-9);
         assert!((reach(2.5) - one.front / 2.5).abs() < 1e-9);
-        // But no farther than the toes.
+        // The reach ends at the toes.
         let toes = sole.points(0.0).map(|p| p.x).fold(0.0, f64::max);
         assert!((reach(0.1) - toes).abs() < 1e-9);
     }
@@ -212,7 +212,7 @@ mod tests {
             sole.footprint(&AT, &mut whole);
             assert_eq!(support(&one, &sole, [0.0, 0.0], ankle::FAST), hull(&whole));
         }
-        // Nothing changes while the ankle is strong enough, and there is no jump where that ends.
+        // The limit has no effect while the ankle is strong enough, and there is no jump where it takes effect.
         let at = |age: f64| AnkleTorqueLimit::new(&old(age));
         let young = at(30.0);
         assert!(young.lacks == 0.0 && at(70.0).lacks > 0.02);

@@ -1,8 +1,8 @@
-//! Which foot stands when, from trajectories of points of the feet.
+//! When each foot is planted, from trajectories of points of the feet.
 //!
-//! A captured foot slides a little in stance, and its floor is off by centimetres. So a foot counts as planted while
-//! one of its points moves slowly near its *own* lowest level; hysteresis, short gaps and short touches are cleaned up
-//! afterwards.
+//! A captured foot slides a little in stance, and its floor is off by centimetres. A foot therefore counts as planted
+//! while one of its points moves slowly near its *own* lowest level. Hysteresis is applied, and short gaps and short
+//! touches are cleaned up afterwards.
 
 use crate::body::topology::{L_FOOT, L_TOES, R_FOOT, R_TOES};
 use crate::body::{Body, Posture};
@@ -21,7 +21,7 @@ pub struct ContactPhase {
     pub start: f64,
     /// End, s.
     pub end: f64,
-    /// Left foot, right foot planted.
+    /// Whether the left and the right foot are planted.
     pub planted: [bool; 2],
 }
 
@@ -58,7 +58,7 @@ impl ContactPhase {
 pub fn label_feet(points: [&[Vec<Vec3>]; 2], rate_hz: f64) -> Vec<[bool; 2]> {
     let n = points[0].first().map_or(0, Vec::len);
     let mut feet = points.map(|p| label_foot(p, n, rate_hz));
-    // One foot stands unless it is a flight: a very short gap is closed by the foot that lands.
+    // One foot is planted unless the body flies: a very short gap is closed by the foot that lands.
     let none: Vec<bool> = (0..n).map(|i| !feet[0][i] && !feet[1][i]).collect();
     for (i, j, gap) in runs(&none) {
         if gap && i > 0 && j < n && ((j - i) as f64) < contact::SHORTEST_FLIGHT * rate_hz {
@@ -116,7 +116,7 @@ pub fn planted_between(body: &Body, before: &Posture, after: &Posture, dt: f64) 
     })
 }
 
-/// [`planted_between`] the neighbours of each posture.
+/// [`planted_between`] for the neighbours of each posture.
 pub fn label_postures(body: &Body, postures: &[Posture], rate_hz: f64) -> Vec<[bool; 2]> {
     (0..postures.len())
         .map(|i| {

@@ -1,5 +1,5 @@
-//! A stretch of a motion that can repeat: where its end looks most like its beginning, closed so that nothing jumps and
-//! no foot slides.
+//! A stretch of a motion that can repeat: chosen where its end looks most like its beginning, and closed so that
+//! nothing jumps and no foot slides.
 
 use super::foot_lock::Sole;
 use super::likeness::pelvis_unlike;
@@ -11,14 +11,14 @@ use crate::motion::clip::Clip;
 use crate::motion::leg_ik::forward;
 use crate::plan::params::{contact, likeness};
 
-/// What two samples are compared by.
+/// The features by which two samples are compared.
 struct Key {
     posture: Posture,
     rates: [f64; DOF_COUNT],
     planted: [bool; 2],
 }
 
-/// Unlikeness of two samples whatever their place and heading, rad rms; `None` if they do not stand on the same feet.
+/// Unlikeness of two samples regardless of place and heading, rad rms; `None` if different feet are planted.
 fn unlike(a: &Key, b: &Key) -> Option<f64> {
     if a.planted != b.planted {
         return None;
@@ -34,11 +34,11 @@ fn unlike(a: &Key, b: &Key) -> Option<f64> {
 
 /// How a motion repeats.
 enum Repeat {
-    /// As it is.
+    /// The whole motion, unchanged.
     Whole,
     /// From one sample to another.
     Stretch(usize, usize),
-    /// Not without standing still in between.
+    /// Only by standing still in between.
     Standing,
 }
 
@@ -49,7 +49,7 @@ fn find(clip: &Clip) -> Repeat {
     let keys: Vec<Key> = at
         .iter()
         .map(|&i| {
-            // At its very ends a clip may be at rest.
+            // A clip may be at rest at its very ends.
             let t = clip.sample(i.clamp(1, n.max(3) - 2) as f64 / clip.rate_hz());
             let mut rates = [0.0; DOF_COUNT];
             rates.copy_from_slice(&t.velocity[6..]);
@@ -90,8 +90,8 @@ fn find(clip: &Clip) -> Repeat {
     }
 }
 
-/// The motion such that it repeats well; `None` if it does so as it is. A stretch of it that is close to a cycle is
-/// closed, with all that comes before it as the lead-in; a motion without one stands still between its rounds. Offline:
+/// Changes the motion so that it repeats well; `None` if it already does. A stretch that is close to a cycle is closed,
+/// with everything before it as the lead-in; a motion without such a stretch stands still between its rounds. Offline:
 /// allocates, about a tenth of a second for some seconds of motion.
 pub fn cycle(body: &Body, clip: &Clip) -> Option<Clip> {
     match find(clip) {
@@ -101,7 +101,7 @@ pub fn cycle(body: &Body, clip: &Clip) -> Option<Clip> {
     }
 }
 
-/// Feet on the floor: the planted ones, and those that a former preparation set free because the leg could not hold
+/// Feet on the floor: the planted ones, and those that an earlier preparation set free because the leg could not hold
 /// them exactly.
 pub(crate) fn relabel_prepared(
     body: &Body,
@@ -122,7 +122,7 @@ pub(crate) fn relabel_prepared(
         .collect();
     (0..postures.len())
         .map(|i| {
-            // The first sample has none before it, and may be of a foot that swings.
+            // The first sample has no predecessor, and may belong to a swinging foot.
             let (now, before) = (i.max(1).min(feet.len() - 1), i.max(1) - 1);
             std::array::from_fn(|s| {
                 let speed = (feet[now][s].0 - feet[before][s].0).norm() * rate;
@@ -133,7 +133,7 @@ pub(crate) fn relabel_prepared(
         .collect()
 }
 
-/// Lead-in and motion, then on to standing as it began.
+/// The lead-in and the motion, followed by a return to the stand in which it began.
 fn through_standing(body: &Body, clip: &Clip) -> Option<Clip> {
     let rate = clip.rate_hz();
     let count = clip.len() + (clip.lead_in() * rate).round() as usize;
@@ -149,7 +149,7 @@ fn through_standing(body: &Body, clip: &Clip) -> Option<Clip> {
     Clip::from_postures(clip.name(), rate, whole.postures, whole.planted).ok()
 }
 
-/// The stretch from sample `i` to `j` repeated.
+/// The clip with samples `i` to `j` as its repeated stretch.
 fn closed(body: &Body, clip: &Clip, i: usize, j: usize) -> Option<Clip> {
     let rate = clip.rate_hz();
     let lead = (clip.lead_in() * rate).round() as usize + i;
@@ -157,8 +157,8 @@ fn closed(body: &Body, clip: &Clip, i: usize, j: usize) -> Option<Clip> {
     let (postures, planted): (Vec<_>, Vec<_>) =
         samples[lead..=lead + j - i].iter().copied().unzip();
     let piece = Clip::from_postures(clip.name(), rate, postures, planted).ok()?;
-    // Several rounds, prepared as one motion: the one that is kept has others around it for as long as balance looks
-    // ahead and back, and those before it lead in.
+    // Several rounds are prepared as one motion. The one that is kept has others around it for as long as balance looks
+    // ahead and back, and the rounds before it become the lead-in.
     let round = j - i;
     let around = (likeness::CYCLE_AHEAD * rate / round as f64)
         .ceil()

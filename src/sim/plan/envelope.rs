@@ -1,8 +1,8 @@
 //! The smoothest curve under a ceiling (offline).
 //!
-//! A pelvis must come down where a leg does not reach. How it comes down decides what the legs have to bear: a dip of 4
-//! cm in a tenth of a second takes the whole weight off the floor and then doubles it. So the dip is the one that costs
-//! the least acceleration.
+//! A pelvis must come down where a leg does not reach, and the way it comes down decides the load on the legs: a dip of
+//! 4 cm in a tenth of a second takes the whole weight off the floor and then doubles it. The dip chosen is therefore
+//! the one that costs the least acceleration.
 
 use crate::math::banded::Pentadiagonal;
 use crate::plan::params::leg;
@@ -30,7 +30,7 @@ pub fn smoothest_below(ceiling: &[f64], tau: f64, rate_hz: f64) -> Vec<f64> {
 
 /// The curve `d ≤ ceiling` that minimises `Σ d² + Σ weight (d̈ − wanted)²`, with accelerations per squared sample.
 ///
-/// * `bend`: weight of an inner sample, and the acceleration that is wanted there, if not 0.
+/// * `bend`: weight of an inner sample, and the acceleration wanted there, if not 0.
 pub(super) fn bent_below(ceiling: &[f64], bend: impl Fn(usize) -> (f64, Option<f64>)) -> Vec<f64> {
     let n = ceiling.len();
     let mut d = vec![0.0; n];

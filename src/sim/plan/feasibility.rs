@@ -1,9 +1,10 @@
-//! Can a body do this motion on its feet? What inverse dynamics asks of the ground against what the ground can give.
-//! See `docs/locomotion.md#balance`.
+//! Whether a body can do a motion on its feet: the forces that inverse dynamics asks of the ground, compared with those
+//! that the ground can give. See `docs/locomotion.md#balance`.
 //!
 //! A recording is consistent with the dynamics of a body if its zero-moment point stays inside the support polygon and
-//! the wrench that its acceleration needs lies in the friction cones of the feet that stand. How far it is from that
-//! says, before anything is simulated, how hard it will be to follow. Pure, offline; nothing here changes a motion.
+//! the wrench that its acceleration needs lies in the friction cones of the planted feet. The distance from that tells,
+//! before anything is simulated, how hard the recording will be to follow. Pure, offline; nothing here changes a
+//! motion.
 
 use super::foot_lock::{FootPlacement, Sole};
 use super::pelvis_shift::mass_track;
@@ -17,7 +18,7 @@ use crate::motion::GRAVITY;
 use crate::motion::leg_ik::forward;
 use crate::plan::params::{balance, feasibility, pelvis, stop};
 
-/// Root mean square and largest value of something over a motion.
+/// Root mean square and largest value of a quantity over a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spread {
     /// Root mean square.
@@ -41,28 +42,30 @@ impl Spread {
 pub struct Consistency {
     /// Share of the samples on feet whose zero-moment point is outside the support polygon.
     pub outside: f64,
-    /// How far outside, 0 for samples inside, m.
+    /// Distance outside, 0 for samples inside, m.
     pub distance: Spread,
-    /// Force that the feet cannot give within friction, over weight; flight included, where it is all there is.
+    /// Force that the feet cannot give within friction, over weight. Includes flight, where the whole force is of this
+    /// kind.
     pub force: Spread,
-    /// Moment about the centre of mass that they cannot give, over weight × 1 m.
+    /// Moment about the centre of mass that the feet cannot give, over weight × 1 m.
     pub moment: Spread,
     /// Share of the samples with no foot on the floor.
     pub flight: f64,
-    /// Share of the samples that something other than the feet carries; they are in none of the other figures.
+    /// Share of the samples in which something other than the feet carries the body; none of the other figures includes
+    /// them.
     pub carried: f64,
     /// Number of stances.
     pub stances: usize,
-    /// Farthest that the place of a foot strays from its mean within a stance, m: mean over stances and largest.
+    /// Largest distance of a foot from its mean place within a stance, m: mean over stances, and maximum.
     pub slip: (f64, f64),
-    /// Largest depth of a sole under the floor and largest height over it while its foot stands, m.
+    /// Largest depth of a sole under the floor and largest height over it while its foot is planted, m.
     pub floor: (f64, f64),
 }
 
 /// Measures a motion.
 ///
 /// * `postures`: samples, floor at z = 0, `rate_hz` samples per second.
-/// * `label`: feet on the floor (left, right) per sample, as the motion means it.
+/// * `label`: feet that the motion means to have on the floor (left, right), per sample.
 ///
 /// The first and last two samples have no acceleration of their own and repeat their neighbour. O(n); allocates.
 pub fn consistency(
@@ -130,14 +133,14 @@ pub fn consistency(
     out
 }
 
-/// Force and moment that a motion of samples at [`stop::RATE`] asks for from nothing, root mean squares over weight
-/// (and 1 m) added.
+/// Unsupported force and moment of a motion sampled at [`stop::RATE`]: the sum of their root mean squares over weight
+/// (and 1 m).
 pub(crate) fn infeasibility(body: &Body, postures: &[Posture], label: &[[bool; 2]]) -> f64 {
     let asked = consistency(body, postures, label, stop::RATE);
     asked.force.rms + asked.moment.rms
 }
 
-/// Where each foot is, if it stands, and the height of its lowest point, m.
+/// Placement of each planted foot, and the height of its lowest point, m.
 fn standing(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [(FootPlacement, f64); 2] {
     let poses = forward(body, posture);
     [0, 1].map(|side| {
@@ -146,7 +149,7 @@ fn standing(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [(FootPlacemen
     })
 }
 
-/// What is left of a wrench (force, moment about `com`) after the best forces in the friction cones at the corners of
+/// Remainder of a wrench (force, moment about `com`) after the best forces in the friction cones at the corners of
 /// `polygon`: lengths of force and moment, in the units given.
 fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, f64) {
     let mut columns = Vec::with_capacity(polygon.len() * feasibility::CONE_EDGES);
@@ -200,8 +203,8 @@ mod tests {
 
     #[test]
     fn a_lean_beyond_the_soles_is_found_again() {
-        // Method: the trunk of a standing man is moved forward so that his centre of mass lies a known distance before
-        // the soles.
+        // Method: the trunk of a standing man is moved forward so that his centre of mass lies a known distance in
+        // front of the soles.
         let body = Body::adult_man();
         let mut posture = at_ease(&body);
         let feet = forward(&body, &posture);
@@ -217,7 +220,7 @@ mod tests {
             .fold(f64::NEG_INFINITY, f64::max);
         posture.root_position.z -= 0.15; // bent knees reach farther
         for lean in [0.02, 0.05, 0.1] {
-            // The legs stay where they are, so the centre of mass follows the pelvis by less than all of its way.
+            // The legs stay where they are, so the centre of mass follows the pelvis only part of the way.
             for _ in 0..30 {
                 let com = center_of_mass(&body, &forward(&body, &posture)).x;
                 posture.root_position.x += front + lean - com;

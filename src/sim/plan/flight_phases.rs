@@ -1,8 +1,8 @@
-//! Runs as they were recorded: when their feet stand, how their mass moves, and how their feet roll off.
+//! Runs as they were recorded: when the feet are planted, how the mass moves, and how the feet roll off.
 //!
 //! A runner's foot is on the floor for two tenths of a second. It touches while it still moves at 1 m/s and leaves the
-//! same way, heel first: labels by the speed of the foot see the middle half of that. What does tell stance from flight
-//! is the body, whose mass falls freely in flight; a motion that is to be followed has to let it.
+//! same way, heel first, so labels by the speed of the foot see only the middle half of the stance. The body tells
+//! stance from flight instead: its mass falls freely in flight, and a motion that can be followed has to allow that.
 
 use super::envelope::bent_below;
 use super::foot_lock::{FootPlacement, LockedFoot, Sole, Stance, StanceTurns};
@@ -18,7 +18,7 @@ use crate::plan::params::{balance, contact, leg, run};
 use crate::reference::params::run_detection;
 use std::ops::RangeInclusive;
 
-/// Speed over the floor about the samples `during`, from [`run_detection::PACE_TIME`] before to as long after, m/s.
+/// Speed over the floor around the samples `during`, from [`run_detection::PACE_TIME`] before to as long after, m/s.
 fn pace(at: impl Fn(usize) -> Vec3, during: RangeInclusive<usize>, n: usize, rate_hz: f64) -> f64 {
     let half = (run_detection::PACE_TIME * rate_hz) as usize;
     let (a, b) = (
@@ -29,7 +29,7 @@ fn pace(at: impl Fn(usize) -> Vec3, during: RangeInclusive<usize>, n: usize, rat
     way.level() * rate_hz / (b - a).max(1) as f64
 }
 
-/// Labels the feet where the body of `postures` runs, by what the floor carries.
+/// Labels the feet where the body of `postures` runs, by the load that the floor carries.
 ///
 /// * `postures`: as recorded, in body scale, feet not locked; `label`: left and right foot on the floor, per sample;
 ///   `rate_hz`: samples per second.
@@ -52,7 +52,7 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
             std::array::from_fn(|s| soles[s].points_at(&poses).collect())
         })
         .collect();
-    // Speed and height of the point of a foot that is most at rest.
+    // Speed and height of the slowest point of a foot.
     let rest = |i: usize, s: usize, height: f64| {
         let (a, b) = (i.saturating_sub(1), (i + 1).min(n - 1));
         let time = (b - a) as f64 / rate_hz;
@@ -80,13 +80,13 @@ pub(crate) fn label_runs(body: &Body, postures: &[Posture], label: &mut [[bool; 
     }
 }
 
-/// Where a motion that runs flies, and how hard it pushes in between.
+/// The flights of a running motion, and how hard it pushes between them.
 pub(crate) struct FlightPhases {
-    /// No foot is on the floor, per sample.
+    /// Whether no foot is on the floor, per sample.
     air: Vec<bool>,
-    /// Vertical acceleration that the centre of mass is to have where it is not as recorded, m/s².
+    /// Vertical acceleration that the centre of mass should have where it should differ from the recorded one, m/s².
     push: Vec<Option<f64>>,
-    /// What it has with the pelvis as high as recorded, m/s².
+    /// Vertical acceleration of the centre of mass with the pelvis at the recorded height, m/s².
     plain: Vec<f64>,
     rate_hz: f64,
 }
@@ -113,7 +113,7 @@ impl FlightPhases {
         })
     }
 
-    /// No foot is on the floor, per sample.
+    /// Whether no foot is on the floor, per sample.
     pub(crate) fn air(&self) -> &[bool] {
         &self.air
     }
@@ -127,9 +127,9 @@ impl FlightPhases {
         }
     }
 
-    /// What the pelvis is raised by, per sample, at most `most` (m): as little as lets the mass fall freely where
-    /// no foot stands, and be pushed evenly where a foot does. Newton's method on the samples that are held down; each
-    /// round is one banded solve, O(n).
+    /// Raise of the pelvis per sample, at most `most` (m): the least that lets the mass fall freely while no foot is
+    /// planted, and be pushed evenly while one is. Newton's method on the samples that are held down; each round is one
+    /// banded solve, O(n).
     pub(crate) fn heights(&self, most: &[f64]) -> Vec<f64> {
         let bend = (leg::DROP_TIME * self.rate_hz).powi(4);
         bent_below(most, |i| {
@@ -145,8 +145,8 @@ impl FlightPhases {
     }
 }
 
-/// Vertical acceleration of the centre of mass in stances between two flights: what gravity takes all the time the
-/// floor gives in the meantime.
+/// Vertical acceleration of the centre of mass in stances between two flights: within the stance the floor makes up for
+/// gravity over the whole time.
 fn pushes(air: &[bool], rate_hz: f64) -> Vec<Option<f64>> {
     let mut out = vec![None; air.len()];
     let share = |u: f64| {
@@ -172,7 +172,7 @@ fn pushes(air: &[bool], rate_hz: f64) -> Vec<Option<f64>> {
     out
 }
 
-/// How far a foot rolls up onto its toes, and onto their tip, so that its ankle is where it was recorded: a runner's
+/// How far a foot rolls up onto its toes, and onto their tip, so that its ankle is where it was recorded. A runner's
 /// foot that is held flat on its toes to the last has its ankle 5 cm behind and 5 cm below that, and its leg is too
 /// short for it.
 ///
@@ -197,7 +197,7 @@ pub(crate) fn roll_off(
             (up[k], on[k]) = roll(sole, &locked.placements[k], ankle[k]);
         }
         for (v, out) in [(&mut up, &mut turns.heel_up), (&mut on, &mut turns.tip)] {
-            // No smoothing across the take-off.
+            // Do not smooth across the take-off.
             let last = v[st.end - 1];
             v[st.end..].fill(last);
             low_pass(v, run::ROLL_CUTOFF, rate_hz);
@@ -211,7 +211,7 @@ pub(crate) fn roll_off(
     }
 }
 
-/// The heel and the tip, rad, that bring the ankle of a foot that stands at `at` nearest to `ankle`, for little.
+/// The smallest heel and tip angles, rad, that bring the ankle of a foot placed at `at` nearest to `ankle`.
 fn roll(sole: &Sole, at: &FootPlacement, ankle: Vec3) -> (f64, f64) {
     let mut best = (f64::INFINITY, 0.0, 0.0);
     for a in -run::HEEL_STEPS..=run::HEEL_STEPS {

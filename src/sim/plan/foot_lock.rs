@@ -1,9 +1,9 @@
 //! Planted feet that do not slide, and swinging feet that clear the floor.
 //!
-//! Each stance gets one placement (place and heading); the whole pose of the foot follows from it and the pitch:
-//! flat, rolled up about the heel edge, or heel up about the toe joint with flat toes. Between stances the foot follows
-//! the recording plus an offset that fades from the one lock and grows into the next with continuous velocity and
-//! acceleration, raised where it would scrape.
+//! Each stance gets one placement (place and heading). The whole pose of the foot follows from it and the pitch: flat,
+//! rolled up about the heel edge, or heel up about the toe joint with flat toes. Between stances the foot follows the
+//! recording plus an offset that fades from one lock and grows into the next with continuous velocity and acceleration,
+//! raised where it would scrape.
 
 mod sole;
 mod stances;
@@ -21,14 +21,14 @@ use crate::plan::params::{contact, pitch, swing};
 use stances::FootTrack;
 use std::ops::Range;
 
-/// A foot that stands as the body's sole allows, and how much was changed for that.
+/// A foot locked to the floor by the body's sole, and how much that changed.
 #[derive(Clone, Debug)]
 pub struct LockedFoot {
     /// Pose per sample.
     pub poses: Vec<FootPose>,
-    /// True where the foot is locked to the floor.
+    /// Whether the foot is locked to the floor, per sample.
     pub planted: Vec<bool>,
-    /// Where it stands, per sample; zero elsewhere.
+    /// Placement of the locked foot, per sample; zero elsewhere.
     pub placements: Vec<FootPlacement>,
     /// How far the recorded foot point strayed in stance, m: largest distance between any sample and the anchor.
     pub slide_before: f64,
@@ -62,7 +62,7 @@ impl RecordedFoot<'_> {
     }
 }
 
-/// By how much a foot in stance is turned otherwise than it was recorded, rad per sample.
+/// By how much a foot in stance is turned differently from the recording, rad per sample.
 #[derive(Clone, Debug)]
 pub struct StanceTurns {
     /// Heel raised further.
@@ -74,7 +74,7 @@ pub struct StanceTurns {
 }
 
 impl StanceTurns {
-    /// None, for `n` samples.
+    /// No turns, for `n` samples.
     pub fn none(n: usize) -> Self {
         Self {
             heel_up: vec![0.0; n],
@@ -91,11 +91,11 @@ pub(in crate::plan) fn swing_toe(pitch: f64) -> f64 {
 
 /// Locks one foot.
 ///
-/// * `stances`, `other`: when it stands, and when the other one does (from [`stances`]).
+/// * `stances`, `other`: the stances of this foot and of the other one (from [`stances`]).
 /// * `side`: 0 left, 1 right.
 /// * `rate_hz`: samples per second.
 ///
-/// The result is continuous in position, velocity and acceleration up to the recording's own smoothness; a planted
+/// The result is continuous in position, velocity and acceleration up to the recording's own smoothness. A planted
 /// foot's pivot (heel edge or toe joint) does not move, and no point of the sole is below the floor in stance. O(n log
 /// n) per stance.
 pub fn lock_foot(
@@ -122,7 +122,7 @@ pub fn lock_foot(
         let pitch = stance_pitch(&track.pitch[i..j], rate_hz);
         let ball = sole.toe_joint.horizontal();
         let arm = |yaw: f64| Quat::exp(Vec3::Z * yaw).rotate(ball);
-        // A foot that is turned outwards is so about its ball.
+        // A foot turns outwards about its ball.
         let stays = place + arm(yaw);
         for k in i..j {
             let yaw = yaw + outward(side) * turns.toe_out[k];
@@ -149,8 +149,8 @@ pub fn lock_foot(
     out
 }
 
-/// Pitch profile of a stance: a dead band makes the foot flat; a walking foot rolls one way only before its flat middle
-/// and one way only after it: toe-up first and heel-up then, unless it comes down on its toes or leaves from its heel.
+/// Pitch profile of a stance. A dead band makes the foot flat. A walking foot rolls one way only before its flat middle
+/// and one way only after it: first toe-up, then heel-up, unless it comes down on its toes or leaves from its heel.
 fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     let n = raw.len();
     let long = n as f64 > pitch::LONG_STANCE * rate_hz;
@@ -187,7 +187,7 @@ fn stance_pitch(raw: &[f64], rate_hz: f64) -> Vec<f64> {
     p
 }
 
-/// Where a swing leaves a lock, or comes into one.
+/// The end of a swing at which it leaves a lock, or comes into one.
 struct End {
     sample: usize,
     /// Samples over which the offset fades.
@@ -196,8 +196,8 @@ struct End {
     offset: [FootOffset; 3],
 }
 
-/// Fills the samples of a swing between the locks on either side; `flies`: at its beginning and at its end the
-/// other foot is in the air as well.
+/// Fills the samples of a swing between the locks on either side. `flies`: whether the other foot is in the air as
+/// well, at the beginning and at the end of the swing.
 fn swing(
     sole: &Sole,
     out: &mut LockedFoot,
@@ -210,7 +210,7 @@ fn swing(
     let (i, j, n) = (samples.start, samples.end, toes.len());
     let recorded_pose = |k: usize| recorded.pose(k, toes[k]);
     let at = |k: usize, out: &LockedFoot| out.poses[k].offset_from(&recorded_pose(k));
-    // Between two locks each offset is gone where the other begins; a swing that the recording breaks off has no other.
+    // Between two locks each offset is gone where the other begins; a swing cut off by the recording has no other lock.
     let fade_time = ((swing::DEPARTURE * rate_hz) as usize).max(1);
     let span = if i > 0 && j < n {
         fade_time.min(j - i + 1)
@@ -270,11 +270,11 @@ fn swing(
         pose.toe = pose.toe.clamp(sole.toe_range.0, sole.toe_range.1);
         out.poses[k] = pose;
     }
-    // Clearance, in proportion to the step: a shuffle of some centimetres need not rise like a stride.
+    // Clearance in proportion to the step: a shuffle of some centimetres need not rise like a stride.
     let (a, b) = (i.saturating_sub(1), j.min(n - 1));
     let reach = (out.poses[b].ankle - out.poses[a].ankle).norm();
     let most = (swing::CLEARANCE_SHARE * reach).clamp(swing::LEAST_CLEARANCE, swing::CLEARANCE);
-    // Time since lift-off and until touch-down, s; a second where the recording breaks the swing off.
+    // Time since lift-off and until touch-down, s; one second where the recording cuts the swing off.
     let since_until = |k: usize| {
         let time = |known: bool, samples: usize| if known { samples as f64 / rate_hz } else { 1.0 };
         (time(i > 0, k + 1 - i), time(j < n, j - k))

@@ -1,4 +1,4 @@
-//! How high a pelvis may be for its legs to reach their ankles.
+//! How high the pelvis may be for the legs to reach their ankles.
 
 use crate::body::Body;
 use crate::body::topology::THIGHS;
@@ -11,9 +11,10 @@ pub(super) fn leg_geometry(body: &Body, side: usize) -> (Vec3, f64) {
     (hip, body.leg_length(side))
 }
 
-/// By how much a pelvis may be higher for a leg to reach its ankle, m; below 0, by how much it has to be lower.
+/// How much higher a pelvis may be for a leg to reach its ankle, m; below 0, how much lower it has to be.
 ///
-/// * `line`: from the ankle to the hip, m; `most`: how far apart they may be, m; `stands`: the foot is on the floor.
+/// * `line`: from the ankle to the hip, m; `most`: their largest possible distance, m; `stands`: whether the foot is on
+///   the floor.
 pub(super) fn room_above(line: Vec3, most: f64, stands: bool) -> f64 {
     let level = line.level();
     let height = (most * most - level * level)
@@ -23,7 +24,7 @@ pub(super) fn room_above(line: Vec3, most: f64, stands: bool) -> f64 {
     if stands || room > 0.0 {
         return room;
     }
-    // A swinging leg must not be straight when it lands either; one that kicks or lies is its own affair.
+    // A swinging leg must not be straight when it lands either. Legs that kick or lie are not restricted.
     let near = (leg::SWING_FAR - level / most) / leg::SWING_FAR_RANGE;
     room.max(-leg::SWING_DROP) * near.clamp(0.0, 1.0)
 }

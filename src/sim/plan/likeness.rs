@@ -1,4 +1,4 @@
-//! How like two motions are at a moment of each, whatever their place and heading.
+//! How alike two motions are at a moment of each, regardless of place and heading.
 
 use crate::body::Posture;
 use crate::body::topology::{DOF_COUNT, DOF_START, L_THIGH, L_UPPER_ARM};
@@ -6,8 +6,8 @@ use crate::math::{Quat, Vec3};
 use crate::motion::GRAVITY;
 use crate::plan::params::{likeness, stop, stream, transition};
 
-/// Unlikeness of the postures and their rates, rad rms over trunk and legs. Of each motion three samples, 1/60 s apart;
-/// the middle ones are compared.
+/// Unlikeness of the postures and their rates, rad rms over trunk and legs. Takes three samples of each motion, 1/60 s
+/// apart, and compares the middle ones.
 pub fn unlike(a: &[Posture; 3], b: &[Posture; 3]) -> f64 {
     let rates = |m: &[Posture; 3]| {
         let way = m[0].joint_difference(&m[2]);
@@ -33,27 +33,27 @@ pub fn unlike(a: &[Posture; 3], b: &[Posture; 3]) -> f64 {
 
 /// Unlikeness of tilt and height of the pelvis, squared, rad².
 pub(super) fn pelvis_unlike(p: &Posture, q: &Posture) -> f64 {
-    // Tilt: where the vertical is in the pelvis.
+    // Tilt: the direction of the vertical in the pelvis frame.
     let up = |p: &Posture| p.root_rotation.conjugate().rotate(Vec3::Z);
     let tilt = up(p) - up(q);
     let height = p.root_position.z - q.root_position.z;
     likeness::TILT_WEIGHT * tilt.dot(tilt) + likeness::HEIGHT_WEIGHT * height * height
 }
 
-/// What it costs to go on at a moment of a stream that is like the one at which a motion is left, and whether a body
-/// bears it.
+/// The cost of entering a stream at a moment that resembles the one at which a motion is left, and whether a body can
+/// bear the change.
 #[derive(Clone, Copy, Debug)]
 pub struct Seam {
     /// Cost.
     pub cost: f64,
-    /// A body bears it.
+    /// Whether a body can bear it.
     pub fits: bool,
 }
 
 impl Seam {
-    /// * `left`, `entered`: of each motion three samples, 1/60 s apart.
-    /// * `hip`: height of the pelvis of a body that stands, m.
-    /// * `delay`: how far what is entered then is from where it should be, s.
+    /// * `left`, `entered`: three samples of each motion, 1/60 s apart.
+    /// * `hip`: height of the pelvis of a standing body, m.
+    /// * `delay`: how far behind its schedule the entered motion is then, s.
     pub fn new(left: &[Posture; 3], entered: &[Posture; 3], hip: f64, delay: f64) -> Self {
         let most_speed = transition::MOST_CAPTURE * (GRAVITY / hip).sqrt();
         let unlike = unlike(left, entered) / likeness::CLOSED_CYCLE;

@@ -45,7 +45,7 @@ fn toe_hinge(side: usize) -> usize {
     }
 }
 
-/// The least number from 0 to `most` that does not lack anything, from above after so many bisections.
+/// The smallest number from 0 to `most` for which nothing is lacking, approached from above in `halvings` bisections.
 fn least_without(most: f64, halvings: usize, lacks: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, most);
     for _ in 0..halvings {
@@ -59,7 +59,7 @@ fn least_without(most: f64, halvings: usize, lacks: impl Fn(f64) -> bool) -> f64
     high
 }
 
-/// A vector of the floor turned by an angle, rad. The same bits on every machine.
+/// A vector on the floor turned by an angle, rad. The same bits on every machine.
 fn turned_on_floor([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     let (s, c) = trig::sin_cos(angle);
     [c * x - s * y, s * x + c * y]

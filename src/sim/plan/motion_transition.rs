@@ -1,12 +1,12 @@
-//! From step to step: out of a motion into a clip without standing in between.
+//! Transitions from step to step: out of a motion into a clip without standing in between.
 //!
-//! As in motion graphs (Kovar, Gleicher & Pighin 2002) the coming part of the one is searched for moments that are like
-//! the beginning of the other; what makes them like is said in terms of the body that has to go over: the capture point
-//! over the foot that stands, where the other foot is, and the joints ([`candidates`]). At such a moment the second
-//! motion is put on the standing foot, the difference between the two fades, and both are prepared together as one
-//! draft, so that no planted foot slides and the zero-moment point stays in the support ([`seam`]). A body that stands,
-//! but not as the clip begins, is led into the clip from there ([`from_stand`]), and so is one whose stream begins in
-//! motion ([`into_stream`]).
+//! As in motion graphs (Kovar, Gleicher & Pighin 2002), the coming part of the first motion is searched for moments
+//! that resemble the beginning of the second. The comparison uses quantities that matter to the body that has to make
+//! the change: the capture point over the planted foot, the place of the other foot, and the joints ([`candidates`]).
+//! At such a moment the second motion is placed on the planted foot, the difference between the two fades, and both are
+//! prepared together as one draft, so that no planted foot slides and the zero-moment point stays in the support
+//! ([`seam`]). A body that stands, but not as the clip begins, is led into the clip from its stand ([`from_stand`]),
+//! and so is one whose stream begins in motion ([`into_stream`]).
 
 mod candidates;
 mod from_stand;
@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// The clip that is to follow, in its own place and time.
+/// The clip to follow, in its own place and time.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct NextClip {
     /// The clip.
@@ -38,7 +38,7 @@ pub struct NextClip {
     pub clip: Arc<Clip>,
     /// Clip seconds per second.
     pub speed: f64,
-    /// It repeats.
+    /// Whether it repeats.
     pub looped: bool,
 }
 
@@ -47,9 +47,9 @@ fn samples_in(seconds: f64) -> usize {
 }
 
 impl NextClip {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
-        // The work of planning depends on it.
+        // The amount of planning depends on the speed.
         (0.01..=100.0).contains(&self.speed)
     }
 
@@ -85,35 +85,35 @@ impl NextClip {
     }
 }
 
-/// The way from a motion or a stand into a clip, in the place and time of the clip: it plays instead of what the clip
-/// has before `until`.
+/// The path from a motion or a stand into a clip, in the place and time of the clip. It plays instead of the part of
+/// the clip before `until`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct TransitionClip {
-    /// The motion: first the one that is left, at last the clip itself.
+    /// The motion: it begins as the motion that is left and ends as the clip itself.
     pub clip: Clip,
     /// Clip time of its first sample, s.
     pub begin: f64,
-    /// Clip time at which the one turns into the other, s; from a stand it is on its way into the clip from its first
-    /// sample on.
+    /// Clip time at which the first motion turns into the second, s. A path from a stand leads towards the clip from
+    /// its first sample on.
     pub enters: f64,
-    /// Clip time from which on it is the clip, s.
+    /// Clip time from which the path equals the clip, s.
     pub until: f64,
 }
 
 impl TransitionClip {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let times = [self.begin, self.enters, self.until];
         times.iter().all(|t| t.is_finite())
     }
 
-    /// True if it comes out of another motion, not from a stand.
+    /// Whether the path comes out of another motion rather than a stand.
     pub fn leads_over(&self) -> bool {
         self.enters > self.begin
     }
 }
 
-/// Samples of a known motion that bound when it is left.
+/// Samples of a known motion between which it can be left.
 #[derive(Clone, Copy, Debug)]
 pub struct LeavingSamples {
     /// The motion continues at least up to this sample.
@@ -122,8 +122,8 @@ pub struct LeavingSamples {
     pub earliest: usize,
 }
 
-/// The ways from a motion into a clip, at the moments that are most alike. Each can be worked out on its own; the first
-/// one that a body can go is taken.
+/// The paths from a motion into a clip, at the moments that are most alike. Each can be planned on its own; the first
+/// one that a body can follow is taken.
 #[derive(Serialize, Deserialize)]
 pub struct TransitionCandidates {
     #[serde(with = "crate::saved::definition")]
@@ -132,7 +132,7 @@ pub struct TransitionCandidates {
     now: usize,
     next: NextClip,
     moments: Vec<Moment>,
-    /// First way that a body can go, as far as is known: those after it are not wanted.
+    /// The first path already found to be one that a body can follow: those after it are not needed.
     #[serde(skip, default = "none_yet")]
     found: AtomicUsize,
 }
@@ -145,10 +145,9 @@ impl std::fmt::Debug for TransitionCandidates {
 
 impl TransitionCandidates {
     /// * `known`: the motion from at least [`transition::RUN_UP`] ago to [`transition::AHEAD`] and
-    ///   [`transition::BEYOND`] ahead, samples at [`stop::RATE`]; it continues at least up to sample
-    ///   `left.now`.
+    ///   [`transition::BEYOND`] ahead, samples at [`stop::RATE`]; it continues at least up to sample `left.now`.
     pub fn new(body: &Arc<Body>, known: Vec<Sample>, left: LeavingSamples, next: NextClip) -> Self {
-        // With a sample before and after, for rates.
+        // Includes one sample before and one after, for rates.
         let beginning = next.samples(-next.speed / stop::RATE, next.skipped_samples() + 3);
         let LeavingSamples { now, earliest } = left;
         let (left, entered) = (Features::new(body, &known), Features::new(body, &beginning));
@@ -163,7 +162,7 @@ impl TransitionCandidates {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         let known = self.known.len();
         let seconds = transition::RUN_UP + transition::AHEAD + transition::BEYOND;
@@ -180,7 +179,7 @@ impl TransitionCandidates {
             && self.moments.iter().all(fits)
     }
 
-    /// The moments that are like, most alike first.
+    /// The moments at which the motions are alike, most alike first.
     pub fn moments(&self) -> &[Moment] {
         &self.moments
     }
@@ -190,8 +189,8 @@ impl TransitionCandidates {
         moment.entered as f64 * self.next.speed / stop::RATE
     }
 
-    /// The way at the `k`-th moment, and where it puts the origin of the clip; `None` if a body cannot go it, or if one
-    /// before it is found already.
+    /// The path at the `k`-th moment, and where it puts the origin of the clip; `None` if a body cannot follow it, or
+    /// if an earlier one has already been found.
     pub fn way(&self, k: usize) -> Option<(TransitionClip, PlanarTransform)> {
         let moment = self.moments.get(k)?;
         if k > self.found.load(Ordering::Relaxed) {
@@ -214,7 +213,7 @@ impl TransitionCandidates {
         Some((way, moment.place))
     }
 
-    /// True once a way was found.
+    /// Whether a path has been found.
     pub fn found(&self) -> bool {
         self.found.load(Ordering::Relaxed) < usize::MAX
     }

@@ -1,10 +1,10 @@
-//! Every tunable number of the plans, in groups per subject.
+//! Every tunable number of the plans, grouped by subject.
 //!
 //! Names that begin with `STREAM_` belong to the preparation of streams where it differs from that of clips.
 
 use crate::params::Param;
 
-/// Which foot touches the floor, and whether a body stands on its feet at all.
+/// Contacts of the feet with the floor, and whether a body is on its feet at all.
 pub mod contact {
     crate::params::params! {
         /// A point of a foot comes to the floor below this speed.
@@ -51,7 +51,7 @@ pub mod contact {
     }
 }
 
-/// What the height of the pelvis says, in shares of that of a stand.
+/// Conclusions from the height of the pelvis, as a share of its height in a stand.
 pub mod pelvis {
     crate::params::params! {
         /// Below it a body sits or lies on the floor: no foot is locked.
@@ -67,7 +67,7 @@ pub mod pelvis {
     }
 }
 
-/// What plans and tracking share.
+/// Numbers that plans and tracking share.
 pub mod common {
     crate::params::params! {
         /// A body that is slower over the floor is at rest.
@@ -83,7 +83,7 @@ pub mod common {
     }
 }
 
-/// Where and how long a foot stands.
+/// Places and durations of stances.
 pub mod stance {
     crate::params::params! {
         /// A recorded foot that strays further from its place has stepped.
@@ -131,7 +131,7 @@ pub mod stance {
     }
 }
 
-/// How a foot that stands is pitched.
+/// How a planted foot is pitched.
 pub mod pitch {
     crate::params::params! {
         /// A foot that is pitched by less, and toes that are turned up by less, lie flat.
@@ -195,7 +195,7 @@ pub mod swing {
     }
 }
 
-/// What one foot can hold alone: the zero-moment points that its ankle is strong enough for.
+/// The support that one foot can give alone: the zero-moment points for which its ankle is strong enough.
 pub mod ankle {
     crate::params::params! {
         /// Share of its strength that an ankle gives at the edge of the support.
@@ -221,7 +221,7 @@ pub mod ankle {
     }
 }
 
-/// Where the zero-moment point is kept, and what the pelvis does for it.
+/// Limits for the zero-moment point, and how the pelvis moves to keep them.
 pub mod balance {
     crate::params::params! {
         /// Ground force over weight below which the zero-moment point says nothing.
@@ -289,7 +289,7 @@ pub mod balance {
     }
 }
 
-/// Legs that reach their feet within the limits of their joints, and what the pelvis does for them.
+/// Legs that reach their feet within the limits of their joints, and how the pelvis moves for that.
 pub mod leg {
     crate::params::params! {
         /// A planted leg reaches at most this share of its length: a straight knee makes inverse kinematics jump.
@@ -409,7 +409,7 @@ pub mod run {
     }
 }
 
-/// Whether the ground can give what a motion asks for.
+/// Whether the ground can give the forces that a motion asks for.
 pub mod feasibility {
     crate::params::params! {
         /// Friction that the ground is believed to have.
@@ -421,7 +421,7 @@ pub mod feasibility {
     }
 }
 
-/// When two moments of motions are alike: cycles, steps that break off, transitions.
+/// When two moments of motions are alike: for cycles, motions that break off in mid-step, and transitions.
 pub mod likeness {
     crate::params::params! {
         /// Rates count this much against angles.

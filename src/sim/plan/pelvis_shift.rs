@@ -1,9 +1,9 @@
-//! Does a motion keep its balance on the feet it stands on, and what shift of the trunk makes it do so?
+//! Whether a motion keeps its balance on its planted feet, and the shift of the trunk that makes it do so.
 //!
-//! From the postures alone: centre of mass, zero-moment point (with the change of angular momentum), support polygon of
-//! the planted feet. Where the zero-moment point leaves the polygon, the pelvis is shifted by as little as brings it
-//! back; it answers to a shift Δ of the centre of mass by `Δ − Δ̈/ω²`, `ω² = (g + c̈_z)/c_z` (cart-table model of
-//! Kajita et al. 2003).
+//! Everything is computed from the postures alone: centre of mass, zero-moment point (with the change of angular
+//! momentum), support polygon of the planted feet. Where the zero-moment point leaves the polygon, the pelvis is
+//! shifted by the least amount that brings it back; it answers to a shift Δ of the centre of mass by `Δ − Δ̈/ω²`, `ω² =
+//! (g + c̈_z)/c_z` (cart-table model of Kajita et al. 2003).
 
 use super::free_fall::in_free_fall;
 use crate::body::topology::SEGMENT_COUNT;
@@ -28,7 +28,7 @@ pub struct MassTrack {
     pub omega2: Vec<f64>,
     /// Vertical ground force over weight.
     pub load: Vec<f64>,
-    /// What the ground has to give: force, N, and moment about the centre of mass, N·m.
+    /// The wrench that the ground has to give: force, N, and moment about the centre of mass, N·m.
     pub wrench: Vec<(Vec3, Vec3)>,
 }
 
@@ -86,7 +86,7 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         out.load[i] = 1.0 + acc.z / GRAVITY;
         out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate);
         out.omega2[i] = pendulum_omega2(c.z, acc.z);
-        // Near flight there is no zero-moment point to speak of; the centre of mass stands in.
+        // Near flight the zero-moment point is not defined; the centre of mass is used instead.
         if out.load[i] > balance::LEAST_LOAD {
             out.zmp[i] = zero_moment_point(c, out.wrench[i]);
         }
@@ -99,26 +99,27 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
     out
 }
 
-/// Square of the frequency of a pendulum whose mass is so high (m) and accelerates upwards by `rising` (m/s²), 1/s².
+/// Square of the frequency of a pendulum whose mass is at `height` (m) and accelerates upwards by `rising` (m/s²),
+/// 1/s².
 pub(super) fn pendulum_omega2(height: f64, rising: f64) -> f64 {
     ((GRAVITY + rising) / height.max(balance::LEAST_HEIGHT))
         .clamp(balance::LEAST_OMEGA2, balance::MOST_OMEGA2)
 }
 
-/// How far a zero-moment point that is outside by `distance` (m) for long tells of something else than feet that
-/// carries: 0 no, 1 for sure.
+/// How strongly a zero-moment point that stays outside by `distance` (m) indicates that something other than the feet
+/// carries the body: 0 not at all, 1 for sure.
 pub(super) fn lasts_outside(distance: f64) -> f64 {
     let begins = balance::OTHER_SUPPORT_BEGINS * balance::OTHER_SUPPORT;
     let range = balance::OTHER_SUPPORT_RANGE * balance::OTHER_SUPPORT;
     ((distance - begins) / range).clamp(0.0, 1.0)
 }
 
-/// Where on the floor (z = 0) the ground force acts without a level moment.
+/// The point of the floor (z = 0) at which the ground force acts without a horizontal moment.
 ///
 /// * `com`: centre of mass, m.
-/// * `wrench`: force of the ground, N, and its moment about the centre of mass, N·m. About the world origin the same
+/// * `wrench`: force of the ground, N, and its moment about the centre of mass, N·m. About the world origin the moment
 ///   would be the small difference of moments that grow with the distance from it, and differentiation makes them
-///   differ by more than the sole is long.
+///   differ by more than the length of the sole.
 pub(crate) fn zero_moment_point(com: Vec3, (force, moment): (Vec3, Vec3)) -> [f64; 2] {
     [
         com.x - (com.z * force.x + moment.y) / force.z,
@@ -129,25 +130,25 @@ pub(crate) fn zero_moment_point(com: Vec3, (force, moment): (Vec3, Vec3)) -> [f6
 /// How much a body may rest on something other than its feet in one sample, from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OtherSupport {
-    /// On a seat.
+    /// How much on a seat.
     pub seat: f64,
-    /// On its hands.
+    /// How much on its hands.
     pub hands: f64,
 }
 
-/// What carries the body in one sample.
+/// The support of the body in one sample.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SupportPhase {
     /// Feet on the floor: convex hull of their footprints.
     Feet(Vec<[f64; 2]>),
     /// Nothing: free flight.
     Air,
-    /// Something this preparation knows nothing about: other body parts, a chair.
+    /// Something this preparation does not model: other body parts, a chair.
     Other,
 }
 
-/// How the zero-moment point answers to a shift of the centre of mass: Δ − Δ̈/ω², tridiagonal, the motion mirrored at
-/// both ends.
+/// How the zero-moment point answers to a shift of the centre of mass: Δ − Δ̈/ω², tridiagonal, with the motion mirrored
+/// at both ends.
 fn answer(omega2: f64, rate_hz: f64, i: usize, n: usize) -> [f64; 3] {
     let a = rate_hz * rate_hz / omega2;
     let side = |edge: bool, other: bool| match (edge, other) {
@@ -172,17 +173,17 @@ fn answered(rows: &[[f64; 3]], shift: &[[f64; 2]], i: usize) -> [f64; 2] {
 /// Price of a zero-moment point outside, 1/m².
 pub(super) const PRICE: f64 = 1.0 / (balance::OUTSIDE_COST * balance::OUTSIDE_COST);
 
-/// What a shift of the pelvis is worked out from.
+/// The inputs from which a shift of the pelvis is computed.
 #[derive(Clone, Copy)]
 pub struct ShiftProblem<'a> {
     /// The motion as shifted by `so_far`.
     pub track: &'a MassTrack,
-    /// Shift of the pelvis that is in `track` already, per sample, m.
+    /// Shift of the pelvis that `track` already contains, per sample, m.
     pub so_far: &'a [[f64; 2]],
-    /// What carries the body.
+    /// The support of the body.
     pub support: &'a [SupportPhase],
-    /// What else may carry the body. A body on a seat is left alone, as is one in flight; one that may lean on its
-    /// hands is where its zero-moment point is outside by more than [`balance::OTHER_SUPPORT`] for long.
+    /// Other supports that the body may use. A body on a seat is left alone, as is one in flight. One that may lean on
+    /// its hands does so where its zero-moment point is outside by more than [`balance::OTHER_SUPPORT`] for long.
     pub other_support: &'a [OtherSupport],
     /// Distance inside the support at which the zero-moment point is kept, m.
     pub inset: f64,
@@ -190,8 +191,8 @@ pub struct ShiftProblem<'a> {
     pub rate_hz: f64,
 }
 
-/// Share of the way into the support that the zero-moment point is brought in each sample: none where something else
-/// than feet carries.
+/// Share of the distance into the support by which the zero-moment point is moved in each sample: 0 where something
+/// other than feet carries.
 ///
 /// * `plain`: zero-moment point without any shift, m.
 fn correction_shares(problem: &ShiftProblem<'_>, plain: &[[f64; 2]]) -> Vec<f64> {
@@ -206,7 +207,7 @@ fn correction_shares(problem: &ShiftProblem<'_>, plain: &[[f64; 2]]) -> Vec<f64>
         SupportPhase::Feet(p) => (-margin(p, plain[i])).clamp(0.0, balance::MOST_OUTSIDE),
         _ => 0.0,
     };
-    // How far outside for about a second: peaks of gait are corrected, a chair is not.
+    // The distance outside, averaged over about a second: peaks of gait are corrected, a chair is not.
     let mut lasting: Vec<f64> = support.iter().enumerate().map(outside).collect();
     low_pass(&mut lasting, balance::LASTING_CUTOFF, rate_hz);
     let share = |(i, c): (usize, &SupportPhase)| {
@@ -216,7 +217,7 @@ fn correction_shares(problem: &ShiftProblem<'_>, plain: &[[f64; 2]]) -> Vec<f64>
         } else {
             0.0
         };
-        // A light body's zero-moment point says little.
+        // The zero-moment point of a lightly loaded body says little.
         let load = track.load[i].clamp(0.0, 1.0);
         let sigma = PRICE * meant * load * load;
         sigma / (sigma + PRICE)
@@ -243,8 +244,8 @@ fn shift_system(rows: &[[f64; 3]], support: &[SupportPhase], rate_hz: f64) -> Pe
     matrix
 }
 
-/// Shift of the pelvis, m per sample, that brings the zero-moment point inside the support: the least one,
-/// and the smoothest.
+/// Shift of the pelvis, m per sample, that brings the zero-moment point inside the support: the smallest and smoothest
+/// one.
 ///
 /// Minimises `Σ s² + τ⁴ s̈² + Σ (outside/COST)²` where the zero-moment point answers to a shift Δ = s/LEAD of the
 /// centre of mass by Δ − Δ̈/ω² (cart-table model of Kajita et al. 2003), by alternating between the trajectory (a
@@ -255,8 +256,8 @@ pub fn pelvis_shift(problem: &ShiftProblem<'_>) -> Vec<[f64; 2]> {
     shift_with(problem, None)
 }
 
-/// The same for a body that runs, which flies where `air` is set: the path of its mass is straight there, whatever it
-/// was.
+/// The same for a running body, which flies where `air` is set: the path of its mass is straight there, whatever it was
+/// before.
 pub(crate) fn pelvis_shift_in_run(problem: &ShiftProblem<'_>, air: &[bool]) -> Vec<[f64; 2]> {
     let mut straight = vec![[0.0; 2]; air.len()];
     let (com, so_far) = (&problem.track.com, problem.so_far);
@@ -273,7 +274,7 @@ pub(crate) fn pelvis_shift_in_run(problem: &ShiftProblem<'_>, air: &[bool]) -> V
     shift_with(problem, Some(&straight))
 }
 
-/// [`pelvis_shift`] with another pull on the shift, per sample, from whatever else is asked of it.
+/// [`pelvis_shift`] with an additional pull on the shift, per sample, from other requirements.
 fn shift_with(problem: &ShiftProblem<'_>, pull: Option<&[[f64; 2]]>) -> Vec<[f64; 2]> {
     let &ShiftProblem {
         track,
@@ -287,7 +288,7 @@ fn shift_with(problem: &ShiftProblem<'_>, pull: Option<&[[f64; 2]]>) -> Vec<[f64
     let rows: Vec<[f64; 3]> = (0..n)
         .map(|i| answer(track.omega2[i], rate_hz, i, n).map(|x| x / balance::PELVIS_LEAD))
         .collect();
-    // Where the zero-moment point would be without any shift.
+    // The zero-moment point without any shift.
     let plain: Vec<[f64; 2]> = (0..n)
         .map(|i| minus(track.zmp[i], answered(&rows, so_far, i)))
         .collect();

@@ -32,7 +32,7 @@ pub(super) use support_phases::{
 use support_phases::{within_reach, zmp_outside};
 use whole_body::assemble;
 
-/// A recorded motion in body scale, floor at z = 0: what the preparation starts from.
+/// A recorded motion in body scale, floor at z = 0: the input of the preparation.
 #[derive(Clone, Debug)]
 pub struct Draft {
     /// Samples per second.
@@ -49,21 +49,21 @@ pub struct Draft {
     pub label: Vec<[bool; 2]>,
 }
 
-/// What to do with the draft.
+/// Parts of the preparation to apply to the draft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrepareOptions {
     /// Lock planted feet to the floor.
     pub lock_feet: bool,
     /// Shift the trunk so that the zero-moment point stays in the support polygon.
     pub balance: bool,
-    /// Prepare what flies fast as a run: a row of flights.
+    /// Prepare fast stretches with flights as a run.
     pub runs: bool,
-    /// A planted foot that its leg cannot hold to this accuracy is declared free, m.
+    /// A planted foot that its leg cannot hold to this accuracy, m, is declared free.
     pub held: f64,
 }
 
 impl PrepareOptions {
-    /// Everything that there is.
+    /// The complete preparation.
     pub(super) const FULL: Self = Self {
         lock_feet: true,
         balance: true,
@@ -79,7 +79,7 @@ pub struct Prepared {
     pub postures: Vec<Posture>,
     /// Feet locked to the floor: left, right.
     pub planted: Vec<[bool; 2]>,
-    /// By how much each DOF was outside the body's limits, rad, and in which fraction of the samples.
+    /// How far each DOF was outside the body's limits, rad, and in which fraction of the samples.
     pub clamped: [Excess; DOF_COUNT],
     /// Largest distance of a planted foot from its place, m: as recorded, and prepared.
     pub slide: Compared<f64>,
@@ -109,8 +109,8 @@ pub fn prepare(body: &Body, draft: &Draft, options: PrepareOptions) -> Prepared 
 }
 
 /// The same with another number of rounds in which ankles are unloaded and the pelvis is shifted. With fewer than
-/// [`balance::REACH_ROUND`], as for what joins two motions, feet that their legs do not reach go on carrying: taken off
-/// the floor they would step in place, and there is no time for that.
+/// [`balance::REACH_ROUND`], as for a seam between two motions, feet that their legs do not reach continue to carry:
+/// taken off the floor they would step in place, and there is no time for that.
 pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: usize) -> Prepared {
     let mut work = PreparationWork::new(body, draft, options);
     let zmp_before = zmp_outside(&work.motion.track, &work.feet.support);
@@ -137,18 +137,18 @@ pub fn prepare_in(body: &Body, draft: &Draft, options: PrepareOptions, rounds: u
     work.report(folded, zmp_before, depth_before)
 }
 
-/// What the feet do.
+/// The state of the feet.
 struct PreparedFeet {
     stances: [Vec<Stance>; 2],
     locked: [LockedFoot; 2],
-    /// Locked to the floor, per sample.
+    /// Whether each foot is locked to the floor, per sample.
     planted: Vec<[bool; 2]>,
-    /// Those of the planted ones that carry.
+    /// Whether each planted foot carries the body.
     carries: Vec<[bool; 2]>,
     support: Vec<SupportPhase>,
 }
 
-/// What the body does.
+/// The changes made to the body.
 struct PreparedMotion {
     postures: Vec<Posture>,
     track: MassTrack,
@@ -158,7 +158,7 @@ struct PreparedMotion {
     drop: Vec<f64>,
 }
 
-/// A preparation under way: its methods are its stages.
+/// A preparation under way; its methods are its stages.
 struct PreparationWork<'a> {
     body: &'a Body,
     draft: &'a Draft,
@@ -176,7 +176,7 @@ struct PreparationWork<'a> {
 }
 
 impl<'a> PreparationWork<'a> {
-    /// Feet locked, legs solved for the pelvis as recorded.
+    /// Locks the feet and solves the legs for the pelvis as recorded.
     fn new(body: &'a Body, draft: &'a Draft, options: PrepareOptions) -> Self {
         let n = draft.postures.len();
         let rate = draft.rate_hz;
@@ -254,7 +254,7 @@ impl<'a> PreparationWork<'a> {
     }
 
     /// Bends heels, toes, legs and the pelvis where ankles and hips of planted feet lack range, and locks the feet
-    /// anew.
+    /// again.
     fn unload_ankles(&mut self) {
         let stances = &self.feet.stances;
         self.unloading.add(
@@ -269,7 +269,7 @@ impl<'a> PreparationWork<'a> {
         self.update_support();
     }
 
-    /// Shifts the pelvis so that the zero-moment point stays where the feet can have it.
+    /// Shifts the pelvis so that the zero-moment point stays within the support of the feet.
     fn shift_pelvis(&mut self) {
         let rate_hz = self.draft.rate_hz;
         let runs = self.flights.is_some();
@@ -318,7 +318,7 @@ impl<'a> PreparationWork<'a> {
         self.motion.track = mass_track(self.body, &self.motion.postures, self.draft.rate_hz);
     }
 
-    /// Lets the planted feet no longer carry that their legs hold far from their places.
+    /// Excludes from the support the planted feet that their legs hold far from their places.
     fn release_unreached_feet(&mut self) {
         let (feet, postures) = (&self.feet, &self.motion.postures);
         let locked = (&self.soles, &feet.locked);
@@ -326,7 +326,7 @@ impl<'a> PreparationWork<'a> {
         self.update_support();
     }
 
-    /// Tilts and raises the pelvis for legs that fold further than the body's.
+    /// Tilts and raises the pelvis for legs that fold further than the body's can.
     fn unfold_legs(&mut self) -> DeepFlexion {
         if !self.options.lock_feet {
             return DeepFlexion::default();
@@ -342,7 +342,7 @@ impl<'a> PreparationWork<'a> {
         )
     }
 
-    /// Deepest sole in the floor of a foot that is on it, as recorded, m.
+    /// Deepest penetration of the floor by the sole of a planted foot, as recorded, m.
     fn recorded_depth(&self) -> f64 {
         let draft = self.draft;
         let mut depth: f64 = 0.0;
@@ -356,7 +356,7 @@ impl<'a> PreparationWork<'a> {
         depth
     }
 
-    /// Brings the legs into their limits, which may free feet, and says what came of it all.
+    /// Brings the legs within their limits, which may free feet, and reports the result.
     fn report(
         mut self,
         folded: DeepFlexion,

@@ -1,6 +1,6 @@
-//! What reading a recording found, guessed and changed.
+//! Findings, guesses and changes made in reading a recording.
 //!
-//! One type for every reader: serialised, it is what `sinew lint --json` prints (errors in mm, other lengths in m,
+//! One type for every reader. Serialised, it is the output of `sinew lint --json` (errors in mm, other lengths in m,
 //! angles in degrees); the server converts it to its message.
 
 use super::contact_labels::ContactPhase;
@@ -26,7 +26,7 @@ pub struct ClampedDof {
 }
 
 impl ClampedDof {
-    /// Joint and motion as people name them: `right ankle: flexion` for `r_ankle_flexion`.
+    /// Joint and motion in everyday words: `right ankle: flexion` for `r_ankle_flexion`.
     fn in_words(&self) -> String {
         let (side, rest) = match self.dof.split_at(2) {
             ("l_", rest) => ("left ", rest),
@@ -38,10 +38,10 @@ impl ClampedDof {
     }
 }
 
-/// How the feet stand.
+/// Contacts of the feet.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FootReport {
-    /// Which feet the recording has on the floor, without gaps.
+    /// Phases of the recording by the feet it has on the floor, without gaps.
     pub phases: Vec<ContactPhase>,
     /// Largest distance of a planted foot from its place, m.
     #[serde(rename = "foot_slide_mm", serialize_with = "both_in_millimetres")]
@@ -74,7 +74,7 @@ pub struct PelvisReport {
     /// Lowering so that planted legs reach, m.
     #[serde(rename = "pelvis_drop_max_mm", serialize_with = "millimetres")]
     pub drop: f64,
-    /// Angle by which it is tilted back where hips do not flex as far as recorded, rad.
+    /// Angle of tilting back where hips do not flex as far as recorded, rad.
     #[serde(skip)]
     pub tilt: f64,
     /// Raise where legs do not fold as far as recorded, m.
@@ -87,11 +87,11 @@ pub struct PelvisReport {
 pub struct RunningReport {
     /// Speed over the floor of the fastest run, m/s, if the recording runs anywhere.
     pub speed: Option<f64>,
-    /// True if it is walked.
+    /// Whether runs are turned into walking.
     pub walked: bool,
 }
 
-/// What reading a recording found, guessed and changed.
+/// Findings, guesses and changes made in reading a recording.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReadingReport {
     /// Bones.
@@ -123,7 +123,7 @@ pub struct ReadingReport {
     /// Running.
     #[serde(skip)]
     pub runs: RunningReport,
-    /// What a user should know.
+    /// Messages for the user.
     pub warnings: Vec<String>,
 }
 
@@ -133,7 +133,7 @@ fn both_in_millimetres<S: Serializer>(lengths: &Compared<f64>, s: S) -> Result<S
 }
 
 impl ReadingReport {
-    /// Adds a sentence for each finding that a reader should know.
+    /// Adds a sentence for each finding that a user should know.
     pub(super) fn note_warnings(&mut self, from_rest: bool) {
         let w = &mut self.warnings;
         if self.skeleton.by_structure {

@@ -19,7 +19,7 @@ use std::mem::take;
 pub struct PreparedRecording {
     /// The motion.
     pub clip: Clip,
-    /// What was found and done.
+    /// Findings and changes.
     pub report: ReadingReport,
 }
 
@@ -37,7 +37,7 @@ pub fn prepare_recording(
     prepare_recording_unless(recording, body, options, &|| false)
 }
 
-/// As [`prepare_recording`], given up between two of its stages once `stop` says so.
+/// As [`prepare_recording`], but gives up between two of its stages once `stop` says so.
 ///
 /// # Errors
 /// Those of [`prepare_recording`]; [`RetargetError::Stopped`].
@@ -92,7 +92,7 @@ fn labelled(fitted: &mut FittedReference) -> Draft {
     }
 }
 
-/// Labels the feet of runs by what the floor carries, as the fitted body moves.
+/// Labels the feet of runs by the load that the floor carries, as the fitted body moves.
 fn label_kept_runs(body: &Body, draft: &mut Draft) {
     let as_recorded = PrepareOptions {
         lock_feet: false,
@@ -108,13 +108,13 @@ fn label_kept_runs(body: &Body, draft: &mut Draft) {
 struct PlannedMotion {
     postures: Vec<Posture>,
     planted: Vec<[bool; 2]>,
-    /// Samples of the way into the motion, and of the way out of it.
+    /// Samples of the path into the motion, and of the path out of it.
     lead_in: usize,
     lead_out: usize,
 }
 
 impl PlannedMotion {
-    /// Takes the motion out of what was prepared.
+    /// Takes the motion out of the prepared one.
     fn of(prepared: &mut Prepared) -> Self {
         Self {
             postures: take(&mut prepared.postures),
@@ -124,13 +124,13 @@ impl PlannedMotion {
         }
     }
 
-    /// The motion, prepared from `draft`, with the way into it from a stand and the way out of it.
+    /// The motion, prepared from `draft`, with the path into it from a stand and the path out of it.
     fn with_ends(self, body: &Body, draft: Draft, how: PrepareOptions) -> Self {
         let (rate_hz, label) = (draft.rate_hz, draft.label.clone());
-        drop(draft); // of a long clip it is large
+        drop(draft); // the draft of a long clip is large
         let mut whole = Draft::of_postures(body, rate_hz, self.postures.clone(), label.clone());
         let (lead_in, lead_out) = whole.add_ends(body);
-        // Where no way is needed at either end a foot may still have been put down.
+        // A foot may have been put down even if neither end needs a path.
         if (lead_in, lead_out) == (0, 0) && whole.label == label {
             return self;
         }
@@ -145,7 +145,7 @@ impl PlannedMotion {
     }
 }
 
-/// The report of a motion that was prepared with `how`; `phases`: which feet the recording has on the floor.
+/// The report of a motion that was prepared with `how`; `phases`: the recording's phases by feet on the floor.
 fn report(
     fitted: FittedReference,
     prepared: &Prepared,
@@ -176,7 +176,7 @@ fn report(
         },
         balance: ZmpReport {
             zmp_outside: prepared.zmp,
-            // Without feet that are locked nothing says what carries the body.
+            // Without locked feet the support of the body is unknown.
             carried: match how.lock_feet {
                 true => prepared.carried,
                 false => 0.0,

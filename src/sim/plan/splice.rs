@@ -1,8 +1,7 @@
-//! From one motion into another while it goes on: into a stand, or into a clip at the place where that looks most
-//! alike.
+//! Out of a motion that is playing: into a stand, or into a clip at the place where that looks most alike.
 //!
-//! The seam is a draft like any other: what was planned so far, then what comes, prepared together so that feet are
-//! locked and the zero-moment point is kept across it. Planned once when a figure is told to do something else;
+//! The seam is a draft like any other: the motion already planned and its continuation are prepared together, so that
+//! feet are locked and the zero-moment point is kept across the seam. Planned once when a figure gets a new task;
 //! allocates, 10 to 20 ms for each end.
 
 use super::cycle::relabel_prepared;
@@ -18,8 +17,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
 pub(crate) const SEAM_OPTIONS: PrepareOptions = PrepareOptions {
-    // A foot that an ankle at its limit moves by millimetres goes on standing: taken off the floor it would step in
-    // place, and a stop has no time for that.
+    // A foot that an ankle at its limit moves by millimetres stays planted: taken off the floor it would step in place,
+    // and a stop has no time for that.
     held: leg::SEAM_HELD,
     ..PrepareOptions::FULL
 };
@@ -27,12 +26,12 @@ pub(crate) const SEAM_OPTIONS: PrepareOptions = PrepareOptions {
 pub(crate) use super::params::stop::RUN_UP;
 pub(crate) use super::params::stream::RATE;
 
-/// A sample: posture, and which feet are planted.
+/// A sample: its posture, and whether each foot is planted.
 pub type Sample = (Posture, [bool; 2]);
 
-/// The ends of a motion by the steps that bring it to a stand: the moments of the step to come are tried as the
-/// beginning of the end, in turn, until one asks little of the ground; else the one that asks least is taken. Each can
-/// be worked out on its own.
+/// The ways to end a motion by steps that bring it to a stand. The moments of the coming step are tried in turn as the
+/// beginning of the end, until one asks little of the ground; if none does, the one that asks least is taken. Each can
+/// be planned on its own.
 #[derive(Serialize, Deserialize)]
 pub struct StopCandidates {
     #[serde(with = "crate::saved::definition")]
@@ -43,17 +42,17 @@ pub struct StopCandidates {
     streamed: bool,
     #[serde(skip)]
     way: OnceLock<Option<KnownMotion>>,
-    /// First end that was easy, as far as is known: those after it are not wanted.
+    /// The first end already found to be easy: those after it are not needed.
     #[serde(skip, default = "none_yet")]
     easy: AtomicUsize,
 }
 
-/// The number of the first way that serves: there is none, as far as is known.
+/// The number of the first path that serves, before any is known.
 pub(super) fn none_yet() -> AtomicUsize {
     AtomicUsize::new(usize::MAX)
 }
 
-/// What all ends have in common: the motion with samples at [`stop::RATE`], with its step finished, and its labels.
+/// The part that all ends share: the motion with samples at [`stop::RATE`], with its step finished, and its labels.
 struct KnownMotion {
     known: Vec<Sample>,
     postures: Vec<Posture>,
@@ -61,7 +60,7 @@ struct KnownMotion {
     now: usize,
 }
 
-/// How a motion that is stopped stands in the end, wherever that is.
+/// The stand in which a stopped motion ends, wherever that is.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct StandGoal {
     /// The stand; at ease if absent.
@@ -77,11 +76,11 @@ impl std::fmt::Debug for StopCandidates {
 }
 
 impl StopCandidates {
-    /// Most ends that are tried.
+    /// Largest number of ends that are tried.
     pub const MOST: usize = (stop::SEARCH_TIME * stop::RATE) as usize / stop::SEARCH_STRIDE + 1;
 
-    /// * `known`: the motion so far and as far ahead as it is known, samples at [`stream::RATE`]; it goes on at least
-    ///   up to sample `now`.
+    /// * `known`: the motion up to now and as far ahead as it is known, samples at [`stream::RATE`]; it continues at
+    ///   least up to sample `now`.
     pub fn new(body: &Arc<Body>, known: Vec<Sample>, now: usize, to: StandGoal) -> Self {
         let StandGoal {
             posture: goal,
@@ -98,19 +97,19 @@ impl StopCandidates {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint: a stream is known as far as its ring goes, all else
-    /// for less long.
+    /// Whether this value is one that a checkpoint could hold: a stream is known as far as its ring goes, any other
+    /// motion for a shorter time.
     pub fn is_valid(&self) -> bool {
         let window = (stream::LONGEST_WINDOW * stream::RATE) as i64;
         self.known.len() as i64 <= 2 * stream::PAST + window && self.now <= self.known.len()
     }
 
-    /// True if it is given how the figure stands in the end.
+    /// Whether the final stand is given.
     pub fn have_goal(&self) -> bool {
         self.goal.is_some()
     }
 
-    /// The end that leads to a stand like `goal`, of all that do.
+    /// The same ends with a stand like `goal`: the best of them all.
     pub fn like(&self, goal: Posture) -> Option<Clip> {
         let to = StandGoal {
             posture: Some(goal),
@@ -140,14 +139,14 @@ impl StopCandidates {
         self.way.get_or_init(way).as_ref()
     }
 
-    /// The `k`-th end, below [`Self::MOST`], and how much it asks for. Time 0 of the clip is the first sample given.
-    /// `None` if there is none, if it stands, sits or lies anyway, or if an end before it was easy.
+    /// The `k`-th end, below [`Self::MOST`], and how much it asks of the ground. Time 0 of the clip is the first given
+    /// sample. `None` if there is none, if the body stands, sits or lies anyway, or if an earlier end was easy.
     pub fn end(&self, k: usize) -> Option<(f64, Clip)> {
         if k > self.easy.load(Ordering::Relaxed) {
             return None;
         }
         let way = self.way()?;
-        // Where in a step a body can be stopped best shows only when it is worked out.
+        // The moment of the step at which a body can best be stopped is known only once all are planned.
         let last = way.postures.len() - 1;
         let latest = (way.now + (stop::SEARCH_TIME * stop::RATE) as usize).min(last);
         let end = way.now.min(last) + k * stop::SEARCH_STRIDE;
@@ -161,7 +160,7 @@ impl StopCandidates {
         Some(found)
     }
 
-    /// The end that is taken, of all in their order. Looks at none behind an easy one.
+    /// The end to take out of all in their order. Looks at none after an easy one.
     pub fn best(ends: impl IntoIterator<Item = Option<(f64, Clip)>>) -> Option<Clip> {
         let mut best: Option<(f64, Clip)> = None;
         for found in ends.into_iter().flatten() {
@@ -184,7 +183,8 @@ pub fn stop(body: &Arc<Body>, known: Vec<Sample>, now: usize, to: StandGoal) -> 
 }
 
 impl KnownMotion {
-    /// The motion up to sample `end`, then to a stand like `goal`, or at ease, and how much that asks for from nothing.
+    /// The motion up to sample `end`, then to a stand like `goal`, or at ease, and the unsupported force that this
+    /// needs.
     fn stop_after(
         &self,
         body: &Body,
@@ -192,7 +192,7 @@ impl KnownMotion {
         goal: Option<&Posture>,
         streamed: bool,
     ) -> Option<(f64, Clip)> {
-        // What was long ago has no part in it.
+        // Samples from long ago have no part in it.
         let cut = (self.now).saturating_sub((stop::PREPARED_TIME * stop::RATE) as usize);
         let now = self.now - cut;
         let (postures, label) = (&self.postures[cut..=end], &self.label[cut..=end]);
@@ -217,7 +217,7 @@ impl KnownMotion {
     }
 }
 
-/// The same motion with as many samples again in between.
+/// The same motion with one more sample between each two.
 fn twice_as_fine(known: &[Sample]) -> Option<Vec<Sample>> {
     let (postures, planted) = known.iter().copied().unzip();
     let clip = Clip::from_postures("", stream::RATE, postures, planted).ok()?;
@@ -226,8 +226,8 @@ fn twice_as_fine(known: &[Sample]) -> Option<Vec<Sample>> {
     Some(samples.map(|t| (t.posture, t.planted)).collect())
 }
 
-/// What is played already stays as it was: the difference that preparation makes to the samples `before` up to `now`
-/// grows in after that.
+/// Keeps samples unchanged that are playing already: the difference that preparation makes to the samples `before` up
+/// to `now` fades in after that.
 pub(crate) fn blend_from_played(postures: &mut [Posture], before: &[Sample], now: usize) {
     if now < 1 || now >= postures.len().min(before.len()) {
         return;
@@ -248,8 +248,8 @@ pub(crate) fn blend_from_played(postures: &mut [Posture], before: &[Sample], now
     }
 }
 
-/// Goes on with a motion that breaks off in mid-step as it went on the last time that it was like that, until both feet
-/// stand. Does nothing where it never was.
+/// Continues a motion that breaks off in mid-step until both feet are planted, by repeating what followed the last time
+/// it was in a similar state. Does nothing if it never was.
 fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
     let end = postures.len() - 1;
     let rates = |i: usize| postures[i - 1].joint_difference(&postures[i]);
@@ -292,7 +292,7 @@ fn finish_step(postures: &mut Vec<Posture>, label: &mut Vec<[bool; 2]>) {
     }
 }
 
-/// What moves a posture to the place and heading of another one.
+/// The transform that moves a posture to the place and heading of another one.
 pub fn between(from: &Posture, to: &Posture) -> PlanarTransform {
     let heading = |p: &Posture| yaw_pitch(p.root_rotation).0;
     let turn = PlanarTransform {

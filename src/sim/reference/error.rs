@@ -41,7 +41,7 @@ pub enum RetargetError {
     Stature {
         /// Unit as given.
         unit_m: f64,
-        /// Stature that follows, m.
+        /// Resulting stature, m.
         stature: f64,
         /// Stature in file units.
         measured: f64,
@@ -70,7 +70,7 @@ pub enum RetargetError {
 }
 
 impl RetargetError {
-    /// [`RetargetError::Stopped`] once `stop` says so.
+    /// [`RetargetError::Stopped`] once `stop` returns true.
     pub(crate) fn unless(stop: &dyn Fn() -> bool) -> Result<(), Self> {
         match stop() {
             true => Err(Self::Stopped),

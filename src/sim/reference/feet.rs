@@ -1,4 +1,4 @@
-//! Feet and the floor: when a foot stands flat, how it is turned, and where the recorded floor is.
+//! Feet and the floor: when a foot is flat on it, how the foot is turned, and where the recorded floor is.
 
 use super::params::floor;
 use super::scene::RecordedScene;
@@ -7,7 +7,8 @@ use crate::math::{Quat, Vec3};
 use crate::motion::filter::{percentile, renormalised, speeds};
 use crate::motion::skeleton_map::SkeletonMap;
 
-/// Where the recorded floor is: rotation that levels it, ankle height over it for each foot (after levelling), slope.
+/// Place of the recorded floor: the rotation that levels it, the ankle height over it for each foot (after levelling),
+/// and its slope.
 pub(super) struct Ground {
     pub level: Quat,
     pub height: [f64; 2],
@@ -15,12 +16,12 @@ pub(super) struct Ground {
 }
 
 impl RecordedScene<'_> {
-    /// Samples in which a foot stands flat: slow, ankle low among the slow ones.
+    /// Samples in which a foot is flat on the floor: slow, with its ankle low among the slow samples.
     pub(super) fn flat_samples(&self, map: &SkeletonMap, s: usize, leg: f64) -> Vec<usize> {
         let ankle = self.place(map.sides[s].foot);
         let hip = self.place(map.sides[s].thigh);
         let speed = speeds(ankle, self.rate);
-        // Under a standing or squatting body only: feet of a lying person are slow and low, and not flat.
+        // Only below a standing or squatting body: the feet of a person lying down are slow and low, but not flat.
         let slow: Vec<usize> = (0..self.count)
             .filter(|i| {
                 speed[*i] < floor::SLOW && hip[*i].z - ankle[*i].z > floor::HIP_HEIGHT * leg
@@ -33,8 +34,8 @@ impl RecordedScene<'_> {
             .collect()
     }
 
-    /// `world_from_foot` per sample: x from ankle to toes made level while the foot stands flat, z up then. `leg`: its
-    /// length, m.
+    /// `world_from_foot` per sample. While the foot is flat on the floor, x points from ankle to toes, made level, and
+    /// z points up. `leg`: its length, m.
     pub(super) fn foot_frames(
         &self,
         map: &SkeletonMap,
@@ -68,7 +69,7 @@ impl RecordedScene<'_> {
         let mut first: Option<Quat> = None;
         for &i in flat {
             let d = toe[i] - ankle[i];
-            // Standing means the sole is down; a foot that lies on its side or hangs tells nothing.
+            // The foot must be on its sole: one that lies on its side or hangs tells nothing.
             if d.x.hypot(d.y) < floor::LEVEL_TOES * d.norm() {
                 continue;
             }
@@ -108,13 +109,14 @@ pub(super) fn fit_floor(ankle: &[Vec<Vec3>; 2], flat: &[Vec<usize>; 2]) -> Groun
     let mut points = Vec::new();
     for s in 0..2 {
         let own = flat[s].iter().map(|i| ankle[s][*i]);
-        // The feet may be at different heights over their joints: compare slopes, not levels.
+        // The feet may differ in height relative to their joints, so slopes are compared instead of levels.
         let mean = percentile(&own.clone().map(|p| p.z).collect::<Vec<_>>(), 0.5);
         points.extend(own.map(|p| Vec3 { z: p.z - mean, ..p }));
     }
     let n = points.len().max(1) as f64;
     let centre = points.iter().fold(Vec3::zero(), |s, p| s + *p) * (1.0 / n);
-    // Regularised least squares: a spread of 0.2 m halves what the data says, so a spot of floor is taken as level.
+    // Regularised least squares: a spread of 0.2 m gives the data half its weight, so a small patch of floor is taken
+    // as level.
     let (mut xx, mut xy, mut yy, mut xz, mut yz) =
         (floor::SPREAD2 * n, 0.0, floor::SPREAD2 * n, 0.0, 0.0);
     for p in &points {
@@ -131,7 +133,7 @@ pub(super) fn fit_floor(ankle: &[Vec<Vec3>; 2], flat: &[Vec<usize>; 2]) -> Groun
     } else {
         (0.0, 0.0)
     };
-    // Steeper than 5 % is no floor but a motion that the fit misread.
+    // A slope above 5 % is not a floor but a motion that the fit misread.
     let slope = sx.hypot(sy);
     let (sx, sy) = if slope < floor::MOST_SLOPE {
         (sx, sy)
@@ -161,7 +163,7 @@ pub(super) fn fit_floor(ankle: &[Vec<Vec3>; 2], flat: &[Vec<usize>; 2]) -> Groun
         percentile(&all, floor::LOWEST_SHARE)
     };
     let height = match heights {
-        // Both feet stand on one floor: more than 4 cm apart, the lower one is right.
+        // Both feet are on one floor. If their heights differ by more than 4 cm, the lower one is right.
         [Some(a), Some(b)] if (a - b).abs() < floor::SAME_HEIGHT => [a, b],
         [Some(a), Some(b)] => [a.min(b); 2],
         [Some(a), None] | [None, Some(a)] => [a; 2],

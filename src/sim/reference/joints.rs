@@ -20,7 +20,7 @@ pub(super) struct ArmFit {
     pub pronation_shift: [f64; 2],
 }
 
-/// What has to be taken out of the `angles` of pronation, rad, so that they are a forearm's.
+/// The constant angle to take out of the `angles` of pronation, rad, so that they fit a forearm.
 fn pronation_shift(angles: &[f64]) -> f64 {
     let (low, high) = (percentile(angles, 0.05), percentile(angles, 0.95));
     let (under, over) = (
@@ -34,16 +34,16 @@ fn pronation_shift(angles: &[f64]) -> f64 {
     {
         0.5 * (low + high) - segments::PRONATION_MIDDLE
     } else {
-        // As little as fits, unless the range is as wide as a forearm's.
+        // Take out as little as possible, and nothing if the range is as wide as a forearm's.
         let most = (2.0 * segments::PRONATION - (high - low)).max(0.0);
         (over - under).clamp(-most, most)
     }
 }
 
-/// Angles about z, x and y that turn a bent forearm to its hand, with continuity: twist of the forearm, then the two of
-/// the wrist.
+/// Angles about z, x and y that turn a bent forearm to its hand, with continuity: the twist of the forearm, then the
+/// two angles of the wrist.
 ///
-/// The twist stays within π of its median: what winds further has passed a bent hand, where it is not defined.
+/// The twist stays within π of its median: a larger one comes from a bent hand, where the twist is not defined.
 fn split_hand(bent_to_hand: impl Iterator<Item = Quat>) -> Vec<[f64; 3]> {
     let mut before = 0.0f64;
     let mut out: Vec<[f64; 3]> = bent_to_hand

@@ -1,12 +1,12 @@
-//! A recording fitted to a body, by geometry, whatever its skeleton.
+//! Fits a recording to a body, by geometry, whatever its skeleton.
 //!
 //! World positions and rotations of the recording are smoothed, brought to metres with z up, levelled and scaled by leg
-//! length. Each segment's frame comes from its end points and the plane of its hinge; near a straight limb, from the
-//! bone's own rotation with the hinge axis that the bent frames of the clip show in it. Trunk, head, hands and feet
-//! follow their bones relative to a calibration pose: the file's rest pose if it looks like a standing person, else the
-//! mean over the most upright samples; so the zero pose of the file means nothing by itself. Relative rotations are
-//! split into the joints' own degrees of freedom. Contacts, feet and balance are planned from that:
-//! `plan::recording`.
+//! length. Each segment's frame comes from its end points and the plane of its hinge; near a straight limb, it comes
+//! from the bone's own rotation with the hinge axis that the bent frames of the clip show in it. Trunk, head, hands and
+//! feet follow their bones relative to a calibration pose: the file's rest pose if it looks like a standing person,
+//! else the mean over the most upright samples; so the zero pose of the file means nothing by itself. Relative
+//! rotations are split into the joints' own degrees of freedom. The planning of contacts, feet and balance starts from
+//! the result: `plan::recording`.
 
 mod error;
 mod feet;
@@ -57,16 +57,16 @@ pub struct FittedReference {
     pub ankle: [Vec<Vec3>; 2],
     /// Left and right: `world_from_foot` per sample.
     pub foot: [Vec<Quat>; 2],
-    /// Points of either foot as recorded, not smoothed (ankle, toe joint, tip), `[side][point][sample]`: what contact
-    /// labels are read from.
+    /// Points of either foot as recorded, not smoothed (ankle, toe joint, tip), `[side][point][sample]`. Contact labels
+    /// are read from them.
     pub foot_points: [Vec<Vec<Vec3>>; 2],
     /// Speed of the fastest run, m/s, if the recording runs anywhere.
     pub fastest_run: Option<f64>,
-    /// How its runs are walked, if it runs and they are to be walked.
+    /// How its runs are turned into walking, if it has any and they are to be walked.
     slowed: Option<RunToWalk>,
-    /// What was found and decided.
+    /// Findings and decisions.
     pub report: FittingReport,
-    /// What a user should know.
+    /// Messages for the user.
     pub warnings: Vec<String>,
 }
 
@@ -76,13 +76,13 @@ impl FittedReference {
         self.slowed.is_some()
     }
 
-    /// Whether it runs and is to run.
+    /// Whether the recording runs and its runs are kept.
     pub fn keeps_run(&self) -> bool {
         self.fastest_run.is_some() && self.slowed.is_none()
     }
 
-    /// Leaves no flight in runs that are walked: every foot stays down until the other one has landed. Ankles, feet
-    /// and `label` (left and right foot on the floor, per sample) are changed.
+    /// Removes every flight from runs that are walked: each foot stays down until the other one has landed. Ankles,
+    /// feet and `label` (left and right foot on the floor, per sample) are changed.
     pub fn walk_runs(&mut self, label: &mut [[bool; 2]]) {
         if let Some(slowed) = &self.slowed {
             slowed.replace_flights(&mut self.ankle, &mut self.foot, label, self.rate_hz);
@@ -90,7 +90,7 @@ impl FittedReference {
     }
 }
 
-/// Fits a recording to `body`. It is given up between two of its stages once `stop` says so.
+/// Fits a recording to `body`. Gives up between two of its stages once `stop` returns true.
 ///
 /// Offline: time and memory are linear in frames × joints.
 ///
@@ -183,7 +183,7 @@ mod tests {
     use crate::motion::clip::{ClipError, MAX_SAMPLES};
     use crate::motion::read::read;
 
-    /// A recording at 30 Hz of so many frames.
+    /// A recording at 30 Hz with `frames` frames.
     fn recording(frames: usize) -> String {
         let path = concat!(
             env!("CARGO_MANIFEST_DIR"),
@@ -228,7 +228,7 @@ mod tests {
         assert!(memory(short.as_bytes(), None) < found / 9);
         // Read as 120 Hz, each frame is one sample.
         assert!(memory(long.as_bytes(), Some(120.0)) < found / 2);
-        // What is declared and not there takes nothing.
+        // Frames that are declared but not present take no memory.
         let declared = short.replace("Frames: 100", "Frames: 1000000000000");
         assert!(memory(declared.as_bytes(), None) <= SAMPLE_BYTES * MAX_SAMPLES as u64 * 2);
         assert_eq!(memory(b"no recording", None), 0);

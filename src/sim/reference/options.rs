@@ -1,35 +1,35 @@
-//! What the caller says about a recording, and what is to be done with it.
+//! Facts that the caller knows about a recording, and how the recording should be treated.
 
 use super::error::RetargetError;
 use crate::motion::recording::UpAxis;
 
 /// Least and largest [`RetargetOptions::tempo`].
 pub const TEMPI: (f64, f64) = (0.5, 2.0);
-/// Rates that are believed, Hz.
+/// Rates that are accepted as plausible, Hz.
 pub(super) const RATES: (f64, f64) = (10.0, 1000.0);
 
-/// What the caller knows better than the file. `Default` guesses everything.
+/// Facts that the caller knows better than the file. `Default` guesses everything.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FileFacts {
     /// Metres per unit of the file; guessed from stature if absent.
     pub unit_m: Option<f64>,
-    /// Up axis; guessed from where the head is if absent.
+    /// Up axis; guessed from the position of the head if absent.
     pub up: Option<UpAxis>,
     /// True frame rate of the file, Hz, where its frame time is wrong.
     pub rate_hz: Option<f64>,
 }
 
-/// What is done so that a body can follow the motion on its feet.
+/// Changes that make a body able to follow the motion on its feet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preparation {
     /// Lock planted feet.
     pub lock_feet: bool,
     /// Shift the trunk so that the zero-moment point stays over the planted feet.
     pub balance: bool,
-    /// Let the motion begin and end standing, with steps before its first and after its last frame where it takes them.
+    /// Let the motion begin and end in a stand, with extra steps before its first and after its last frame if needed.
     pub ends: bool,
-    /// Walk what the recording runs: slower and with shorter steps. The muscles that are measured in people's joints do
-    /// not run.
+    /// Turn the runs of the recording into walking: slower and with shorter steps. The muscle strengths measured in
+    /// people's joints are not enough to run.
     pub walk_runs: bool,
 }
 
@@ -42,8 +42,8 @@ impl Preparation {
         walk_runs: false,
     };
 
-    /// What is rehearsed: feet that stand do not slide, it begins and ends standing if that can be, and nothing else is
-    /// changed.
+    /// Preparation for a rehearsal: planted feet do not slide, the motion begins and ends in a stand if possible, and
+    /// nothing else is changed.
     pub const REHEARSED: Self = Self {
         lock_feet: true,
         balance: false,
@@ -51,7 +51,7 @@ impl Preparation {
         walk_runs: false,
     };
 
-    /// Everything; runs are walked if `walk_runs` says so.
+    /// Full preparation; runs are walked if `walk_runs` is set.
     pub const fn walking(walk_runs: bool) -> Self {
         Self {
             lock_feet: true,
@@ -63,36 +63,36 @@ impl Preparation {
 }
 
 impl Default for Preparation {
-    /// Everything; runs are kept.
+    /// Full preparation; runs are kept.
     fn default() -> Self {
         Self::walking(false)
     }
 }
 
-/// What the caller knows better than the file, and what to do with the motion. `Default` guesses everything and
+/// Facts that the caller knows better than the file, and how to treat the motion. `Default` guesses everything and
 /// prepares fully.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RetargetOptions {
     /// Name of the clip.
     pub name: String,
-    /// What the file does not say, or says wrongly.
+    /// Facts that the file lacks or states wrongly.
     pub file: FileFacts,
     /// Rate of the clip at tempo 1, Hz; absent: the file's own rate if that is 60…240, else 120.
     pub output_rate_hz: Option<f64>,
     /// Body size over recorded size, for paths and heights; absent: ratio of leg lengths. Two people of one recording
-    /// need one value.
+    /// need the same value.
     pub scale: Option<f64>,
     /// Bring the recorded floor to z = 0 (level and height). Otherwise z = 0 of the file is the floor.
     pub floor: bool,
     /// Cut-off of the zero-phase low-pass, Hz.
     pub cutoff_hz: f64,
-    /// Times as fast as it was recorded, [`TEMPI`]: feet and postures are those of the recording, steps and balance are
+    /// Speed relative to the recording, [`TEMPI`]: feet and postures are those of the recording, steps and balance are
     /// prepared for this pace.
     pub tempo: f64,
     /// Keep the file's place and heading (x forward = the file's z where y is up). Otherwise the clip starts at the
     /// origin facing +x.
     pub keep_origin: bool,
-    /// What is done for the feet and for balance.
+    /// Preparation of the feet and the balance.
     pub preparation: Preparation,
 }
 

@@ -1,8 +1,8 @@
-//! Every tunable number of retargeting, in groups per subject.
+//! Every tunable number of retargeting, grouped by subject.
 
 use crate::params::Param;
 
-/// Which stretches of a recording are runs.
+/// Detection of the runs in a recording.
 pub mod run_detection {
     crate::params::params! {
         /// People run above this speed: half of that at which a leg of 0.9 m would leave the floor, squared.
@@ -42,7 +42,7 @@ pub mod run_detection {
     }
 }
 
-/// How runs are walked.
+/// How runs are turned into walking.
 pub mod run_to_walk {
     crate::params::params! {
         /// Duration of a walked step.
@@ -74,7 +74,7 @@ pub mod run_to_walk {
     }
 }
 
-/// Frames that are no motion, and glitches.
+/// Glitches, and frames that are not part of the motion.
 pub mod recording {
     crate::params::params! {
         /// Longest pose at the start that is no part of the motion.
@@ -138,7 +138,7 @@ pub mod size {
     }
 }
 
-/// Where the root is whose file does not say so; heights over the floor are in lengths of the leg.
+/// Path of the root where the file does not state it; heights over the floor are in leg lengths.
 pub mod root {
     crate::params::params! {
         /// Height of the ankle on a flat foot.
@@ -174,7 +174,7 @@ pub mod root {
     }
 }
 
-/// When a foot stands flat, and where the floor is.
+/// When a foot is flat on the floor, and where the floor is.
 pub mod floor {
     crate::params::params! {
         /// A slower ankle may stand.
@@ -234,7 +234,7 @@ pub mod segments {
     }
 }
 
-/// What is worth a warning.
+/// Findings that deserve a warning.
 pub mod warning {
     crate::params::params! {
         /// A clamp that is larger is worth a warning if it lasts.

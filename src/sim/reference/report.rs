@@ -1,6 +1,6 @@
-//! What fitting found in a recording and decided about it.
+//! Findings of the fit to a recording, and its decisions.
 //!
-//! Serialised, it is what `sinew lint --json` prints: errors in mm, other lengths in m, angles in degrees.
+//! Serialised, this is the output of `sinew lint --json`: errors in mm, other lengths in m, angles in degrees.
 
 use super::units::{degrees, each_in_degrees, millimetres};
 use crate::body::topology::{SEGMENT_COUNT, SEGMENT_NAMES};
@@ -8,7 +8,7 @@ use crate::motion::recording::{Recording, UpAxis};
 use crate::motion::skeleton_map::SkeletonMap;
 use serde::Serialize;
 
-/// A segment and the bones of the file that it was read from.
+/// A segment and the bones of the file from which it was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct MappedBone {
     /// Segment name.
@@ -30,7 +30,7 @@ pub struct Bridged {
     pub count: usize,
 }
 
-/// Where the recorded floor and heading went: maps clip to file (metres, z up).
+/// Original place of the floor and heading: maps clip to file (metres, z up).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct RecordingOrigin {
     /// Pelvis at the first frame, m, along the file's forward and left axes.
@@ -44,25 +44,25 @@ pub struct RecordingOrigin {
     pub yaw: f64,
 }
 
-/// How the skeleton of the file was understood.
+/// Interpretation of the file's skeleton.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SkeletonReport {
     /// Segments and their bones.
     pub mapped: Vec<MappedBone>,
     /// Segments without a bone; they keep their neutral angle.
     pub missing: Vec<&'static str>,
-    /// True if names failed and the structure of the skeleton decided.
+    /// Whether bones were found by the structure of the skeleton, because names failed.
     pub by_structure: bool,
-    /// True if the file's left and right were exchanged, told by position.
+    /// Whether the file's left and right were exchanged because positions contradict the names.
     pub sides_swapped: bool,
 }
 
-/// Size of the recorded person, and of the body against it.
+/// Size of the recorded person, and of the body relative to it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SizeReport {
     /// Metres per unit of the file.
     pub unit_m: f64,
-    /// True if the caller gave the unit.
+    /// Whether the caller gave the unit.
     pub unit_given: bool,
     /// Up axis.
     pub up: UpAxis,
@@ -89,19 +89,19 @@ pub struct FrameReport {
     pub smoothing_rms: f64,
 }
 
-/// Where the motion was recorded.
+/// Place of the recorded motion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PlaceReport {
     /// Height of the recorded floor over z = 0 of the file, m, before scaling.
     #[serde(rename = "floor_offset_m")]
     pub floor_offset: f64,
-    /// Slope of the recorded floor that was levelled.
+    /// Slope of the recorded floor before it was levelled.
     pub floor_slope: f64,
     /// Place and heading of the first frame.
     pub origin: RecordingOrigin,
 }
 
-/// How joint angles of the recording differ from those of any body.
+/// How joint angles of the recording differ from those of a human body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LimbFitReport {
     /// 95th percentile of the angle by which the left and right shank leave the plane of the knee hinge, rad.
@@ -113,13 +113,13 @@ pub struct LimbFitReport {
     /// Constant angle taken out of the left and right wrist, rad: the recording's hands do not continue its forearms.
     #[serde(skip)]
     pub wrist_bias: [f64; 2],
-    /// Constant angle taken out of the pronation of the left and right forearm, rad: as recorded its range is no
-    /// forearm's.
+    /// Constant angle taken out of the pronation of the left and right forearm, rad: the recorded range does not fit a
+    /// forearm.
     #[serde(skip)]
     pub pronation_shift: [f64; 2],
 }
 
-/// What fitting found and decided.
+/// Findings and decisions of the fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FittingReport {
     /// Bones.
@@ -145,7 +145,7 @@ pub(super) fn mapped_bones(recording: &Recording, map: &SkeletonMap) -> Vec<Mapp
             .collect::<Vec<_>>()
     };
     let split = (map.abdomen + 1).min(map.trunk.len());
-    // A single bone bends both joints of our trunk.
+    // A single bone bends both joints of the body's trunk.
     let (waist, thorax) = if map.trunk.len() == 1 {
         (&map.trunk[..], &map.trunk[..])
     } else {

@@ -1,7 +1,7 @@
-//! Where a figure is whose file does not say so: the path of its root from the feet that stand.
+//! Path of a figure's root where the file does not state it, derived from the planted feet.
 //!
-//! A file without root positions has its figure hang at one place, and the feet of a squat rise. The lowest points of a
-//! figure are on the floor, and do not slide on it: that gives the height of the root, and the way it takes.
+//! In a file without root positions the figure hangs at one place, and the feet of a squat rise. The lowest points of a
+//! figure are on the floor and do not slide on it: that gives the height of the root and its path.
 
 use super::take::Take;
 use crate::math::Vec3;
@@ -10,7 +10,7 @@ use crate::motion::recording::UpAxis;
 use crate::motion::skeleton_map::SkeletonMap;
 use crate::reference::params::root;
 
-/// Heights of joints over the floor they rest on, in lengths of the leg: ankle, toe joint, tip of the toes, knee, hip,
+/// Heights of joints over the floor on which they rest, in leg lengths: ankle, toe joint, tip of the toes, knee, hip,
 /// wrist or elbow, shoulder or head.
 const CLEARANCE: [f64; 7] = [
     root::ANKLE_HEIGHT,
@@ -21,12 +21,12 @@ const CLEARANCE: [f64; 7] = [
     root::ARM_HEIGHT,
     root::HEAD_HEIGHT,
 ];
-/// What a file says of the place of the root.
+/// How much a file states about the place of the root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RootEvidence {
-    /// Where it is.
+    /// Its whole path.
     Given,
-    /// How high it is, but nothing moves along the floor.
+    /// Its height only; nothing moves along the floor.
     InPlace,
     /// Nothing.
     Missing,
@@ -59,7 +59,7 @@ impl RootEvidence {
         }
     }
 
-    /// What a user should know of it.
+    /// Message for the user.
     pub(super) fn warning(self) -> Option<&'static str> {
         match self {
             Self::Given => None,
@@ -73,7 +73,7 @@ impl RootEvidence {
     }
 }
 
-/// The root of a figure whose file does not tell its whole path.
+/// The root of a figure whose file does not state its whole path.
 pub(super) struct RootFollowing<'a> {
     pub take: &'a Take<'a>,
     pub map: &'a SkeletonMap,
@@ -85,7 +85,7 @@ pub(super) struct RootFollowing<'a> {
     pub rate_hz: f64,
 }
 
-/// A point that may touch the floor: index of its path, and its height over the floor then, file units.
+/// A point that may touch the floor: index of its path, and its height over the floor at contact, file units.
 #[derive(Clone, Copy)]
 struct FloorPoint {
     path: usize,
@@ -93,8 +93,8 @@ struct FloorPoint {
 }
 
 impl RootFollowing<'_> {
-    /// Moves every point so that the lowest ones stand on a level floor. Returns whether anything was moved: a figure
-    /// that would hardly move stays where it is.
+    /// Moves every point so that the lowest ones are planted on a level floor. Returns whether anything was moved: a
+    /// figure that would hardly move stays where it is.
     ///
     /// * `places`: world positions, `[bone][frame]`, file units and axes.
     ///
@@ -183,24 +183,24 @@ impl RootFollowing<'_> {
     }
 }
 
-/// Way of a point between two frames, and the sum of its heights over the lowest point in both.
+/// Displacement of a point between two frames, and the sum of its heights over the lowest point in both.
 struct PointMotion {
     way: Vec3,
     height: f64,
 }
 
-/// How points that slide on the floor are weighed.
+/// How points that slide on the floor are weighted.
 struct Sliding {
     vertical: Vec3,
-    /// Height over which a point's weight falls to a share of 1/e, file units.
+    /// Height over which a point's weight falls to 1/e, file units.
     soft: f64,
-    /// Way that a point at rest is allowed in a frame, file units.
+    /// Displacement allowed to a point at rest, per frame, file units.
     still: f64,
 }
 
 impl Sliding {
-    /// The way along the floor that the points on it have in common: a mean in which a point that slides less than the
-    /// others counts for more.
+    /// The common displacement along the floor of the points on it: a mean in which a point that slides less than the
+    /// others has a larger weight.
     fn common_way(&self, points: impl Iterator<Item = PointMotion>) -> Vec3 {
         let moved: Vec<(Vec3, f64)> = points
             .map(|p| {

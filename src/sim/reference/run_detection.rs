@@ -1,8 +1,8 @@
-//! Which fast stretches of a recording are runs: told by gait, not by speed.
+//! Detects which fast stretches of a recording are runs, by gait rather than by speed.
 //!
-//! A backflip, a dive and a punch are as fast as a run. A run is an upright body whose feet land in turns, with a
-//! flight before each landing, and which gets somewhere by that. The flights are seen in the mass: where the lead of
-//! the feet changes a runner falls freely, and a walker is lifted by both legs.
+//! A backflip, a dive and a punch are as fast as a run. In a run, the body is upright, the feet land in turns with a
+//! flight before each landing, and the body gets somewhere by that. The flights show in the motion of the mass: when
+//! the lead changes from one foot to the other, a runner falls freely, while a walker is lifted by both legs.
 
 use super::run_to_walk::{leads, paces, turning_points};
 use crate::math::Vec3;
@@ -22,23 +22,23 @@ pub(crate) struct RecordedPoints<'a> {
     pub trunk: [&'a [Vec3]; 2],
 }
 
-/// Why a fast stretch is a run or none.
+/// Whether a fast stretch is a run and, if not, why.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Gait {
-    /// Steps in turns with flights between them, upright, somewhere.
+    /// A run: upright, steps in turns with flights between them, and real progress.
     Run,
     /// The trunk is not upright throughout.
     NotUpright,
     /// It ends near where it began.
     GoesNowhere,
-    /// The feet do not take turns, or not several times.
+    /// The feet do not take turns, or do so only a few times.
     FewSteps,
     /// The body does not fall between the steps.
     NoFlights,
 }
 
 impl Gait {
-    /// What is missing to a run.
+    /// The feature that a run has and this stretch lacks.
     fn reason(self) -> &'static str {
         match self {
             Self::Run => "it is a run",
@@ -61,12 +61,12 @@ pub(crate) struct FastStretch {
     pub steps: usize,
     /// See `steps`.
     pub flights: usize,
-    /// What it is.
+    /// Its gait.
     pub gait: Gait,
 }
 
 impl FastStretch {
-    /// What a user should know of one that is no run.
+    /// Message for the user about a stretch that is not a run.
     pub(crate) fn why_not_a_run(&self, rate_hz: f64) -> String {
         format!(
             "from {:.2} s to {:.2} s it moves at up to {:.1} m/s, but {}: no run, kept as recorded",
@@ -144,14 +144,14 @@ fn classify(
     }
 }
 
-/// Those of the `samples` in which the lead of one foot over the other, along the way, is at its largest and the other
-/// foot takes over.
+/// The `samples` in which one foot's lead over the other, along the path, is at its largest and the other foot takes
+/// over.
 fn lead_turns(figure: &RecordedPoints<'_>, samples: Range<usize>, rate_hz: f64) -> Vec<usize> {
     let mut slow = figure.middle.to_vec();
     low_pass_points(&mut slow, run_detection::PATH_CUTOFF, rate_hz);
     let lead = leads(&slow, figure.feet, rate_hz);
     let turns = turning_points(&lead, samples);
-    // Each one has to be a lead of its own foot, in turns, soon after the one before.
+    // Each must be the lead of the expected foot, in turns, soon after the one before.
     let mut steps: Vec<usize> = Vec::new();
     let mut best: Vec<usize> = Vec::new();
     for k in turns {

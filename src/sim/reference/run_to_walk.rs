@@ -1,10 +1,11 @@
-//! Runs that are walked: a run slowed down and shortened until a body whose muscles cannot run takes the same steps.
+//! Turns runs into walking: slows a run down and shortens it until a body whose muscles cannot run can take the same
+//! steps.
 //!
 //! A run needs more strength than is measured in people's joints: hip, knee and ankle are at their limits together, and
-//! at take-off the ankle turns so fast that it gives far less than it holds (`docs/locomotion.md#runs`). What can be
-//! kept of it is its steps, their order, rhythm and headings, and what trunk and arms do. Time runs as much slower as
-//! makes its steps last as long as walked ones, the way is shortened along with them until it is walked at a walk's
-//! speed (and until the body leans no more than it can brake from such a speed), every foot stays down until the other
+//! at take-off the ankle turns so fast that it gives far less torque than it can hold (`docs/locomotion.md#runs`). The
+//! parts that can be kept are the steps, their order, rhythm and headings, and the motion of trunk and arms. Time is
+//! slowed until steps last as long as walked ones. The path is shortened along with them until its speed is that of a
+//! walk (and until the body leans no more than it can brake from such a speed). Every foot stays down until the other
 //! one has landed, and between its places it swings as a walking foot does.
 
 use crate::math::curve::{arc, smootherstep};
@@ -14,7 +15,7 @@ use crate::motion::GRAVITY;
 use crate::motion::filter::{low_pass, low_pass_points, speeds};
 use crate::reference::params::{run_detection, run_to_walk};
 
-/// Speed over the floor of the slow part of a way, the highest around each sample, m/s.
+/// Speed over the floor of the slow part of a path, the highest around each sample, m/s.
 pub(crate) fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
     let mut way: Vec<Vec3> = way.iter().map(|p| p.horizontal()).collect();
     low_pass_points(&mut way, run_detection::PATH_CUTOFF, rate_hz);
@@ -25,7 +26,8 @@ pub(crate) fn paces(way: &[Vec3], rate_hz: f64) -> Vec<f64> {
     (0..speed.len()).map(most).collect()
 }
 
-/// How far behind (or ahead of) its feet a body on this way has to lean to change its `slow` way as fast as it does, m.
+/// How far behind (or ahead of) its feet a body on this path has to lean to change its `slow` path as fast as it does,
+/// m.
 fn leans(way: &[Vec3], slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
     let n = way.len();
     let lowest = feet.into_iter().flatten();
@@ -43,7 +45,7 @@ fn leans(way: &[Vec3], slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f
     out
 }
 
-/// Lead of the left foot over the right one along the `slow` way of the body, m per sample.
+/// Lead of the left foot over the right one along the `slow` path of the body, m per sample.
 pub(super) fn leads(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
     let n = slow.len();
     let mut lead: Vec<f64> = (0..n)
@@ -57,7 +59,7 @@ pub(super) fn leads(slow: &[Vec3], [left, right]: [&[Vec3]; 2], rate_hz: f64) ->
     lead
 }
 
-/// Samples within `range` at which the foot that has come ahead begins to fall behind.
+/// Samples within `range` at which a foot that has moved ahead begins to fall behind.
 pub(super) fn turning_points(lead: &[f64], range: std::ops::Range<usize>) -> Vec<usize> {
     let (mut turns, mut sense, mut last) = (Vec::new(), 0.0f64, range.start);
     for k in range.start + 1..range.end {
@@ -76,13 +78,13 @@ pub(super) fn turning_points(lead: &[f64], range: std::ops::Range<usize>) -> Vec
     turns
 }
 
-/// Duration of the step that each sample belongs to, s: from one turning point of the way between the feet to the next,
-/// along the `slow` way of the body.
+/// Duration of the step to which each sample belongs, s: from one turning point of the distance between the feet to the
+/// next, along the `slow` path of the body.
 fn steps(slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
     let n = slow.len();
     let turns = turning_points(&leads(slow, feet, rate_hz), 0..n);
     let of = |i: usize| {
-        // Before the first and after the last one steps go on as they were.
+        // Before the first and after the last turning point the steps are assumed to continue unchanged.
         let k = turns.partition_point(|t| *t <= i);
         let k = k.clamp(1, turns.len().max(2) - 1);
         let between = turns.get(k).map(|t| (t - turns[k - 1]) as f64 / rate_hz);
@@ -98,7 +100,7 @@ fn steps(slow: &[Vec3], feet: [&[Vec3]; 2], rate_hz: f64) -> Vec<f64> {
 pub(crate) struct RunToWalk {
     /// Sample of the recording, with fraction, that each sample of the motion shows.
     times: Vec<f64>,
-    /// Length of the way in each sample of the motion, as a share of the recorded one.
+    /// Length of the path in each sample of the motion, as a share of the recorded one.
     share: Vec<f64>,
     /// Seconds of the recording per second of the motion, in each of its samples.
     pace: Vec<f64>,
@@ -135,7 +137,7 @@ impl RunToWalk {
                 pace[k] = (run_detection::WALK_SPEED / (speed[k] * share[k])).min(rhythm);
             }
         }
-        // Time comes to its own pace after a run has ended, not before.
+        // Time returns to its own pace after a run has ended, not before.
         let half = (run_to_walk::PACE_HELD * rate_hz) as usize;
         let mut pace: Vec<f64> = (0..n)
             .map(|i| {
@@ -162,7 +164,7 @@ impl RunToWalk {
         Some(out)
     }
 
-    /// How many times as long the motion is as its recording, which has so many samples at the rate of the motion.
+    /// How many times longer the motion is than its recording of `samples` samples at the rate of the motion.
     pub(crate) fn stretch(&self, samples: f64) -> f64 {
         self.times.len() as f64 / samples.max(1.0)
     }
@@ -195,10 +197,10 @@ impl RunToWalk {
         stretches(&run).collect()
     }
 
-    /// Shortens the way: of the pelvis, and of everything in `others` (one path each) with it, so that what stood still
-    /// does.
+    /// Shortens the path of the pelvis, and of everything in `others` (one path each) with it, so that objects which
+    /// stood still continue to do so.
     ///
-    /// A run that turns keeps its length: only along a line is it plain what lies before what.
+    /// A run that turns keeps its length: only along a line is it clear which place lies before which.
     pub(crate) fn shorten_path<'a>(
         &self,
         pelvis: &mut [Vec3],
@@ -211,7 +213,7 @@ impl RunToWalk {
             };
             let paths = others.iter_mut().map(|p| p.as_mut_slice());
             for path in paths.chain([&mut *pelvis]) {
-                // What the body has left behind by then moves along until it is before it again.
+                // A path that has not passed the end of the line by then is moved along until it has.
                 let behind = path[b..].iter().position(|p| line.is_passed(*p));
                 let until = behind.map_or(path.len(), |k| b + k);
                 path[..until].iter_mut().for_each(|p| *p = line.shorter(*p));
@@ -219,9 +221,9 @@ impl RunToWalk {
         }
     }
 
-    /// Calms the heights of the body, m: a runner flies up from each step and sinks into the knees in the next, and
-    /// knees that bend as far in a walk, one leg alone and for longer, take more strength than the walk. What is left
-    /// of a bounce shrinks with the square of the pace.
+    /// Damps the heights of the body, m: a runner flies up from each step and sinks into the knees in the next. Knees
+    /// that bend as far in a walk, on one leg alone and for longer, take more strength than the walk itself. The
+    /// remaining bounce shrinks with the square of the pace.
     pub(crate) fn damp_bounces(&self, pelvis: &mut [Vec3], rate_hz: f64) {
         let mut middle: Vec<f64> = pelvis.iter().map(|p| p.z).collect();
         low_pass(&mut middle, run_to_walk::BOUNCE_CUTOFF, rate_hz);
@@ -231,7 +233,7 @@ impl RunToWalk {
         }
     }
 
-    /// Leaves no flight in the runs and gives the feet swings between their places.
+    /// Removes every flight from the runs and gives the feet swings between their places.
     ///
     /// * `ankle`, `foot`: left and right, per sample, m and `world_from_foot`; `label`: on the floor, as recorded.
     pub(crate) fn replace_flights(
@@ -255,7 +257,7 @@ impl RunToWalk {
                     rotation: foot[s].clone(),
                 };
                 for (i, j, _) in phases.iter().filter(|r| r.2) {
-                    // As long as it stands more than it did, it stands as it did.
+                    // For as long as its stance is extended, the foot keeps the pose of that stance.
                     let on = |k: &usize| stood[*k][s];
                     let (Some(first), Some(last)) = ((*i..*j).find(on), (*i..*j).rfind(on)) else {
                         continue;
@@ -268,8 +270,8 @@ impl RunToWalk {
                 for (i, j, _) in phases.iter().filter(|r| !r.2) {
                     match (*i > 0, *j < n) {
                         (true, true) => swing(&mut ankle[s], &mut foot[s], *i, *j),
-                        // In these the recording begins or ends: it keeps its way there and is bent to the place at the
-                        // other end.
+                        // The recording begins or ends within this swing: it keeps its path at that end and is bent to
+                        // the foot's place at the other end.
                         (false, true) => {
                             bend(&mut ankle[s], &mut foot[s], &recorded, 0, *j, rate_hz)
                         }
@@ -284,7 +286,8 @@ impl RunToWalk {
     }
 }
 
-/// Closes flights that begin in `within`: halfway the later foot lands, and a moment later the earlier one leaves.
+/// Closes flights that begin in `within`: the later foot lands halfway through, and the earlier one leaves a moment
+/// later.
 fn close_flights(label: &mut [[bool; 2]], within: std::ops::Range<usize>, rate_hz: f64) {
     let n = label.len();
     let none: Vec<bool> = label.iter().map(|l| *l == [false; 2]).collect();
@@ -314,7 +317,7 @@ fn close_flights(label: &mut [[bool; 2]], within: std::ops::Range<usize>, rate_h
     }
 }
 
-/// A swing over the samples `i..j`, from where the foot was to where it will be.
+/// Replaces samples `i..j` by a swing from the foot's old place to its new one.
 fn swing(ankle: &mut [Vec3], foot: &mut [Quat], i: usize, j: usize) {
     let (p, q) = ((ankle[i - 1], foot[i - 1]), (ankle[j], foot[j]));
     let turn = (q.1 * p.1.conjugate()).log();
@@ -334,9 +337,9 @@ struct RecordedFootPath {
     rotation: Vec<Quat>,
 }
 
-/// Bends the recorded way of a foot, as it is at the sample (or end) `free`, to the place where it stands in sample
-/// `stands`. One that lands does so where the recording still has it in the air, and comes to rest along the floor
-/// within the last [`run_to_walk::REST_TIME`].
+/// Bends the recorded path of a foot, unchanged at the sample (or end) `free`, to the place where the foot is planted
+/// in sample `stands`. A foot that lands does so where the recording still has it in the air, and comes to rest along
+/// the floor within the last [`run_to_walk::REST_TIME`].
 fn bend(
     ankle: &mut [Vec3],
     foot: &mut [Quat],
@@ -361,18 +364,18 @@ fn bend(
     }
 }
 
-/// A straight way and how it is shortened; its end stays where it is.
+/// A straight path and how it is shortened; its end stays where it is.
 struct StraightWay {
     ahead: Vec3,
-    /// Places along it, increasing, and where they go, m.
+    /// Places along it, increasing, and their new places, m.
     places: Vec<f64>,
     shorter: Vec<f64>,
-    /// Share of the way where it begins.
+    /// Share of the path at its beginning.
     first: f64,
 }
 
 impl StraightWay {
-    /// `None` if the way turns back on itself.
+    /// `None` if the path turns back on itself.
     fn new(way: &[Vec3], share: &[f64]) -> Option<Self> {
         let whole = *way.last()? - *way.first()?;
         let ahead = whole.horizontal().normalized_or(Vec3::X);
@@ -392,7 +395,7 @@ impl StraightWay {
         })
     }
 
-    /// True beyond its end, where nothing is moved.
+    /// Whether a point is beyond the end, where nothing is moved.
     fn is_passed(&self, p: Vec3) -> bool {
         self.places
             .last()
@@ -432,7 +435,7 @@ mod tests {
             .collect()
     }
 
-    /// Feet that take turns in being half a metre before and behind the middle, a step each 0.35 s.
+    /// Feet that are in turns half a metre in front of and behind the middle, one step per 0.35 s.
     fn feet(way: &[Vec3]) -> [Vec<Vec3>; 2] {
         [1.0, -1.0].map(|side| {
             let at = |(i, p): (usize, &Vec3)| {
@@ -443,7 +446,7 @@ mod tests {
         })
     }
 
-    /// Everything that is faster than a walk and as fast as a run somewhere.
+    /// Every stretch that is faster than a walk and, somewhere in it, as fast as a run.
     fn fast(way: &[Vec3]) -> Vec<(usize, usize)> {
         let speed = paces(way, RATE);
         let moves: Vec<bool> = speed
@@ -465,7 +468,7 @@ mod tests {
     fn steps_last_from_turn_to_turn_also_where_feet_do_not_pass_each_other() {
         let way = way(|_| 4.0);
         let [left, right] = feet(&way);
-        // The other one: always half a metre farther back.
+        // The other foot is always half a metre farther back.
         let back: Vec<Vec3> = right.iter().map(|p| *p - Vec3::X * 1.2).collect();
         for right in [&right, &back] {
             let step = steps(&way, [&left, right], RATE);
@@ -478,7 +481,7 @@ mod tests {
 
     #[test]
     fn who_brakes_hard_leans_less_when_slow() {
-        // 4.2 m/s, and to a stand with 3 m/s² of a body 1 m high: a lean of 0.31 m.
+        // 4.2 m/s, then braking to a stand at 3 m/s² with a body 1 m high: a lean of 0.31 m.
         let speed = |t: f64| 4.2 - 3.0 * (t - 1.0).clamp(0.0, 1.4);
         let recorded = way(speed);
         let slowed = slowed(&recorded).unwrap();
@@ -505,7 +508,7 @@ mod tests {
 
     #[test]
     fn a_run_goes_at_a_walk_and_what_comes_after_it_at_its_own_pace() {
-        // 4 m/s, brakes within a second, walks on.
+        // 4 m/s, brakes within a second, continues walking.
         let speed = |t: f64| 4.0 - 3.2 * ((t - 1.0) / 1.0).clamp(0.0, 1.0);
         let recorded = way(speed);
         let fastest = paces(&recorded, RATE).into_iter().fold(0.0, f64::max);
@@ -513,7 +516,7 @@ mod tests {
         let slowed = slowed(&recorded).unwrap();
         let mut pelvis = slowed.points(&recorded);
         assert_eq!(pelvis.len(), slowed.count());
-        // A foot that stands on the way stays where it is while the pelvis passes.
+        // A foot planted on the path stays where it is while the pelvis passes.
         let n = pelvis.len();
         let mut foot = vec![vec3(2.0, 0.1, 0.0); n];
         slowed.shorten_path(&mut pelvis, [&mut foot].into_iter());
@@ -528,7 +531,7 @@ mod tests {
 
     #[test]
     fn a_run_bounces_less_when_it_is_walked_and_what_is_walked_anyway_as_it_did() {
-        // 4 m/s, brakes and walks on; 5 cm up and down, three times a second.
+        // 4 m/s, brakes and continues walking; 5 cm up and down, three times a second.
         let mut recorded = way(|t| 4.0 - 3.0 * ((t - 1.0) / 0.5).clamp(0.0, 1.0));
         for (i, p) in recorded.iter_mut().enumerate() {
             p.z += 0.05 * (6.0 * std::f64::consts::PI * i as f64 / RATE).sin();
@@ -553,7 +556,7 @@ mod tests {
 
     #[test]
     fn a_foot_that_lands_before_its_recording_does_is_at_rest_there() {
-        // It swings on at 3 m/s where it is to stand, 5 cm beside the way.
+        // The recorded foot continues at 3 m/s where it should be planted, 5 cm beside the path.
         let n = 60;
         let recorded: Vec<Vec3> = (0..=n).map(|i| Vec3::X * (0.025 * f64::from(i))).collect();
         let turns = vec![Quat::exp(Vec3::zero()); recorded.len()];
@@ -587,7 +590,7 @@ mod tests {
     fn a_run_has_no_flight_and_its_feet_stand_still_between_clean_swings() {
         let slowed = slowed(&way(|_| 4.0)).unwrap();
         let n = slowed.count();
-        // Feet that stand for 0.2 s in turn, with flights of 0.2 s, and drift while they do not.
+        // Feet planted for 0.2 s in turn, with flights of 0.2 s, drifting while in the air.
         let period = 0.8;
         let mut label = vec![[false; 2]; n];
         let mut ankle = [vec![Vec3::zero(); n], vec![Vec3::zero(); n]];
@@ -603,7 +606,7 @@ mod tests {
         assert!(label.iter().all(|l| l[0] || l[1]), "somebody stands");
         assert!(label.iter().any(|l| *l != [true; 2]), "and somebody swings");
         for s in 0..2 {
-            // The last swing goes on beyond the recording.
+            // The last swing continues beyond the recording.
             let last = label.iter().rposition(|l| l[s]).unwrap();
             for i in 1..last {
                 let moved = (ankle[s][i] - ankle[s][i - 1]).norm();

@@ -1,4 +1,4 @@
-//! How many samples a clip has, and the memory that fitting takes.
+//! Number of samples of a clip, and the memory that fitting takes.
 
 use super::error::RetargetError;
 use super::options::{RATES, RetargetOptions, check_options};
@@ -6,14 +6,14 @@ use crate::motion::clip::{ClipError, MAX_SAMPLES};
 use crate::motion::read::read_head;
 use crate::motion::recording::{MAX_POINTS, POINT_BYTES, Recording};
 
-/// Bytes for each sample of a clip while it is prepared.
+/// Bytes for each sample of a clip while it is being prepared.
 pub const SAMPLE_BYTES: u64 = 4096;
 
-/// Bytes that reading a file and fitting it takes at most, near enough; they are known from the head of the file.
-/// `rate_hz`: as [`FileFacts::rate_hz`](super::FileFacts::rate_hz).
+/// Approximate upper bound of the bytes needed to read a file and fit it, known from the head of the file. `rate_hz`:
+/// as [`FileFacts::rate_hz`](super::FileFacts::rate_hz).
 pub fn memory(file: &[u8], rate_hz: Option<f64>) -> u64 {
     let Ok(head) = read_head(file) else {
-        return 0; // nothing more is read of it
+        return 0; // the rest of the file is not read
     };
     let kept = head.kept_joints();
     let frames = head.frame_count as usize;
@@ -24,7 +24,7 @@ pub fn memory(file: &[u8], rate_hz: Option<f64>) -> u64 {
         0 => 0,
         _ => sample_count(frames, source_rate, rate).min(MAX_SAMPLES) as u64,
     };
-    // First the numbers of the file beside the recording, then the recording beside the paths in the world.
+    // First the numbers of the file and the recording are held together, then the recording and the paths in the world.
     let recording = POINT_BYTES * points;
     recording + head.reading_bytes.max(recording) + SAMPLE_BYTES * samples
 }
@@ -42,7 +42,7 @@ pub(super) fn sample_count(frames: usize, source_rate: f64, rate: f64) -> usize 
     ((last + 1e-6).floor() as usize).saturating_add(1)
 }
 
-/// Refuses more samples than a clip may have, before anything is made for them.
+/// Refuses more samples than a clip may have, before any memory is taken for them.
 pub(super) fn check_samples(count: usize) -> Result<(), ClipError> {
     match count > MAX_SAMPLES {
         true => Err(ClipError::TooLong { count }),

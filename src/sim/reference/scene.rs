@@ -39,17 +39,17 @@ pub(super) struct RecordedPaths {
     pub source_rate: f64,
 }
 
-/// What [`RecordedScene::new`] finds on the way.
+/// Findings of [`RecordedScene::new`].
 pub(super) struct SceneFindings {
     /// Points of either foot (ankle, toe joint, tip) before they were smoothed, `[side][point][sample]`.
     pub feet: [Vec<Vec<Vec3>>; 2],
-    /// Mean distance, rms, over which smoothing moved the points, m.
+    /// Root mean square distance by which smoothing moved the points, m.
     pub smoothing_rms: f64,
     /// Stretches that are faster than people walk, in samples of the recording, and how its runs are slowed down if
     /// they are to be walked.
     pub fast: Vec<FastStretch>,
     pub slowed: Option<RunToWalk>,
-    /// How many times as long as recorded the motion is for that.
+    /// How many times longer than the recording the motion is as a result.
     pub slower: f64,
 }
 
@@ -63,7 +63,7 @@ impl SceneFindings {
         self.runs().map(|s| s.speed).reduce(f64::max)
     }
 
-    /// What a user should know of each fast stretch. `rate_hz`: of the recording.
+    /// A message for the user about each fast stretch. `rate_hz`: of the recording.
     pub(super) fn notes(&self, rate_hz: f64) -> Vec<String> {
         let note = |s: &FastStretch| {
             if s.gait != Gait::Run {
@@ -255,7 +255,7 @@ impl RecordedScene<'_> {
         })
     }
 
-    /// Exchanges sides that the file names the wrong way round, told by where feet point and knees bend.
+    /// Exchanges sides that the file names the wrong way round, decided by where feet point and knees bend.
     pub(super) fn settle_sides(&mut self, map: &mut SkeletonMap) -> bool {
         let mut vote = 0.0;
         let mut arms = 0.0;

@@ -1,4 +1,4 @@
-//! Where the segments point: their frames from end points, hinge planes, and bones relative to a calibration pose.
+//! Orientation of the segments: their frames from end points, hinge planes, and bones relative to a calibration pose.
 
 use super::scene::RecordedScene;
 use crate::math::curve::rise;
@@ -9,22 +9,22 @@ use crate::reference::params::{root, segments};
 
 /// How bones carry segments.
 pub(super) struct Calibration {
-    /// True if the file's zero pose served, false if samples of the motion did.
+    /// Whether the calibration uses the file's zero pose rather than samples of the motion.
     pub from_rest: bool,
     /// The calibration poses.
     pub poses: Vec<CalibrationPose>,
 }
 
-/// A pose in which it is known where the segments point.
+/// A pose in which the orientations of the segments are known.
 #[derive(Clone, Copy)]
 pub(super) struct CalibrationPose {
     /// Sample of the motion; `None`: the zero pose of the file.
     pub sample: Option<usize>,
-    /// The figure's frame then: x forward, y left, z up.
+    /// The figure's frame in that pose: x forward, y left, z up.
     pub figure: Quat,
 }
 
-/// A limb of two bones with a hinge between them, by its joints.
+/// A limb of two bones with a hinge between them, given by its joints.
 #[derive(Clone, Copy)]
 struct TwoBoneLimb {
     upper: usize,
@@ -34,7 +34,7 @@ struct TwoBoneLimb {
     sense: f64,
 }
 
-/// The bone of a foot, by its points.
+/// The bone of a foot, given by its points.
 #[derive(Clone, Copy)]
 pub(super) struct FootBone {
     pub ankle: usize,
@@ -43,13 +43,14 @@ pub(super) struct FootBone {
     pub is_tip: bool,
 }
 
-/// Height of the ankle over the toe joint, and over the tip of the toes, on a flat foot, in lengths of the leg.
+/// Height of the ankle over the toe joint, and over the tip of the toes, on a flat foot, in leg lengths.
 const ANKLE_OVER_TOE: [f64; 2] = [
     root::ANKLE_HEIGHT - root::TOE_JOINT_HEIGHT,
     root::ANKLE_HEIGHT - root::TOE_TIP_HEIGHT,
 ];
 
-/// Mean of rotations that are about alike; those far from the others count for less. The identity for none.
+/// Mean of rotations that are roughly alike; those far from the others have less weight. The identity if there are
+/// none.
 pub(super) fn mean_rotation(rotations: &[Quat]) -> Quat {
     let mut mean = match rotations {
         [] => return Quat::identity(),
@@ -152,7 +153,7 @@ impl RecordedScene<'_> {
             && left.dot(up).abs() < 0.3
             && (rest(l.upper_arm) - rest(r.upper_arm)).dot(left) > 0.0;
         if standing {
-            // A trunk that leans a little about a file axis was drawn along that axis.
+            // A trunk that leans only a little from a file axis was drawn along that axis.
             let axis = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z]
                 .into_iter()
                 .find(|a| a.dot(up) > 0.95);
@@ -199,8 +200,8 @@ impl RecordedScene<'_> {
         pose.map_or(self.basis, |i| self.turn(joint)[i])
     }
 
-    /// A rotation or direction that belongs to each calibration pose, as rotation in the bone `joint`, averaged over
-    /// the poses.
+    /// A rotation or direction given for each calibration pose, as a rotation in the bone `joint`, averaged over the
+    /// poses.
     ///
     /// `figure_from_segment`: of a pose, in the axes of its figure.
     fn bone_from_segment(
@@ -231,7 +232,7 @@ impl RecordedScene<'_> {
             .collect()
     }
 
-    /// The same of a segment whose frame is that of the figure then.
+    /// The same for a segment whose frame in the calibration pose is that of the figure.
     fn follow_upright(&self, joint: usize, calibration: &Calibration) -> Vec<Quat> {
         self.follow(joint, calibration, |_| Quat::identity())
     }
@@ -251,7 +252,7 @@ impl RecordedScene<'_> {
     }
 
     /// Foot in a calibration pose, figure axes: x along the line from ankle to `toe`, level where that line falls as
-    /// steeply as on a flat foot of a `leg` of this length, m. The zero pose of the file has flat feet.
+    /// steeply as on the flat foot of a person with this length of `leg`, m. The zero pose of the file has flat feet.
     pub(super) fn foot_in_pose(&self, bone: FootBone, pose: CalibrationPose, leg: f64) -> Quat {
         let FootBone {
             ankle: foot,
@@ -282,7 +283,7 @@ impl RecordedScene<'_> {
             .map(|i| (self.place(l.thigh)[i] + self.place(r.thigh)[i]) * 0.5)
             .collect();
         let mut turn = self.follow_upright(map.pelvis, calibration);
-        // The line of the hips is better known than the bone's calibration: take the mean difference out.
+        // The line of the hips is more reliable than the bone's calibration: take the mean difference out.
         let mut sum = Vec3::zero();
         for i in 0..self.count {
             sum += turn[i]
@@ -326,7 +327,8 @@ impl RecordedScene<'_> {
                 weight += w;
             }
         }
-        // The axis as the bent samples show it, if they are enough and agree; else that of the calibration pose.
+        // The axis shown by the bent samples, if there are enough of them and they agree; else that of the calibration
+        // pose.
         let seen = weight > 0.3 * 0.1 * self.rate && mean.norm() > 0.8 * weight;
         let local = if seen {
             mean.normalized_or(Vec3::Y)
@@ -372,7 +374,7 @@ impl RecordedScene<'_> {
         let abdomen = if map.trunk.len() >= 2 {
             self.follow_upright(map.trunk[map.abdomen], calibration)
         } else {
-            // One bone bends the trunk: both of our joints share it.
+            // One bone bends the trunk: both joints of the body share it.
             pelvis
                 .iter()
                 .zip(&chest)
@@ -418,7 +420,7 @@ impl RecordedScene<'_> {
                 .map(|i| frame_of(shoulder[i] - elbow[i], axis[i]))
                 .collect();
             let bone = m.hand.unwrap_or(m.forearm);
-            // A hand that hangs in a sample of the motion is pronated as hands that hang are.
+            // A hand that hangs in a sample of the motion is assumed to have the usual pronation of hanging hands.
             let sign = if s == 0 { -1.0 } else { 1.0 };
             let hangs = Quat::exp(Vec3::Z * (sign * segments::PRONATION_MIDDLE));
             hand[s] = self.follow(bone, calibration, |pose| {

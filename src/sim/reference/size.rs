@@ -56,7 +56,7 @@ pub(super) fn measure(
             });
         }
     }
-    // Hip to shoulder height is about 0.29 of stature; many rigs have odd heads, so head tops are not asked.
+    // Hip to shoulder height is about 0.29 of stature; many rigs have odd heads, so head tops are not used.
     let trunk: Vec<f64> = (0..n)
         .step_by((n / 500).max(1))
         .map(|i| {

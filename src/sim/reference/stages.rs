@@ -16,7 +16,7 @@ use crate::math::{Quat, Vec3};
 use crate::motion::recording::{Recording, UpAxis};
 use crate::motion::skeleton_map::SkeletonMap;
 
-/// How large the recorded person is.
+/// Size of the recorded person.
 pub(super) struct Size {
     /// Length of a leg, m.
     pub leg: f64,
@@ -34,8 +34,8 @@ pub(super) struct MeasuredRecording {
     pub paths: RecordedPaths,
 }
 
-/// Size and paths of a recording; a root whose place the file does not tell follows the feet. The frames of `take` are
-/// used up.
+/// Size and paths of a recording; a root whose place the file does not state follows the feet. Uses up the frames of
+/// `take`.
 pub(super) fn measured(
     recording: &Recording,
     take: &mut Take<'_>,
@@ -96,8 +96,8 @@ impl Size {
     }
 }
 
-/// One turn and shift for everything, from the recorded room to the body: level, heading and place of the first sample,
-/// size.
+/// One turn, shift and scale for everything, from the recorded room to the body: level, heading and place of the first
+/// sample, size.
 struct Placing {
     turn: Quat,
     shift: Vec3,
@@ -105,7 +105,7 @@ struct Placing {
 }
 
 impl Placing {
-    /// With the recorded pelvis. With `keep_origin` heading and place stay those of the room.
+    /// Based on the recorded pelvis. With `keep_origin`, heading and place stay those of the room.
     fn new(
         ground: &Ground,
         scale: f64,
@@ -122,7 +122,7 @@ impl Placing {
             yaw,
         };
         let (turn, shift) = if keep_origin {
-            // Place is kept in metres of the room; the path about it is in body size.
+            // Place is kept in metres of the room; the path around it is in body size.
             let share = 1.0 / scale - 1.0;
             (ground.level, start * share)
         } else {
@@ -133,7 +133,7 @@ impl Placing {
         (Self { turn, shift, scale }, origin)
     }
 
-    /// A recorded point, in body size over a floor that lies at `height` in the recording.
+    /// A recorded point in body size, over a floor at `height` in the recording.
     fn point(&self, v: Vec3, height: f64) -> Vec3 {
         let p = self.turn.rotate(v) + self.shift;
         Vec3 {
@@ -154,7 +154,7 @@ impl Placing {
 
 /// Frames of the segments in the axes of the clip.
 pub(super) struct Limbs {
-    /// Of the upper body.
+    /// Joints of the upper body.
     pub joints: Joints,
     /// Axes of the left and the right knee.
     pub knee_axis: [Vec<Vec3>; 2],
@@ -176,7 +176,7 @@ pub(super) struct FittedPaths {
     pub foot: [Vec<Quat>; 2],
     /// Origin of the pelvis, m.
     pub pelvis: Vec<Vec3>,
-    /// Rotation of the pelvis as recorded, until the joints have it.
+    /// Rotation of the pelvis as recorded, until it has passed to the joints.
     pelvis_turn: Vec<Quat>,
 }
 
@@ -257,7 +257,8 @@ impl FittedPaths {
         }
     }
 
-    /// Frames of the upper body and axes of the knees. Takes the rotations of the pelvis: to be called once.
+    /// Frames of the upper body and axes of the knees. Takes the rotations of the pelvis, so it may be called only
+    /// once.
     pub(super) fn limbs(&mut self, scene: &RecordedScene<'_>, map: &SkeletonMap) -> Limbs {
         let frames = scene.frames(map, &self.calibration);
         let place = &self.placing;

@@ -13,17 +13,17 @@ fn angle_of(q: Quat) -> f64 {
     q.log().norm()
 }
 
-/// By how much a pose differs from another one.
+/// How much a pose differs from another one.
 struct PoseChange {
-    /// Root of the sum of squares of all turns, rad, and of the root's way in units of the figure's size.
+    /// Root of the sum of squares of all turns, rad, and of the root's displacement in units of the figure's size.
     all: f64,
     /// Fourth largest turn of a bone, rad.
     bones: f64,
-    /// Turn of the root, rad, or its way in units of the figure's size.
+    /// Turn of the root, rad, or its displacement in units of the figure's size.
     root: f64,
 }
 
-/// A recording without the frames that are no motion, and without glitches; what is changed is copied.
+/// A recording without glitches and without frames that are not part of the motion; changed parts are copied.
 pub(super) struct Take<'a> {
     recording: &'a Recording,
     /// `[point][frame]`: rotation and translation relative to the parent.
@@ -41,7 +41,7 @@ pub(super) struct WorldPaths {
 }
 
 impl<'a> Take<'a> {
-    /// The whole recording, at first.
+    /// The whole recording, before anything is left out.
     fn whole(recording: &'a Recording) -> Self {
         let paths = &recording.paths;
         Self {
@@ -57,7 +57,7 @@ impl<'a> Take<'a> {
         }
     }
 
-    /// The motion of a recording that was taken at `rate_hz`: held poses at its start are left out, glitches bridged.
+    /// The motion of a recording captured at `rate_hz`: poses held at its start are left out, glitches bridged.
     pub(super) fn of(
         recording: &'a Recording,
         rate_hz: f64,
@@ -137,7 +137,7 @@ impl<'a> Take<'a> {
         }
     }
 
-    /// Longest way down the tree from the root, file units: what the root's way is measured against.
+    /// Longest path down the tree from the root, file units: the unit in which the root's displacement is measured.
     fn size(&self) -> f64 {
         let mut reach = vec![0.0f64; self.points()];
         for k in 0..self.points() {
@@ -148,7 +148,7 @@ impl<'a> Take<'a> {
         reach.into_iter().fold(0.0, f64::max).max(1e-9)
     }
 
-    /// True if every bone below the root is turned as in the rest pose of the file.
+    /// Whether every bone below the root is turned as in the rest pose of the file.
     fn rests(&self, frame: usize) -> bool {
         let mut below = { self.turn.iter() }
             .zip(&self.recording.paths)
@@ -156,12 +156,13 @@ impl<'a> Take<'a> {
         below.all(|(t, _)| angle_of(t[frame]) < recording::REST_ANGLE)
     }
 
-    /// Drops a pose that is no part of the motion from the start: one that does not change, or hardly, before it jumps
+    /// Drops a pose from the start that is not part of the motion: one that does not change, or hardly, before it jumps
     /// into the motion.
     ///
-    /// A jump is a change between two frames that is several times as large as any in the time after it, and as nearly
-    /// all of the clip's: motion gathers speed over several frames. Where the pose is held for more than a frame, one
-    /// bone that flips is no jump: four bones must, or the root, or the pose must be the rest pose of the file.
+    /// A jump is a change between two frames that is several times as large as any change in the time after it, and as
+    /// nearly all others in the clip: motion gathers speed over several frames. Where the pose is held for more than a
+    /// frame, one flipping bone is not a jump: four bones must flip, or the root, or the pose must be the rest pose of
+    /// the file.
     fn skip_pose(&mut self, rate_hz: f64, warnings: &mut Vec<String>) {
         let size = self.size();
         let mut skipped = 0;
@@ -183,8 +184,8 @@ impl<'a> Take<'a> {
         self.skipped_frames = skipped;
     }
 
-    /// First frame after a jump to frame `cut`, and the largest change on the way there. Some writers blend the rest
-    /// pose into the motion over several frames: a rush that is fast from its first frame, which no motion is.
+    /// First frame after a jump to frame `cut`, and the largest change up to there. Some writers blend the rest pose
+    /// into the motion over several frames: such a rush is fast from its first frame, which no motion is.
     fn rush(&self, cut: usize, jump: f64, rate_hz: f64, size: f64) -> (usize, f64) {
         if !self.rests(cut - 1) {
             return (cut, jump);
@@ -208,7 +209,7 @@ impl<'a> Take<'a> {
         (end, largest)
     }
 
-    /// Frames of a pose held at the start that is no part of the motion.
+    /// Number of frames at the start that hold a pose which is not part of the motion.
     fn held_pose(&self, rate_hz: f64, size: f64) -> Option<usize> {
         let n = self.len();
         let longest = ((recording::LONGEST_POSE * rate_hz) as usize)
@@ -217,7 +218,7 @@ impl<'a> Take<'a> {
         for cut in 1..=longest {
             let jump = self.change(cut - 1, cut, size);
             if jump.all < recording::LEAST_JUMP {
-                // Still the same pose?
+                // The pose must still be the same.
                 if self.change(0, cut, size).all > recording::MOST_DRIFT {
                     return None;
                 }
@@ -253,7 +254,7 @@ impl<'a> Take<'a> {
                 let turn = &self.turn[k];
                 let step = angle_of(turn[i - 1].conjugate() * turn[i]);
                 if step > limit {
-                    // The bone must come back: after the glitch it is about where it was before.
+                    // The bone must come back: after the glitch it must be about where it was before.
                     let back = (i + 1..(i + 1 + recording::GLITCH_FRAMES).min(n)).find(|j| {
                         angle_of(turn[i - 1].conjugate() * turn[*j]) < recording::GLITCH_BACK * step
                     });
@@ -327,13 +328,13 @@ impl<'a> Take<'a> {
         WorldPaths { places, turns }
     }
 
-    /// Forgets what was copied of the frames; which points there are stays.
+    /// Releases the copied frames; the list of points stays.
     pub(super) fn forget_frames(&mut self) {
         self.turn = Vec::new();
         self.step = Vec::new();
     }
 
-    /// Whether each kept bone or tip is asked for once all are smooth; the others only lead to them.
+    /// Whether each kept bone or tip is needed after smoothing; the others only lead to those.
     pub(super) fn is_mapped(&self, map: &SkeletonMap) -> Vec<bool> {
         let of = |s: &SideMap| {
             let limbs = [s.upper_arm, s.forearm, s.thigh, s.shank, s.foot];
@@ -352,7 +353,7 @@ impl<'a> Take<'a> {
     pub(super) fn rest(&self) -> Vec<Vec3> {
         let mut out: Vec<Vec3> = Vec::with_capacity(self.points());
         for (k, path) in self.recording.paths.iter().enumerate() {
-            // A tip's step is the same in every frame.
+            // A tip's offset is the same in every frame.
             let joint = self.recording.facts.joints.get(path.point);
             let offset = joint.map_or(self.step[k][0], |j| j.offset);
             out.push(path.parent.map_or(Vec3::zero(), |p| out[p]) + offset);

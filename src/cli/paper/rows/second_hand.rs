@@ -1,4 +1,4 @@
-//! Row 5: a ladder of loads with one hand, with two, and with the second hand as it is needed.
+//! Row 5: a ladder of loads with one hand, with two, and with the second hand helping as needed.
 
 use crate::page::Page;
 use anyhow::Result;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// Panels of a strip.
 const PANELS: usize = 8;
-/// Loads that are drawn: of the man, the woman and the child, kg.
+/// Loads to draw: for the man, the woman and the child, kg.
 const DRAWN: [f64; 3] = [12.0, 8.0, 5.0];
 
 /// Adds the section.

@@ -1,9 +1,10 @@
 //! Stepping: footsteps, a path of the zero moment point over them, and the centre of mass that follows from it.
 //!
 //! The centre of mass obeys the linear inverted pendulum `ẍ = ω² (x − p)` with `ω² = g / height` and p the planned zero
-//! moment point; the one solution that stays bounded is found as a boundary value problem over the whole motion. What
-//! swinging limbs add is measured on the result and taken off the plan, a few times over (Kajita et al. 2003, §5). The
-//! feet are a smooth function of time: flat, rolling over the ball before they lift, swinging, landing on the heel.
+//! moment point; the one solution that stays bounded is found as a boundary value problem over the whole motion. The
+//! effect of swinging limbs is measured on the result and subtracted from the plan, a few times over (Kajita et al.
+//! 2003, §5). The feet are a smooth function of time: flat, rolling over the ball before they lift, swinging, landing
+//! on the heel.
 
 use super::RATE;
 use super::shape::{COM_AHEAD, Foot, Measures, Plan, posture};
@@ -18,13 +19,14 @@ use super::super::leg_ik::{center_of_mass, forward};
 use super::shape::set;
 use crate::motion::GRAVITY;
 
-/// Time the zero moment point takes from between the feet under the first to stand on, and back after the last step, s.
+/// Time that the zero moment point takes from between the feet to a point under the first foot that carries alone, and
+/// back after the last step, s.
 const TRANSFER: f64 = 0.5;
-/// Time at both ends over which what is left of the pendulum's approach is faded out, so that the figure starts and
-/// ends at rest, s.
+/// Time at both ends over which the rest of the pendulum's approach is faded out, so that the figure starts and ends at
+/// rest, s.
 const FADE: f64 = 0.6;
 
-/// Rounds in which the zero moment point of the whole figure (swinging limbs and all) is measured and the path
+/// Rounds in which the zero moment point of the whole figure (swinging limbs included) is measured and the path
 /// corrected for it.
 const CORRECTIONS: usize = 4;
 
@@ -33,10 +35,10 @@ const CORRECTIONS: usize = 4;
 struct Step {
     /// 0 = left, 1 = right.
     side: usize,
-    /// Time the toes leave the floor and the heel comes back to it, s.
+    /// Time when the toes leave the floor, and time when the heel comes back to it, s.
     lift: f64,
     land: f64,
-    /// Ankle of the flat foot before and after, m.
+    /// Ankle of the flat foot before and after the step, m.
     from: f64,
     to: f64,
 }
@@ -44,29 +46,29 @@ struct Step {
 /// How the figure steps. Lengths for the reference body, m; times s; angles rad.
 struct Style {
     half_stance: f64,
-    /// From one lift to the next, of which the foot is in the air for `swing`.
+    /// Time from one lift to the next; the foot is in the air for `swing` of it.
     period: f64,
     swing: f64,
     count: usize,
-    /// Distance from one footprint to the other foot's next.
+    /// Distance from one footprint to the next one of the other foot.
     length: f64,
-    /// Height that the ankle is lifted beyond what the foot's pitch asks for.
+    /// Height by which the ankle is lifted beyond the height that the foot's pitch asks for.
     clearance: f64,
-    /// Pitch of the foot when it leaves the floor (heel up) and meets it (toes up).
+    /// Pitch of the foot when it leaves the floor (heel up) and when it meets the floor (toes up).
     push: f64,
     strike: f64,
     /// Times of rolling over ball and heel.
     push_time: f64,
     strike_time: f64,
-    /// Hip height in leg lengths, and how far it goes up and down.
+    /// Hip height in leg lengths, and the amplitude of its rise and fall.
     height: f64,
     bob: f64,
-    /// Rotation of the pelvis, shoulder swing.
+    /// Rotation of the pelvis, and swing of the shoulders.
     turn: f64,
     arms: f64,
     /// Advance of the zero moment point under a foot, to both sides of its middle.
     roll: f64,
-    /// Stands still before the first lift, and after the last landing.
+    /// Time of standing still before the first lift, and after the last landing.
     before: f64,
     after: f64,
 }
@@ -151,7 +153,7 @@ fn foot(m: &Measures, style: &Style, steps: &[Step], side: usize, t: f64) -> (Fo
     let is_last = |s: &Step| steps.last().is_some_and(|l| l.lift == s.lift);
     let strike = |s: &Step| if is_last(s) { 0.0 } else { style.strike };
     let pitched = |pitch: f64| Quat::exp(Vec3::Y * pitch);
-    // Ankle of a foot that stands at x and is pitched about the ball (heel up) or about the heel (toes up).
+    // Ankle of a foot planted at x and pitched about the ball (heel up) or about the heel (toes up).
     let standing = |x: f64, pitch: f64| {
         let flat = m.flat(x, y).ankle;
         let pivot = if pitch >= 0.0 {
@@ -194,7 +196,7 @@ fn foot(m: &Measures, style: &Style, steps: &[Step], side: usize, t: f64) -> (Fo
     (foot, true)
 }
 
-/// Planned zero moment point at time `t`: under the standing foot, over to the next one while both stand.
+/// Planned zero moment point at time `t`: under the planted foot, moving to the next one while both are planted.
 fn zmp(m: &Measures, style: &Style, steps: &[Step], t: f64) -> [f64; 2] {
     let ahead = COM_AHEAD * m.scale;
     let y = 0.85 * style.half_stance * m.scale; // a little to the inside of the ankle

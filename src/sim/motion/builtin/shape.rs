@@ -9,11 +9,11 @@ use crate::body::topology::{CHEST, DOF_COUNT, DOF_START, L_FOOT, L_SHANK, PARENT
 use crate::body::{Body, Posture, SegmentId};
 use crate::math::{Quat, Vec3};
 
-/// Leg length (hip to ankle) that distances in plans are written for, m.
+/// Leg length (hip to ankle) for which distances in plans are written, m.
 pub const REFERENCE_LEG: f64 = 0.867;
-/// Where the balanced centre of mass lies in front of the ankles, reference body, m: mid-foot.
+/// Distance of the balanced centre of mass in front of the ankles, reference body, m: mid-foot.
 pub const COM_AHEAD: f64 = 0.045;
-/// Shift of the pelvis at which balancing is done, m.
+/// Shift of the pelvis below which balancing is finished, m.
 const BALANCED: f64 = 1e-13;
 /// Each round leaves about a third of the error (the share of the legs, which stay behind).
 const ROUNDS: usize = 60;
@@ -29,7 +29,7 @@ pub struct Foot {
     pub toe: f64,
 }
 
-/// Everything a posture is made from; smooth functions of time make smooth motions.
+/// Everything needed to make a posture; smooth functions of time make smooth motions.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
     /// Anatomical angles of trunk, head and arms, rad; those of the legs are ignored.
@@ -45,7 +45,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// In between, `u` = 0…1, for plans with the same feet.
+    /// A plan in between, `u` = 0…1, for plans with the same feet.
     pub fn mix(&self, to: &Self, u: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * u;
         Self {
@@ -58,7 +58,7 @@ impl Plan {
     }
 }
 
-/// Measures of a body that plans are written in.
+/// Measures of a body, in which plans are written.
 #[derive(Clone, Copy, Debug)]
 pub struct Measures {
     /// Length scale against the reference body.
@@ -117,7 +117,7 @@ pub fn posture(body: &Body, plan: &Plan) -> Posture {
     let across = out.root_rotation.rotate(Vec3::Y);
     for _ in 0..ROUNDS {
         for (side, foot) in plan.feet.iter().enumerate() {
-            // Knees bend in a plane between where the pelvis and where the foot look.
+            // Knees bend in a plane between the directions in which the pelvis and the foot point.
             let axis = across + foot.rotation.rotate(Vec3::Y);
             let pose = (foot.ankle, foot.rotation);
             solve_leg_in_plane(body, &mut out, side == 0, pose, foot.toe, axis);

@@ -154,7 +154,8 @@ pub fn lift(body: &Body, end: LiftEnd) -> (Vec<Posture>, Vec<[bool; 2]>) {
 
 /// Both hands at `target` and its mirror image.
 fn reach_both(body: &Body, plan: &mut Plan, target: Vec3) {
-    // The left arm moves the centre of mass, and with it the pelvis and the right hand: a few rounds settle it.
+    // The left arm moves the centre of mass, and with it the pelvis and the right hand: the two settle within a few
+    // rounds.
     for _ in 0..4 {
         reach_right(body, plan, target, -Vec3::Y);
         for (d, name) in DOF_NAMES.iter().enumerate() {

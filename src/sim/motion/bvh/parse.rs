@@ -1,12 +1,12 @@
-//! Text of a BVH file to joints and numbers. Whatever is wrong is named by line, frame and column.
+//! Text of a BVH file to joints and numbers. Every error is reported with its line, frame and column.
 
 use super::{BvhChannel, BvhError, BvhJoint};
 use crate::motion::skeleton::MAX_JOINTS;
 use std::collections::BTreeMap;
 
-/// Most warnings that are kept.
+/// Largest number of warnings that are kept.
 const MAX_WARNINGS: usize = 32;
-/// Largest number that is read: far beyond any unit a figure is measured in, small enough that no sum of them
+/// Largest number that is accepted: far beyond any unit in which a figure is measured, small enough that no sum of them
 /// overflows.
 const LARGEST: f64 = 1e12;
 /// Longest excerpt of the file that an error quotes, bytes.
@@ -40,7 +40,7 @@ fn is_line_end(b: u8) -> bool {
     matches!(b, b'\n' | b'\r')
 }
 
-/// Position in the bytes, with the line it is on.
+/// Position in the bytes, with its line.
 pub(super) struct BvhReader<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -104,7 +104,7 @@ impl<'a> BvhReader<'a> {
         &self.bytes[start..self.at]
     }
 
-    /// The next word: a brace, or what reaches to the next blank, line end or brace.
+    /// The next word: a brace, or the text up to the next blank, line end or brace.
     fn word(&mut self, expected: &'static str) -> Result<&'a [u8], BvhError> {
         self.skip_white();
         match self.peek() {
@@ -193,10 +193,10 @@ impl Warnings {
     }
 }
 
-/// What has been said so far about a joint whose brace is open.
+/// The data already read of a joint whose brace is open.
 pub(super) struct OpenJoint {
     index: usize,
-    /// Line on which it is named.
+    /// Line of its name.
     line: usize,
     has_offset: bool,
     has_channels: bool,
@@ -283,7 +283,7 @@ pub(super) fn parse_hierarchy(
     Ok(joints)
 }
 
-/// One warning per name that several joints have. Whether it matters is known when bones are mapped.
+/// One warning per name that several joints have. Whether it matters is known only when bones are mapped.
 fn note_duplicate_names(joints: &[BvhJoint], lines: &[usize], warnings: &mut Warnings) {
     let mut by_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     for (joint, line) in joints.iter().zip(lines) {
@@ -354,7 +354,7 @@ fn parse_end_site(reader: &mut BvhReader<'_>) -> Result<[f64; 3], BvhError> {
         if offset.is_none() && word.eq_ignore_ascii_case(b"OFFSET") {
             offset = Some(reader.offset()?);
         } else if channels {
-            // An End Site has no motion; a few writers say so.
+            // An End Site has no motion; a few writers state that explicitly.
             let count = reader.number("a number of channels")?;
             if count != 0.0 {
                 return Err(BvhError::ChannelCount {
@@ -444,7 +444,8 @@ pub(super) fn parse_frames(
     declared: u64,
     warnings: &mut Warnings,
 ) -> Result<(Vec<f64>, usize), BvhError> {
-    // A number takes two bytes with its separator, so the bytes left bound what a declaration can make us reserve.
+    // A number takes two bytes with its separator, so the remaining bytes bound the memory that a declaration can make
+    // us reserve.
     let most = (reader.bytes.len() - reader.at) / 2 + 1;
     let wanted = declared.saturating_mul(columns as u64);
     let mut values = Vec::with_capacity(usize::try_from(wanted).unwrap_or(most).min(most));

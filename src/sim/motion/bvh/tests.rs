@@ -1,4 +1,4 @@
-//! Goal: every dialect reads as it is meant, and what is wrong is named by line, frame and column.
+//! Goal: every dialect is read as intended, and errors are reported with line, frame and column.
 
 use super::*;
 use proptest::prelude::*;

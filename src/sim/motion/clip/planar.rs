@@ -23,7 +23,7 @@ fn reduced(angle: f64) -> f64 {
 }
 
 impl PlanarTransform {
-    /// True if it is a place.
+    /// Whether every component is finite.
     pub fn is_finite(self) -> bool {
         [self.x, self.y, self.yaw].iter().all(|x| x.is_finite())
     }
@@ -64,7 +64,7 @@ impl PlanarTransform {
         let half = 0.5 * reduced(self.yaw);
         let (s, _) = trig::sin_cos(half);
         let gain = if s.abs() < 1e-9 {
-            n // no turn to speak of: the steps line up
+            n // nearly no turn: the steps line up
         } else {
             trig::sin_cos(reduced(n * half)).0 / s
         };

@@ -5,7 +5,7 @@ use super::*;
 /// Length of the blend at the seam of a loop, s; at most a quarter of the clip.
 const SEAM: f64 = 0.25;
 
-/// The end of a loop: what brings the last posture to the first one, moved on by one loop.
+/// The end of a loop: the correction that brings the last posture to the first one, displaced by one loop.
 #[derive(Clone, Debug)]
 pub(super) struct Seam {
     /// Displacement of one loop.
@@ -32,7 +32,7 @@ impl Clip {
         advance.x = end.posture.root_position.x - from.x;
         advance.y = end.posture.root_position.y - from.y;
 
-        // What the blend has to reach at the end: the first sample, moved on.
+        // The goal of the blend at its end: the first sample, displaced by one loop.
         let mut goal = Target {
             posture: first.posture,
             velocity: first.first,

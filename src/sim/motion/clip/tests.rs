@@ -1,4 +1,4 @@
-//! Goal: what is sampled is a motion: rates are derivatives, loops close, displacements carry on.
+//! Goal: sampling yields a motion: rates are derivatives, loops close, displacements carry on.
 
 use super::*;
 
@@ -127,7 +127,7 @@ fn loops_are_smooth_and_carry_the_displacement() {
     let period = clip.duration();
     for i in -300..600 {
         let t = 0.010_07 * f64::from(i);
-        // Exactly at a seam the third derivative jumps, which a difference across it would see.
+        // The third derivative jumps exactly at a seam, and a difference across it would see that.
         if i != 0 {
             check_derivatives(|t| clip.sample_looped(t), t);
         }
@@ -141,7 +141,7 @@ fn loops_are_smooth_and_carry_the_displacement() {
         assert!(worst(&a.velocity, &b.velocity) < 1e-6);
         assert!(worst(&a.acceleration, &b.acceleration) < 1e-4);
     }
-    // One round later the figure has moved on by the displacement of one round, for every phase alike.
+    // One round later the figure is displaced by that of one round, the same at every phase.
     let advance = clip.seam.as_ref().unwrap().advance;
     for i in 0..50 {
         let t = 0.03 * f64::from(i);

@@ -15,7 +15,7 @@ fn what_gravity_takes_in_flight_a_stance_gives() {
             let gained: f64 = (i..j).map(|k| push[k].unwrap() / RATE).sum();
             let lost = GRAVITY * 16.0 / RATE;
             assert!((gained - lost).abs() < 1e-9, "{gained} {lost}");
-            // The floor does not pull, and the last push is a weak one.
+            // The floor does not pull; the last push is a weak one.
             assert!((i..j).all(|k| push[k].unwrap() > -GRAVITY));
             assert!(push[j - 1].unwrap() < 0.5 * push[i + 8].unwrap());
         }
@@ -50,10 +50,10 @@ fn the_mass_of_a_runner_falls_freely_in_flight() {
         let a = (z(i - 1) - 2.0 * z(i) + z(i + 1)) * RATE * RATE;
         assert!((a + GRAVITY).abs() < 0.2, "{i}: {a}");
     }
-    // On the average it is as high as it was.
+    // The mean height does not change.
     let mean = height.iter().sum::<f64>() / n as f64;
     assert!(mean.abs() < 1e-3, "{mean}");
-    // A leg that does not reach holds the pelvis down all the same.
+    // A leg that does not reach still holds the pelvis down.
     let mut most = vec![1.0; n];
     most[30] = -0.03;
     assert!(flights.heights(&most)[30] < -0.029);
@@ -84,7 +84,7 @@ fn a_foot_rolls_over_its_toes_to_where_its_ankle_is() {
     assert!(low(&rolled).abs() < 1e-3, "{}", low(&rolled));
     let (flat, up) = (sole.stand_on_tip(&at), sole.stand_on_tip(&rolled));
     assert!(up.ankle.z > flat.ankle.z + 0.02);
-    // Found again from the ankle alone, and a foot that is in place stays.
+    // Both angles are found again from the ankle alone, and a foot that is already in place stays.
     let (heel, tip) = roll(&sole, &at, up.ankle);
     let found = sole.stand_on_tip(&FootPlacement {
         pitch: at.pitch - heel,

@@ -1,5 +1,5 @@
-//! The sole of a foot: its points, where it stands flat or rolled about heel edge or toe joint, and how far a foot is
-//! from that.
+//! The sole of a foot: its points, its poses flat or rolled about heel edge or toe joint, and the distance of a foot
+//! from such a pose.
 
 use crate::body::Body;
 use crate::body::topology::{DOF_START, FEET, SEGMENT_COUNT, SegmentId, TOES};
@@ -22,7 +22,7 @@ pub struct FootPose {
 pub(in crate::plan) type FootOffset = [f64; 7];
 
 impl FootPose {
-    /// What takes `other` to this pose.
+    /// The offset that takes `other` to this pose.
     pub(in crate::plan) fn offset_from(&self, other: &Self) -> FootOffset {
         let p = self.ankle - other.ankle;
         let r = (self.rotation * other.rotation.conjugate()).log();
@@ -54,7 +54,7 @@ pub struct Sole {
     pub(super) toe_range: (f64, f64),
 }
 
-/// Where a planted foot stands in one sample.
+/// Placement of a planted foot in one sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FootPlacement {
     /// Point of the floor under the flat ankle, m (z = 0).
@@ -63,12 +63,13 @@ pub struct FootPlacement {
     pub yaw: f64,
     /// Pitch, rad, toe-up positive.
     pub pitch: f64,
-    /// By how much the toes are turned up about their tip, as at the end of a runner's stance, rad; the foot with them.
+    /// By how much the toes are turned up about their tip, and the foot with them, as at the end of a runner's stance,
+    /// rad.
     pub tip: f64,
 }
 
 impl FootPlacement {
-    /// True where the heel is raised: nothing behind the ball of the foot carries.
+    /// Whether the heel is raised, so that nothing behind the ball of the foot carries.
     pub(in crate::plan) fn is_on_ball(&self) -> bool {
         self.pitch <= -pitch::FLAT
     }
@@ -149,7 +150,7 @@ impl Sole {
         (-pitch).clamp(self.toe_range.0.max(0.0), self.toe_range.1.max(0.0))
     }
 
-    /// Largest distance between where a foot is and where it should be, over ankle, heel edge and toe joint, m.
+    /// Largest distance between a foot's actual and its intended pose, over ankle, heel edge and toe joint, m.
     pub fn stray(&self, is: (Vec3, Quat), should: &FootPose) -> f64 {
         [Vec3::zero(), self.heel, self.toe_joint]
             .into_iter()
@@ -157,8 +158,7 @@ impl Sole {
             .fold(0.0, f64::max)
     }
 
-    /// Pose of a foot that stands at `anchor` with heading `yaw`, pitched about heel edge (toe-up) or toe joint
-    /// (heel-up).
+    /// Pose of a foot planted at `anchor` with heading `yaw`, pitched about heel edge (toe-up) or toe joint (heel-up).
     pub fn stand(&self, anchor: Vec3, yaw: f64, pitch: f64) -> FootPose {
         let pitched = Quat::exp(Vec3::Y * -pitch);
         let toe = self.flat_toe(pitch);
@@ -177,7 +177,7 @@ impl Sole {
         }
     }
 
-    /// The same with the toes turned up about their tip by `tip` rad, and the foot with them.
+    /// The same with the toes, and the foot with them, turned up about their tip by `tip` rad.
     pub fn stand_on_tip(&self, at: &FootPlacement) -> FootPose {
         let mut pose = self.stand(at.place, at.yaw, at.pitch);
         if at.tip > 0.0 {
@@ -191,8 +191,8 @@ impl Sole {
         pose
     }
 
-    /// Where a foot at `ankle` with `world_from_foot` stands, or would: rolled about its heel edge or its toe joint, as
-    /// it is pitched. The same bits on every machine, since ticks use it.
+    /// Actual or nearest placement of a foot at `ankle` with `world_from_foot`: rolled about its heel edge or its toe
+    /// joint, according to its pitch. The same bits on every machine, since ticks use it.
     pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> FootPlacement {
         let x = rotation.rotate(Vec3::X);
         let (yaw, pitch) = (trig::atan2(x.y, x.x), trig::atan2(x.z, x.level()));
@@ -216,14 +216,14 @@ impl Sole {
         }
     }
 
-    /// Heights of ankle, toe joint and toe tip of a foot that stands flat, m.
+    /// Heights of ankle, toe joint and toe tip of a flat planted foot, m.
     pub fn standing_heights(&self) -> [f64; 3] {
         let joint = self.ankle_height + self.toe_joint.z;
         [self.ankle_height, joint, joint + self.toe_tip().z]
     }
 
-    /// Visits the floor polygon corners (x, y) that carry a foot standing at `at`: heel while not heel-up, toes while
-    /// not toe-up.
+    /// Visits the floor polygon corners (x, y) that carry a foot placed at `at`: the heel unless heel-up, the toes
+    /// unless toe-up.
     pub fn each_corner(&self, at: &FootPlacement, mut visit: impl FnMut([f64; 2])) {
         let FootPlacement {
             place: anchor,
@@ -241,7 +241,7 @@ impl Sole {
             }
         }
         if pitch < pitch::FLAT {
-            // On their tip the toes still carry with a strip of it.
+            // On their tip the toes still carry with a narrow strip.
             let front = self.toe_tip().x;
             let back = if tip < pitch::FLAT {
                 f64::NEG_INFINITY

@@ -1,5 +1,5 @@
-//! When feet stand: labels of what is near the floor made into stances, by splitting what shuffles or turns, and by
-//! giving swings the time they need.
+//! Stances of the feet. Stretches labelled as near the floor become stances: shuffling or turning stretches are split,
+//! and swings get the time they need.
 
 use super::sole::{Sole, turn, yaw_pitch};
 use super::{RecordedFoot, median};
@@ -8,7 +8,7 @@ use crate::math::{Quat, Vec3, trig};
 use crate::plan::params::{contact, stance};
 use std::ops::Range;
 
-/// One stance of one foot: its place and its heading stay.
+/// One stance of one foot, with fixed place and heading.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stance {
     /// First sample.
@@ -17,7 +17,7 @@ pub struct Stance {
     pub end: usize,
 }
 
-/// Foot point and heading per sample: where the flat ankle would stand on the floor.
+/// Foot point and heading per sample: where the flat ankle would be over the floor.
 pub(super) struct FootTrack {
     pub point: Vec<Vec3>,
     pub yaw: Vec<f64>,
@@ -61,8 +61,9 @@ impl FootTrack {
             .max((self.yaw[i] - yaw).abs() / stance::STRAY_ANGLE)
     }
 
-    /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps, or begins it
-    /// after, or ends it before it does, while the `other` foot is on the floor: a foot that shuffles alone stays.
+    /// Splits a stance in which the foot visibly shuffles or pivots into stances joined by short steps, or moves its
+    /// start or end past that movement. Only done while the `other` foot is on the floor: a foot that shuffles alone
+    /// stays.
     fn split(&self, samples: Range<usize>, other: &[bool], rate_hz: f64, out: &mut StancePieces) {
         let Range { start, end } = samples;
         let shortest = (stance::SHORTEST * rate_hz) as usize;
@@ -78,7 +79,8 @@ impl FootTrack {
             return;
         }
         let moved = |a: usize, b: usize| self.stray(b, self.point[a], self.yaw[a]);
-        // Where the foot moves fastest over one shuffle's time, the first that fits.
+        // Around the sample at which the foot moves fastest over one shuffle's time; the first choice that fits is
+        // taken.
         for half in [
             stance::HALF_SHUFFLE,
             stance::HALF_QUICK_SHUFFLE,
@@ -95,8 +97,8 @@ impl FootTrack {
                 return;
             }
         }
-        // A foot that drags on after the other has landed is lifted there; one that slides on while the other still
-        // stands comes down later.
+        // A foot that drags on after the other has landed is lifted there; one that slides on while the other is still
+        // planted comes down later.
         let alone_until = (start..end)
             .rev()
             .find(|i| !other[*i])
@@ -115,8 +117,9 @@ impl FootTrack {
         }
     }
 
-    /// Takes from the ends of a stance what only there is astray, while the other foot stands too: a foot that begins
-    /// to turn away, or that is still coming, does not stand, and what stands does not pivot because of it.
+    /// Shortens a stance at either end by the samples that stray while the other foot is planted too. A foot that
+    /// begins to turn away, or that is still arriving, is not planted, and the rest of the stance must not pivot
+    /// because of it.
     fn trim(&self, samples: Range<usize>, other: &[bool], rate_hz: f64) -> Range<usize> {
         let Range { start, end } = samples;
         let (anchor, yaw) = self.anchor(start, end);
@@ -124,7 +127,7 @@ impl FootTrack {
         let astray = |i: usize| self.stray(i, anchor, yaw);
         let leaves = |i: &usize| other[*i] && astray(*i) > stance::TRIM_STRAY;
         let cut = |outermost: usize, n: usize| if astray(outermost) > 1.0 { n } else { 0 };
-        // Where the recording begins or ends there is no swing that it would belong to.
+        // Where the recording begins or ends there is no swing to which the samples could belong.
         let clip = |at: usize, n: usize| if at == 0 || at == other.len() { 0 } else { n };
         let head = (start..start + edge).take_while(leaves).count();
         let tail = (end - edge..end).rev().take_while(leaves).count();
@@ -136,10 +139,9 @@ impl FootTrack {
         from..to
     }
 
-    /// Gives swings that are shorter than their way takes what they lack, of the time in which both feet are on the
-    /// floor: from the stance before and from the one after, wherever the recorded foot is further from its anchor, and
-    /// no more than half of what there is, since the other foot may need some as well. Labels see the fastest part of a
-    /// low step only.
+    /// Lengthens swings that are too short for their distance, using time in which both feet are on the floor. The time
+    /// is taken from the stance before or the one after, wherever the recorded foot is further from its anchor, and at
+    /// most half of it, since the other foot may need some as well. Labels see only the fastest part of a low step.
     fn unhurry(&self, pieces: &mut [(usize, usize)], other: &[bool], rate_hz: f64) {
         let shortest = (stance::SHORTEST * rate_hz) as usize;
         let placements: Vec<_> = pieces.iter().map(|&(i, j)| self.anchor(i, j)).collect();
@@ -165,7 +167,7 @@ impl FootTrack {
         }
     }
 
-    /// When the foot stands where its `label` says that it is on the floor, with the `other` foot's.
+    /// Stances of the foot, from its `label` of being on the floor and that of the `other` foot.
     pub fn pieces(&self, label: &[bool], other: &[bool], rate_hz: f64) -> StancePieces {
         let mut pieces = Vec::new();
         for (i, j, on) in runs(label) {
@@ -182,8 +184,7 @@ impl FootTrack {
         pieces
     }
 
-    /// How far the recorded foot is from where it would stand, squared and summed over its stances, in units of
-    /// [`stance::STRAY_DISTANCE`].
+    /// Distance of the recorded foot from its stances, squared and summed, in units of [`stance::STRAY_DISTANCE`].
     fn strays(&self, pieces: &[(usize, usize)]) -> f64 {
         let of = |&(i, j): &(usize, usize)| {
             let (anchor, yaw) = self.anchor(i, j);
@@ -195,8 +196,8 @@ impl FootTrack {
     }
 }
 
-/// When both feet stand: where their labels say so and they neither shuffle nor turn away. Which one gives way to the
-/// other first is decided by how far they stand from where the recording has them.
+/// Stances of both feet: where their labels have them on the floor and they neither shuffle nor turn away. The foot
+/// that gives way to the other first is the one whose choice keeps the stances closer to the recorded feet.
 ///
 /// * `labels`: where the feet are on the floor.
 /// * `rate_hz`: samples per second.
@@ -227,8 +228,8 @@ pub fn stances(
 /// Stances of one foot as half-open ranges of samples, in order.
 pub(super) type StancePieces = Vec<(usize, usize)>;
 
-/// The stances of both feet if foot `order[0]` gives way first: the other one relies on where that one really stands,
-/// not on where it is on the floor. Feet that both turn on the floor would each leave the body to the other one.
+/// The stances of both feet if foot `order[0]` gives way first. The other foot relies on the stances of the first, not
+/// on its labels: two feet that turn on the floor would each leave the body to the other one.
 fn sequence(
     tracks: &[FootTrack; 2],
     labels: [&[bool]; 2],

@@ -82,7 +82,8 @@ fn beside(n: usize) -> (Vec<Vec3>, Vec<Quat>) {
     (vec![place; n], vec![Quat::identity(); n])
 }
 
-/// Locks a left foot at 120 samples a second; the right one stays where it is and is on the floor where `other` says.
+/// Locks a left foot at 120 samples a second. The right one stays where it is and is on the floor where `other` says
+/// so.
 fn locked(
     place: &[Vec3],
     turned: &[Quat],
@@ -154,13 +155,13 @@ fn feet_that_turn_together_step_in_turn_and_one_of_them_always_stands() {
             FootTrack::new(&soles[0], &l.0, &l.1),
             FootTrack::new(&soles[1], &r.0, &r.1),
         ];
-        // Each relying on the other's label they leave the body alone.
+        // If each relies on the other's label, both leave the body unsupported.
         let alone: [StancePieces; 2] =
             std::array::from_fn(|s| tracks[s].pieces(&label, &label, 120.0));
         assert!((0..n).any(|k| !stands(&alone, k)), "{angle}: {alone:?}");
         let pieces: [StancePieces; 2] = steps.map(|s| s.iter().map(|s| (s.start, s.end)).collect());
         assert!((0..n).all(|k| stands(&pieces, k)), "{angle}: {pieces:?}");
-        // A foot that stands does not turn.
+        // A planted foot does not turn.
         for (s, (place, turned)) in [l, r].into_iter().enumerate() {
             assert!(pieces[s].len() > 1);
             let of: Vec<Stance> = pieces[s]
@@ -195,7 +196,7 @@ fn feet_that_turn_together_step_in_turn_and_one_of_them_always_stands() {
 #[test]
 fn a_step_of_which_the_label_saw_only_the_middle_takes_the_time_that_it_needs() {
     let (n, first, last) = (360, 172, 188);
-    // A quarter of a metre in 0.36 s, close to the floor; the label has 0.13 s of it.
+    // A quarter of a metre in 0.36 s, close to the floor; the label covers 0.13 s of it.
     let place: Vec<Vec3> = (0..n)
         .map(|i| {
             let u = ((f64::from(i) - 158.4) / 43.2).clamp(0.0, 1.0);
@@ -214,12 +215,12 @@ fn a_step_of_which_the_label_saw_only_the_middle_takes_the_time_that_it_needs() 
     assert!(needed > last - first);
     let (end, start) = swing(&vec![true; n]);
     assert!(end < first && start > last && start - end == needed);
-    // The other foot does not stand before: all comes from after, half of what there is at most.
+    // The other foot is not planted before: all the time is taken from after, at most half of it.
     let after: Vec<bool> = (0..n).map(|i| i >= last).collect();
     assert_eq!(swing(&after), (first, first + needed));
     let little: Vec<bool> = (0..n).map(|i| (last..last + 4).contains(&i)).collect();
     assert_eq!(swing(&little), (first, last + 2));
-    // The other foot does not stand: this one stays as it is.
+    // The other foot is never planted: this one stays as it is.
     assert_eq!(swing(&vec![false; n]), (first, last));
 }
 
@@ -237,7 +238,7 @@ fn a_foot_that_begins_to_turn_away_no_longer_stands() {
         assert_eq!(stances.len(), 1);
         stances[0].end
     };
-    // 0.05 rad a sample: astray from the fourth on, if the other foot holds the body.
+    // 0.05 rad a sample: it strays from the fourth sample on, if the other foot holds the body.
     assert_eq!(end(true), 154);
     assert_eq!(end(false), 160);
 }
@@ -246,7 +247,7 @@ fn a_foot_that_begins_to_turn_away_no_longer_stands() {
 fn stances_too_short_to_split_that_slide_are_kept_or_cut_but_never_lost() {
     for (end, held) in [(3, 0), (5, 2), (12, 6), (30, 10), (60, 40)] {
         let n = end + 20;
-        // A metre per second from the first sample on; the other foot is down at first, or at last.
+        // A metre per second from the first sample on; the other foot is down at the start, or at the end.
         let ankles: Vec<Vec3> = (0..n)
             .map(|i| Vec3::from_array([0.1 * i as f64, 0.1, 0.08]))
             .collect();

@@ -1,4 +1,4 @@
-//! Where a motion is like the beginning of another one.
+//! Moments at which a motion resembles the beginning of another one.
 
 use crate::body::topology::FEET;
 use crate::body::{Body, Posture};
@@ -13,14 +13,14 @@ use crate::plan::splice::Sample;
 use crate::plan::turned_on_floor;
 use serde::{Deserialize, Serialize};
 
-/// A moment at which a motion is like another one's beginning.
+/// A moment at which a motion resembles the beginning of another one.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Moment {
     /// Sample at which the first one is left.
     pub left: usize,
-    /// Samples after its first one at which the second one is entered.
+    /// Samples from the start of the second motion to the one at which it is entered.
     pub entered: usize,
-    /// Where that puts the origin of the second one.
+    /// Resulting place of the origin of the second motion.
     pub place: PlanarTransform,
     /// Distance of the capture points, m.
     pub capture: f64,
@@ -32,7 +32,7 @@ pub struct Moment {
     pub turn: f64,
 }
 
-/// A motion as it is compared.
+/// The features by which a motion is compared.
 pub(super) struct Features<'a> {
     samples: &'a [Sample],
     pub com: Vec<Vec3>,
@@ -56,15 +56,15 @@ impl<'a> Features<'a> {
         &self.samples[i].0
     }
 
-    /// Feet that stand at sample `i`, and did and will at its neighbours; `None` where that changes.
+    /// Feet planted at sample `i` and at both of its neighbours; `None` where that changes.
     fn planted(&self, i: usize) -> Option<[bool; 2]> {
         let p = self.samples[i].1;
         let same = |k: usize| self.samples[k].1 == p;
         (p != [false; 2] && same(i - 1) && same(i + 1)).then_some(p)
     }
 
-    /// What the turn between two motions is found from, seen from foot `side`: centre of mass, what its velocity adds
-    /// to the capture point, the other foot, and the headings of pelvis and foot.
+    /// The points from which the turn between two motions is found, seen from foot `side`: centre of mass, the part of
+    /// the capture point that comes from its velocity, the other foot, and the headings of pelvis and foot.
     fn points(&self, i: usize, side: usize, omega: f64) -> [[f64; 2]; 5] {
         let at = self.feet[i][side].place;
         let from = |p: Vec3| [p.x - at.x, p.y - at.y];
@@ -86,7 +86,7 @@ impl<'a> Features<'a> {
 }
 
 /// The turn that brings points `b` nearest to points `a`, rad (Kovar, Gleicher & Pighin 2002, without the shift: both
-/// are seen from the standing foot).
+/// are seen from the planted foot).
 fn nearest_turn(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
     let (mut dot, mut cross) = (0.0, 0.0);
     for (p, q) in a.iter().zip(b) {
@@ -100,8 +100,8 @@ pub(super) fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
     (Vec3::on_floor(a) - Vec3::on_floor(b)).level()
 }
 
-/// Compares sample `i` of one motion with sample `j` of another: how they are like, and how much; `None` if they are
-/// not.
+/// Compares sample `i` of one motion with sample `j` of another: returns the cost of going from one to the other and
+/// the moment itself; `None` if they are not alike.
 fn compare(
     left: &Features<'_>,
     i: usize,
@@ -113,7 +113,7 @@ fn compare(
         return None;
     }
     let omega = (GRAVITY / left.com[i].z.max(balance::LEAST_HEIGHT)).sqrt();
-    // Of two standing feet the one that stays longer.
+    // Of two planted feet, use the one that stays longer.
     let stays = |s: usize| {
         let on = entered.samples[j..].iter().take_while(|k| k.1[s]);
         on.count()
@@ -167,8 +167,8 @@ fn compare(
     Some((parts.iter().map(|p| p * p).sum::<f64>() + wait, moment))
 }
 
-/// The moments from sample `from` of `left` on at which that is like the beginning of `entered`, most alike first. The
-/// first sample of `entered` is the one before its beginning.
+/// The moments from sample `from` of `left` on at which `left` resembles the beginning of `entered`, most alike first.
+/// The first sample of `entered` is the one before its beginning.
 pub(super) fn moments(left: &Features<'_>, from: usize, entered: &Features<'_>) -> Vec<Moment> {
     let mut found: Vec<(f64, Moment)> = Vec::new();
     for i in (from.max(1)..left.samples.len().saturating_sub(1)).step_by(transition::STRIDE) {

@@ -1,9 +1,9 @@
-//! From a stand into a clip that does not begin like it: with other feet, in another posture, or in motion.
+//! From a stand into a clip that does not begin like it: with other feet planted, in another posture, or in motion.
 //!
-//! It is an end of the beginning of the clip, backwards ([`crate::plan::stop`]): the steps that would bring the
-//! reversed motion to that very stand, prepared together with what comes after them. A clip that begins at once instead
-//! throws arms and trunk about, drags feet that stand elsewhere, and asks for a velocity that a standing body does not
-//! have.
+//! The path is a stop planned for the reversed beginning of the clip ([`crate::plan::stop`]): the steps that would
+//! bring the reversed motion to that very stand, prepared together with the part of the clip that follows them. If the
+//! clip began at once instead, it would throw arms and trunk about, drag feet that stand elsewhere, and ask for a
+//! velocity that a standing body does not have.
 
 use super::candidates::{Features, far};
 use super::{NextClip, TransitionClip, samples_in};
@@ -19,8 +19,8 @@ use crate::plan::splice::{SEAM_OPTIONS, blend_from_played};
 use crate::plan::turned_on_floor;
 
 impl NextClip {
-    /// True if a body that stands like `stand` need do nothing before the clip begins at clip time `first`, s. No
-    /// platform-dependent rounding, since it is asked in the tick.
+    /// Whether a body that stands like `stand` can let the clip begin at clip time `first` (s) without any preparation.
+    /// No platform-dependent rounding, since the tick asks for it.
     pub fn begins_as(&self, body: &Body, first: f64, stand: &Posture) -> bool {
         let sample = |t: f64| (self.sample(t).posture, [true; 2]);
         let later = self.speed / stop::RATE;
@@ -41,7 +41,8 @@ impl NextClip {
                 .all(|e| e.abs() * stop::RATE < transition::BEGIN_RATE)
     }
 
-    /// The way from standing like `stand` into the clip, which begins at clip time `first`, s. `None` if there is none.
+    /// The path from standing like `stand` into the clip, which begins at clip time `first`, s. `None` if there is
+    /// none.
     pub fn from_stand(&self, body: &Body, first: f64, stand: &Posture) -> Option<TransitionClip> {
         let held = samples_in(stop::BLEND_TIME);
         let seen = samples_in(stop::BLEND_TIME + stop::PREPARED_TIME);
@@ -73,11 +74,11 @@ impl NextClip {
     }
 }
 
-/// What lies about two feet, seen from the middle between them.
+/// Quantities seen from the middle between two feet.
 struct AboutFeet {
     /// Place of the left foot, m.
     left: [f64; 2],
-    /// Its heading, rad.
+    /// Heading of the left foot, rad.
     turn: f64,
     /// A point over the floor, m.
     point: [f64; 2],

@@ -1,7 +1,8 @@
 //! From a stand into a stream that begins in motion.
 //!
-//! What has come of it is taken for a clip, and the moment of its first step is looked for to which steps from the
-//! stand lead with the least that no ground can give ([`super::from_stand`]). The stream goes on behind that way.
+//! The samples already received are treated as a clip. Among the moments of its first step, the search takes the one
+//! that steps from the stand reach with the smallest unsupported force ([`super::from_stand`]). The stream continues
+//! after that path.
 
 use super::NextClip;
 use crate::body::{Body, Posture};
@@ -17,7 +18,7 @@ use std::sync::Arc;
 /// A posture, and the planted feet if the sender knows.
 pub type Came = (Posture, Option<[bool; 2]>);
 
-/// The beginning of a stream, and a figure that stands.
+/// The beginning of a stream, and the stand of the figure that is to follow it.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StreamBeginning {
     #[serde(with = "crate::saved::definition")]
@@ -26,24 +27,24 @@ pub struct StreamBeginning {
     stand: Posture,
 }
 
-/// The way from a stand into a stream.
+/// The path from a stand into a stream.
 #[derive(Clone, Debug)]
 pub struct StreamEntry {
-    /// It, in the place of the stream, 1/[`stream::RATE`] s apart.
+    /// Samples of the path, in the place of the stream, 1/[`stream::RATE`] s apart.
     pub samples: Vec<Sample>,
-    /// Sample of the stream that follows it.
+    /// Sample of the stream that follows the path.
     pub goes_on: usize,
 }
 
-/// Samples that come after the moment to which the steps lead: they are prepared with them.
+/// Samples after the moment to which the steps lead; they are prepared together with the steps.
 fn samples_after() -> usize {
     ((stop::BLEND_TIME + stop::PREPARED_TIME) * stream::RATE).ceil() as usize
 }
 
 impl StreamBeginning {
-    /// Samples of a stream that are needed.
+    /// Number of samples of a stream that are needed.
     pub fn needed() -> usize {
-        // A step, which is half a stride, so that there is a moment to be led to.
+        // A step, which is half a stride, so that there is a moment to which steps can lead.
         (0.5 * transition::AHEAD * stream::RATE) as usize + samples_after() + 1
     }
 
@@ -57,14 +58,14 @@ impl StreamBeginning {
         }
     }
 
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
         (1..=2 * Self::needed()).contains(&self.came.len())
             && self.stand.is_finite()
             && self.came.iter().all(|(p, _)| p.is_finite())
     }
 
-    /// Feet on the floor, as the window of a stream finds them.
+    /// Feet on the floor, as the window of a stream labels them.
     fn labelled(&self) -> Vec<[bool; 2]> {
         let mut plan = StreamPlan::new(Arc::clone(&self.body), stream::SHORTEST_WINDOW);
         for (posture, planted) in &self.came {
@@ -78,7 +79,7 @@ impl StreamBeginning {
         labels
     }
 
-    /// The way; `None` if a body cannot go any. Allocates.
+    /// The path; `None` if there is none that a body can follow. Allocates.
     pub fn way(&self) -> Option<StreamEntry> {
         let body = &*self.body;
         let postures = self.came.iter().map(|c| c.0).collect();
@@ -90,7 +91,7 @@ impl StreamBeginning {
         };
         let latest = self.came.len().checked_sub(samples_after() + 1)?;
         let mut best = None;
-        // The later, the less the figure is behind.
+        // Later moments first: the later, the less the figure is behind.
         for entered in (0..=latest).rev().step_by(stop::SEARCH_STRIDE / 2) {
             let first = entered as f64 / stream::RATE;
             let Some(way) = next.from_stand(body, first, &self.stand) else {

@@ -1,9 +1,8 @@
-//! The way from one motion into another at a moment at which they are alike.
+//! The path from one motion into another at a moment at which they are alike.
 //!
-//! Both are as a body can follow them already, so what is like stays as it is: where there is no difference, there is
-//! no change. The difference that there is fades from the seam on; a foot that stands stays in its place until it
-//! leaves the floor, legs follow the feet, and the pelvis is shifted where the zero-moment point would leave the
-//! support.
+//! Both motions can already be followed, so parts that agree stay as they are: without a difference there is no change.
+//! Any difference fades from the seam on. A planted foot stays in its place until it leaves the floor, legs follow the
+//! feet, and the pelvis is shifted where the zero-moment point would leave the support.
 
 use super::candidates::Moment;
 use super::{NextClip, TransitionClip, samples_in};
@@ -28,11 +27,11 @@ use crate::plan::prepare::{
 use crate::plan::splice::Sample;
 use crate::plan::toe_hinge;
 
-/// A difference before, at and after the seam, that fades from there on.
+/// A difference before, at and after the seam, which fades from there on.
 struct FadingOffset<const N: usize>([[f64; N]; 3]);
 
 impl<const N: usize> FadingOffset<N> {
-    /// What is left of it `k` samples after the seam, if it fades within `span` samples.
+    /// The remaining difference `k` samples after the seam, if it fades within `span` samples.
     fn left(&self, k: usize, span: impl Fn(usize) -> f64) -> [f64; N] {
         let [before, at, after] = &self.0;
         std::array::from_fn(|c| {
@@ -52,13 +51,14 @@ impl<const N: usize> FadingOffset<N> {
 /// Both motions at the seam.
 struct MotionSeam {
     soles: [Sole; 2],
-    /// The one that is left, before, at and after the seam.
+    /// The motion that is left, before, at and after the seam.
     left: [Posture; 3],
-    /// The other one from the sample before the seam on.
+    /// The motion that is entered, from the sample before the seam on.
     entered: Vec<Sample>,
-    /// Feet that it has on the floor, from the seam on.
+    /// Feet that the entered motion has on the floor, from the seam on.
     label: Vec<[bool; 2]>,
-    /// Poses of its feet, from the sample before the seam on, and of those of the first one, before, at and after it.
+    /// Foot poses of the entered motion from the sample before the seam on, and of the motion that is left before, at
+    /// and after it.
     feet: Vec<[FootPose; 2]>,
     from: [[FootPose; 2]; 3],
 }
@@ -80,7 +80,7 @@ fn stood(sole: &Sole, pose: &FootPose) -> FootPlacement {
     sole.footing((pose.ankle, pose.rotation))
 }
 
-/// Where one motion turns into the next.
+/// The place at which one motion turns into the next.
 #[derive(Clone, Copy)]
 pub(super) struct ClipEntry<'a> {
     pub(super) moment: &'a Moment,
@@ -89,7 +89,7 @@ pub(super) struct ClipEntry<'a> {
 }
 
 impl MotionSeam {
-    /// * `known`: the motion that is left; `count`: how many samples of `next` are looked at.
+    /// * `known`: the motion that is left; `count`: number of samples of `next` to look at.
     fn new(
         body: &Body,
         known: &[Sample],
@@ -120,7 +120,7 @@ impl MotionSeam {
         &self.entered[k + 1].0
     }
 
-    /// Postures from the seam on: those of the second motion, and what is left of the difference.
+    /// Postures from the seam on: those of the second motion plus the remaining difference.
     fn postures(&self, count: usize) -> Vec<Posture> {
         let off = |k: usize| self.entered[k].0.difference(&self.left[k]);
         let off: FadingOffset<NV> = FadingOffset([off(0), off(1), off(2)]);
@@ -141,7 +141,7 @@ impl MotionSeam {
         (0..count).map(posture).collect()
     }
 
-    /// When foot `side` changes first after the seam, samples.
+    /// Samples after the seam at which foot `side` first changes between planted and not.
     fn first_change(&self, side: usize) -> usize {
         let here = self.label[0][side];
         let other = |l: &[bool; 2]| l[side] != here;
@@ -149,8 +149,8 @@ impl MotionSeam {
         change.unwrap_or(self.label.len())
     }
 
-    /// Poses of a foot from the seam on. One that stands stays where it is until it leaves the floor; one that swings
-    /// is led over.
+    /// Poses of a foot from the seam on. A planted foot stays where it is until it leaves the floor; for a swinging one
+    /// the difference fades.
     fn lead(&self, side: usize) -> Vec<FootPose> {
         let sole = &self.soles[side];
         let change = self.first_change(side);
@@ -190,8 +190,8 @@ impl MotionSeam {
         out
     }
 
-    /// Samples after the seam from which on foot `side` is where the second motion has it: once it has come down anew.
-    /// `None` if it does not.
+    /// Samples after the seam from which foot `side` is where the second motion has it, that is, after it has next come
+    /// down. `None` if that does not happen.
     fn follows_from(&self, side: usize) -> Option<usize> {
         let change = self.first_change(side);
         if !self.label[0][side] {
@@ -222,15 +222,15 @@ impl MotionSeam {
     }
 }
 
-/// A motion as it is made one that a body can follow.
+/// A motion on its way to becoming one that a body can follow.
 struct SeamMotion<'a> {
     body: &'a Body,
     soles: &'a [Sole; 2],
-    /// Before legs are solved and the pelvis is moved.
+    /// Postures before legs are solved and the pelvis is moved.
     postures: Vec<Posture>,
     label: Vec<[bool; 2]>,
     feet: [LockedFoot; 2],
-    /// How much of a shift of the pelvis each sample takes.
+    /// The share of a shift of the pelvis that each sample takes.
     share: Vec<f64>,
 }
 
@@ -258,7 +258,7 @@ impl SeamMotion<'_> {
         (0..self.postures.len()).map(posture).collect()
     }
 
-    /// By how much the pelvis comes down so that planted legs reach, m.
+    /// How far the pelvis comes down so that planted legs reach, m.
     fn drop(&self) -> Vec<f64> {
         let legs = [0, 1].map(|side| leg_geometry(self.body, side));
         let lacks = |i: usize| {
@@ -281,7 +281,7 @@ impl SeamMotion<'_> {
         drop.iter().zip(&self.share).map(|(d, s)| s * d).collect()
     }
 
-    /// With the pelvis shifted so that the zero-moment point stays in the support.
+    /// Postures with the pelvis shifted so that the zero-moment point stays in the support.
     fn balanced(&self) -> Vec<Posture> {
         let n = self.postures.len();
         let limit = AnkleTorqueLimit::new(self.body);
@@ -313,7 +313,7 @@ impl SeamMotion<'_> {
         postures
     }
 
-    /// Farthest that a foot which stands is from its place, m.
+    /// Largest distance of a planted foot from its place, m.
     fn stray(&self, postures: &[Posture]) -> f64 {
         let mut worst = 0.0f64;
         for (i, p) in postures.iter().enumerate() {
@@ -327,10 +327,9 @@ impl SeamMotion<'_> {
     }
 }
 
-/// The way out of a motion at a moment, and how much it asks of the ground that the ground cannot give, in shares of
-/// the weight.
+/// The path out of a motion at a moment, and the unsupported part of the force it needs, as a share of the weight.
 ///
-/// * `known`: the motion; it plays as it is up to sample `now`.
+/// * `known`: the motion; it plays unchanged up to sample `now`.
 pub(super) fn transition_at(
     body: &Body,
     known: &[Sample],

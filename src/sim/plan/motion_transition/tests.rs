@@ -1,6 +1,6 @@
-//! Goal: a way from one motion into another begins and ends as they are, changes little where they do not differ, and
-//! lets no standing foot slide. Method: the built-in walk into itself, as it is and faster, and into standing; from a
-//! stand into the middle of the built-in lift.
+//! Goal: a path from one motion into another begins and ends as the two motions are, changes little where they agree,
+//! and lets no planted foot slide. Method: the built-in walk into itself, at its own speed and faster, and into
+//! standing; from a stand into the middle of the built-in lift.
 
 use super::*;
 use crate::body::Posture;
@@ -12,8 +12,8 @@ use crate::plan::foot_lock::Sole;
 
 const NOW: usize = 70;
 
-/// The built-in walk with all but its last strides as the lead-in, and what there is of it from clip time `from` on, as
-/// ways know it.
+/// The built-in walk with all but its last strides as the lead-in, and the part of it from clip time `from` on as
+/// planned paths know it.
 fn walked(body: &Body, from: f64) -> (Arc<Clip>, Vec<Sample>) {
     let clip = builtin(body, "walk").unwrap();
     let lead = (2.4 * clip.rate_hz()) as usize;
@@ -67,7 +67,7 @@ fn a_walk_into_itself_goes_on_as_it_was() {
         worst = worst.max(off);
         assert!(i > NOW || off < 1e-9, "{i}: {off}");
     }
-    // The pelvis is shifted where the walk itself has its zero-moment point at the edge.
+    // The pelvis is shifted where the walk's own zero-moment point is at the edge.
     assert!(worst < 0.05, "{worst}");
 }
 
@@ -83,7 +83,7 @@ fn a_way_ends_as_the_clip_does_and_no_foot_slides_on_it() {
     }
 }
 
-/// From its last moment on the way is the clip, and moves like it.
+/// From its last moment on the path equals the clip, and moves like it.
 fn ends_as(way: &TransitionClip, clip: &Clip, speed: f64) {
     for t in [way.until, way.until + 0.1 * speed] {
         let (a, b) = (way.clip.sample(t - way.begin), clip.sample(t));
@@ -120,7 +120,7 @@ fn who_stands_is_led_into_what_begins_otherwise() {
         speed,
         looped: false,
     };
-    // It begins at ease, and is under way a moment later.
+    // The clip begins at ease, and is under way a moment later.
     assert!(next(&lift, 1.0).begins_as(&body, 0.0, &ease));
     let from = (0.6 * lift.rate_hz()) as usize;
     let (postures, planted) = lift.samples().skip(from).map(|(p, f)| (*p, f)).unzip();

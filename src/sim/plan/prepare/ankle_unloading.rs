@@ -1,4 +1,5 @@
-//! What bends for the sake of planted legs: ankles and hips that would have to go beyond their limits.
+//! Bends for the sake of planted legs: where their ankles and hips would have to exceed their limits, other joints give
+//! way.
 
 use super::pelvis_yaw;
 use crate::body::angles::anatomical_angles;
@@ -8,13 +9,13 @@ use crate::motion::filter::{low_pass, smooth_minimum};
 use crate::plan::foot_lock::{Stance, StanceTurns};
 use crate::plan::params::{leg, pitch};
 
-/// What is bent so that planted legs stay within their limits, per sample.
+/// The turns and bends, per sample, that keep planted legs within their limits.
 pub(super) struct AnkleUnloading {
     /// How feet are turned in stance.
     pub feet: [StanceTurns; 2],
-    /// Leg turned inwards about the line from hip to ankle, rad.
+    /// Turn of each leg inwards about the line from hip to ankle, rad.
     pub turn_in: [Vec<f64>; 2],
-    /// Pelvis turned anticlockwise about the vertical, rad.
+    /// Turn of the pelvis anticlockwise about the vertical, rad.
     pub yaw: Vec<f64>,
 }
 
@@ -27,9 +28,9 @@ impl AnkleUnloading {
         }
     }
 
-    /// Adds what the ankles of planted feet lack: too much dorsiflexion raises the heel, too much rotation turns the
-    /// leg along. Hips that give way in turn set the foot down with another heading, and turn the pelvis where that is
-    /// not enough.
+    /// Adds the range that the ankles of planted feet lack: too much dorsiflexion raises the heel, too much rotation
+    /// turns the leg along. Where hips lack range as a result, the foot is set down with another heading, and the
+    /// pelvis turns where that is not enough.
     pub fn add(
         &mut self,
         body: &Body,
@@ -73,7 +74,7 @@ impl AnkleUnloading {
                 tip,
             } = &mut self.feet[s];
             for (i, (sum, e)) in heel_up.iter_mut().zip(over(d, true)).enumerate() {
-                // A runner's pelvis is lower in the first rounds than in the last: what was too much is given back.
+                // A runner's pelvis is lower in the first rounds than in the last: any excess is given back.
                 if runs && e == 0.0 && *sum > 0.0 && planted[i][s] && tip[i] < pitch::FLAT {
                     let spare = (body.upper[d] - leg::PLANTED_MARGIN - angles[i][d]).max(0.0);
                     *sum = (*sum - spare).max(0.0);

@@ -1,4 +1,4 @@
-//! Measures of a motion: as recorded against as prepared, and angles outside their limits.
+//! Measures of a motion as recorded and as prepared, and angles outside their limits.
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ pub struct Compared<T> {
 }
 
 impl<T: Copy> Compared<T> {
-    /// Both values changed alike.
+    /// Applies `change` to both values.
     pub fn map<U>(self, change: impl Fn(T) -> U) -> Compared<U> {
         Compared {
             recorded: change(self.recorded),

@@ -1,9 +1,9 @@
-//! Legs that fold further than a body's: the pelvis gives way where limits would put feet into the floor.
+//! Legs that fold further than the body's can: the pelvis gives way where limits would put feet into the floor.
 //!
-//! Hips flex by 125°, spines bend by more: a person who squats that deep tilts the pelvis back and rounds the back. So
-//! does this: where a hip lacks flexion the pelvis is tilted back about the line of the hips, and the spine brings the
-//! chest forward again as far as it goes. What is then left, of knees and ankles, raises the pelvis. Both come and go
-//! smoothly, and the legs are solved again.
+//! Hips flex by 125°, and the spine adds to that: a person in a deep squat tilts the pelvis back and rounds the back.
+//! The same is done here. Where a hip lacks flexion, the pelvis is tilted back about the line of the hips, and the
+//! spine brings the chest forward again as far as it can. Whatever the knees and ankles still lack raises the pelvis.
+//! Both come and go smoothly, and the legs are solved again.
 
 use super::pelvis_yaw::turn_about;
 use crate::body::angles::{anatomical_angles, clamp_to_limits};
@@ -25,8 +25,8 @@ pub(super) struct DeepFlexion {
     pub raise_max: f64,
 }
 
-/// How deep each foot is in the floor when a posture is within its limits, m; 0 for a leg that would have to reach
-/// further back, which the knee lifts.
+/// Depth of each foot in the floor when a posture is within its limits, m; 0 for a leg that would have to reach further
+/// back, which the knee lifts.
 fn depths(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> [f64; 2] {
     let mut within = *posture;
     let off = clamp_to_limits(body, &mut within, leg::LIMIT_MARGIN * 0.5);
@@ -40,12 +40,12 @@ fn depths(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> [f64; 2] {
     })
 }
 
-/// The deeper foot, m.
+/// Depth of the deeper foot, m.
 fn deepest(body: &Body, posture: &Posture, soles: &[Sole; 2]) -> f64 {
     depths(body, posture, soles).into_iter().fold(0.0, f64::max)
 }
 
-/// By how much the hips of the feet that are `deep` in the floor flex beyond their limit, rad.
+/// How far the hips of the feet that are `deep` in the floor flex beyond their limit, rad.
 fn lacks_flexion(body: &Body, posture: &Posture, deep: [bool; 2]) -> f64 {
     let angles: [f64; DOF_COUNT] = anatomical_angles(posture);
     (0..2)
@@ -55,7 +55,7 @@ fn lacks_flexion(body: &Body, posture: &Posture, deep: [bool; 2]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Moves the pelvis, with the feet of `like` where they are in it: planted ones as locked.
+/// Moves the pelvis while the feet stay as they are in `like`; planted ones stay locked.
 fn give_way(
     body: &Body,
     like: &Posture,
@@ -68,7 +68,7 @@ fn give_way(
     let hips = THIGHS.map(|t| body.joint_offset[t.index()]);
     let middle = (hips[0] + hips[1]) * 0.5;
     let left = before.rotate(hips[0] - hips[1]).normalized_or(Vec3::Y);
-    // Back is towards negative angles about the left.
+    // Backwards is a negative angle about the left axis.
     turn_about(&mut posture, left, -tilt);
     let root = posture.root_rotation;
     posture.root_position += before.rotate(middle) - root.rotate(middle) + Vec3::Z * raise;
@@ -81,8 +81,8 @@ fn give_way(
 /// Tilts back and raises the pelvis where the limits of folded legs would put feet into the floor by more than
 /// [`leg::DEEP`].
 ///
-/// * `postures`: legs solved, not yet within their limits; `planted`: of each sample; `soles`, `locked`: where planted
-///   feet are to be.
+/// * `postures`: legs solved, not yet within their limits; `planted`: of each sample; `soles`, `locked`: intended
+///   places of planted feet.
 ///
 /// O(n).
 pub(super) fn unfold(
@@ -102,7 +102,7 @@ pub(super) fn unfold(
         return DeepFlexion::default();
     }
     let original = postures.to_vec();
-    // Where the feet are: of planted ones their lock, of others what was solved.
+    // Places of the feet: the lock of a planted one, the solved pose of any other.
     let feet: Vec<[((Vec3, Quat), f64); 2]> = (0..n)
         .map(|i| {
             let poses = forward(body, &original[i]);
@@ -129,7 +129,7 @@ pub(super) fn unfold(
             let lacks = lacks_flexion(body, &with(i, need[i], 0.0), deep[i]);
             need[i] = (need[i] + lacks).min(leg::MOST_TILT);
         }
-        // Where something else is cut, a tilt may put the feet deeper.
+        // Where another joint is clamped, a tilt may put the feet deeper.
         if deepest(body, &with(i, need[i], 0.0), soles) >= deepest(body, &original[i], soles) {
             need[i] = 0.0;
         }
@@ -137,7 +137,7 @@ pub(super) fn unfold(
     let tilt = smooth(&need);
     let mut need = vec![0.0f64; n];
     for i in 0..n {
-        // A free foot is raised by its own leg, later.
+        // A free foot is raised later, by its own leg.
         let depth = |raise: f64| {
             let both = depths(body, &with(i, tilt[i], raise), soles);
             let standing = both.into_iter().zip(planted[i]).filter(|(_, on)| *on);

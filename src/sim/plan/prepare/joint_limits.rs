@@ -14,18 +14,19 @@ use crate::plan::foot_lock::{LockedFoot, Sole};
 use crate::plan::params::{leg, swing};
 use crate::plan::toe_hinge;
 
-/// What is left of a lock when the legs are within their limits.
+/// How well locked feet hold once the legs are within their limits.
 #[derive(Default)]
 pub(super) struct HeldFeet {
-    /// Furthest that a planted foot is from its place, m.
+    /// Largest distance of a planted foot from its place, m.
     pub slide: f64,
-    /// Deepest that one is in the floor, m.
+    /// Largest depth of a planted foot in the floor, m.
     pub penetration: f64,
     /// Foot samples that were declared free.
     pub freed: usize,
 }
 
-/// Brings the legs into their limits, last, and declares feet free that they cannot hold in place then.
+/// Brings the legs within their limits, as the last step, and declares the feet free that they then cannot hold in
+/// place.
 pub(super) fn into_limits(
     body: &Body,
     postures: &mut [Posture],
@@ -69,8 +70,8 @@ pub(super) fn into_limits(
     held
 }
 
-/// A swinging leg whose hip does not reach as far back as it should is bent at the knee until its ankle is as high as
-/// `wanted`: its foot would be in the floor.
+/// Bends the knee of a swinging leg whose hip does not reach far enough back, until its ankle is as high as `wanted`.
+/// Otherwise its foot would be in the floor.
 fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, Quat)) {
     let shank = SHANKS[side].index();
     let foot = FEET[side].index();
@@ -93,7 +94,7 @@ fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, 
     clamp_to_limits(body, posture, leg::LIMIT_MARGIN * 0.5);
 }
 
-/// A foot that limits have put deeper into the floor than [`leg::DEEP`] is brought up to that by the whole leg.
+/// Raises a foot that limits have put deeper into the floor than [`leg::DEEP`] to that depth, by the whole leg.
 fn raise_foot(body: &Body, posture: &mut Posture, side: usize, sole: &Sole) {
     for _ in 0..leg::SOLVES {
         let (ankle, rotation) = forward(body, posture)[FEET[side].index()];
@@ -110,7 +111,7 @@ fn raise_foot(body: &Body, posture: &mut Posture, side: usize, sole: &Sole) {
 
 fn note_clamped(clamped: &mut [Excess; DOF_COUNT], off: &[f64; DOF_COUNT], n: usize) {
     for (c, o) in clamped.iter_mut().zip(off) {
-        // Below a tenth of a degree it is the margin, not the motion.
+        // Below a tenth of a degree the excess comes from the margin, not the motion.
         if o.abs() > leg::NOTED_EXCESS {
             c.max = c.max.max(o.abs());
             c.fraction += 1.0 / n as f64;
@@ -118,7 +119,7 @@ fn note_clamped(clamped: &mut [Excess; DOF_COUNT], off: &[f64; DOF_COUNT], n: us
     }
 }
 
-/// Spine, neck and arms into their limits, then smooth again where clamping left a corner.
+/// Brings spine, neck and arms within their limits, then smooths again where clamping left a corner.
 pub(super) fn clamp_upper(
     body: &Body,
     postures: &mut [Posture],
@@ -129,7 +130,7 @@ pub(super) fn clamp_upper(
     let mut any = false;
     for p in postures.iter_mut() {
         let mut q = *p;
-        // Legs of a draft mean nothing yet: keep them out of the count.
+        // Legs of a draft have no meaning yet: keep them out of the count.
         for s in THIGHS.into_iter().chain(FEET) {
             if let Joint::Ball(b) = JOINT[s.index()] {
                 q.ball[b] = Quat::identity();

@@ -1,5 +1,5 @@
-//! A pelvis that turns ahead of its recording, or after it: where one stance asks for more rotation than a hip has, in
-//! both directions.
+//! A pelvis turned ahead of its recording, or behind it, where one stance asks for more rotation than a hip has in both
+//! directions.
 
 use crate::body::angles::{clamp_to_limits, swing_twist};
 use crate::body::topology::{ABDOMEN, CHEST, DOF_START, THIGHS, outward};
@@ -10,11 +10,12 @@ use crate::plan::ball_joint;
 use crate::plan::foot_lock::Stance;
 use crate::plan::params::leg;
 
-/// Adds to `yaw` (rad per sample, anticlockwise seen from above) what the hips of planted feet lack in rotation.
+/// Adds to `yaw` (rad per sample, anticlockwise seen from above) the rotation that the hips of planted feet lack.
 ///
-/// Only in stances in which a hip turns further than from limit to limit: elsewhere another heading of the foot is
-/// enough. The hip of the other foot, if that is planted as well, is not turned beyond its limits. When the pelvis
-/// turns anticlockwise the hip of a foot that stays turns inwards on the left and outwards on the right. O(n · window).
+/// This applies only to stances in which a hip turns further than from limit to limit; in others a different heading of
+/// the foot is enough. The hip of the other foot, if that is planted as well, is not turned beyond its limits. When the
+/// pelvis turns anticlockwise, the hip of a foot that stays turns inwards on the left and outwards on the right. O(n ·
+/// window).
 pub(super) fn add(
     body: &Body,
     postures: &[Posture],
@@ -46,7 +47,7 @@ pub(super) fn add(
                 continue;
             }
             for i in samples {
-                // The heading of the foot comes to share what is too much between both ends.
+                // The heading of the foot will spread the excess over both ends.
                 let a = rotation(side, i) - 0.5 * (least + most);
                 let lack =
                     -way * (a - a.clamp(leg::PLANTED_MARGIN - half, half - leg::PLANTED_MARGIN));
@@ -78,7 +79,7 @@ pub(super) fn add(
     }
 }
 
-/// Turns the pelvis by `yaw`, rad, about the vertical; the chest stays as far as the limits of waist and thorax let it.
+/// Turns the pelvis by `yaw`, rad, about the vertical; the chest stays as far as the limits of waist and thorax allow.
 pub(super) fn turn(body: &Body, posture: &mut Posture, yaw: f64) {
     if yaw != 0.0 {
         turn_about(posture, Vec3::Z, yaw);
@@ -103,8 +104,8 @@ mod tests {
     use super::*;
     use crate::body::topology::{L_THIGH, R_THIGH};
 
-    /// A right leg that turns from one end to the other while its foot stays, beside a left one that is or is not
-    /// planted with `spare` rad left; 60 Hz.
+    /// A right leg that turns from one end to the other while its foot stays, beside a left one that is not planted or
+    /// is planted with `spare` rad left; 60 Hz.
     fn turned(ends: f64, left: Option<f64>) -> Vec<f64> {
         let body = Body::adult_man();
         let n = 60;
@@ -138,7 +139,7 @@ mod tests {
             "{yaw:?}"
         );
         assert!(yaw[30].abs() < 0.01, "{yaw:?}");
-        // A left hip with so much left inwards is not turned further that way.
+        // A left hip with only 0.05 rad left inwards is not turned further that way.
         let yaw = turned(upper + 0.1, Some(0.05));
         assert!(
             (yaw[0] + 0.13).abs() < 1e-9 && (yaw[59] - 0.02).abs() < 1e-9,

@@ -1,4 +1,4 @@
-//! What carries the body in each sample, and how well what is planned stays over it.
+//! The support of the body in each sample, and how well the plan stays over it.
 
 use crate::body::angles::clamp_to_limits;
 use crate::body::topology::FEET;
@@ -30,7 +30,7 @@ pub struct ZmpOutside {
     pub max: f64,
 }
 
-/// Which feet are planted, per sample.
+/// Whether each foot is planted, per sample.
 pub(in crate::plan) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2]> {
     let [left, right] = locked;
     let both = left.planted.iter().zip(&right.planted);
@@ -42,14 +42,15 @@ pub(in crate::plan) fn planted_of(locked: &[LockedFoot; 2]) -> Vec<[bool; 2]> {
 pub(in crate::plan) struct StandingFeet<'a> {
     /// Soles of the left and the right foot.
     pub soles: &'a [Sole; 2],
-    /// Where they are locked.
+    /// The locks of both feet.
     pub locked: &'a [LockedFoot; 2],
-    /// Which ones carry, per sample.
+    /// Whether each foot carries, per sample.
     pub carries: &'a [[bool; 2]],
 }
 
-/// Which planted feet carry the body: not those that their legs, within their limits, hold far from their places while
-/// the other one stands. Declared free in the end they would leave a body alone on one foot that is balanced on two.
+/// Whether each planted foot carries the body. Where both feet are planted and only one leg, within its limits, holds
+/// its foot near its place, the other foot does not carry: it will be declared free in the end, which would leave a
+/// body that is balanced on two feet standing on one.
 pub(super) fn within_reach(
     body: &Body,
     postures: &[Posture],
@@ -73,7 +74,7 @@ pub(super) fn within_reach(
     planted.iter().enumerate().map(carries).collect()
 }
 
-/// What carries the body in each sample.
+/// The support of the body in each sample.
 pub(in crate::plan) fn support_phases(
     body: &Body,
     feet: StandingFeet<'_>,
@@ -101,7 +102,7 @@ pub(in crate::plan) fn support_phases(
         .collect()
 }
 
-/// The same where no foot is asked to hold alone what its ankle cannot, of a body that `runs` or walks.
+/// The same, such that no foot alone needs more torque than its ankle has; for a body that `runs` or walks.
 pub(in crate::plan) fn limit_ankle_torques(
     support: &[SupportPhase],
     feet: StandingFeet<'_>,
@@ -111,7 +112,7 @@ pub(in crate::plan) fn limit_ankle_torques(
     rate_hz: f64,
 ) -> Vec<SupportPhase> {
     let half = (0.5 * ankle::SPEED_TIME * rate_hz) as usize;
-    // Without the jumps of touch-downs, from which the rounds would not settle.
+    // Without the jumps at touch-down, which would keep the rounds from settling.
     let lean: [Vec<f64>; 2] = std::array::from_fn(|k| {
         let both = track.com.iter().zip(&track.zmp);
         let mut lean: Vec<f64> = both.map(|(c, z)| c.to_array()[k] - z[k]).collect();
@@ -144,8 +145,8 @@ pub(in crate::plan) fn limit_ankle_torques(
     support.iter().enumerate().map(limited).collect()
 }
 
-/// What else than the feet may carry the body: a seat where the pelvis is low, hands where both feet stay for a while.
-/// A body that steps is carried by its feet.
+/// Supports other than the feet that may carry the body: a seat where the pelvis is low, hands where both feet stay for
+/// a while. A body that steps is carried by its feet.
 pub(in crate::plan) fn other_support(
     body: &Body,
     upper: &[Posture],

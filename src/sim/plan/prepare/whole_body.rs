@@ -1,4 +1,4 @@
-//! Postures from the parts that are worked out one by one: upper body, feet, and where the trunk is moved.
+//! Postures assembled from parts that are computed one by one: upper body, feet, and the movement of the trunk.
 
 use super::ankle_unloading::AnkleUnloading;
 use super::{Draft, pelvis_yaw};
@@ -60,7 +60,7 @@ pub(super) fn assemble(
         in_flight(locked, draft.rate_hz)
     };
     for i in 0..n {
-        // In the air the feet go where the pelvis goes; a runner's swing on.
+        // In the air the feet go where the pelvis goes; a runner's swing continues.
         let moved = (path[i] - upper[i].root_position) * flies[i];
         out[i].root_position = path[i];
         for (s, (hip, length)) in legs.iter().enumerate() {
@@ -73,7 +73,7 @@ pub(super) fn assemble(
             if !locked[s].planted[i] && far > most {
                 foot.ankle = hip + line * (most / far);
             }
-            // Inwards is clockwise seen from above for the left leg: about the line pointing down, positive.
+            // Inwards is clockwise seen from above for the left leg: positive about the line pointing down.
             let inward = outward(s) * unloading.turn_in[s][i];
             let axis =
                 Quat::exp(line.normalized_or(-Vec3::Z) * inward).rotate(draft.knee_axis[s][i]);
@@ -93,7 +93,7 @@ pub(super) fn assemble(
     (out, drop)
 }
 
-/// From 0 where it stands to 1 inside of where it does not, per sample; comes and goes within `edge` s.
+/// From 0 while the foot is planted to 1 inside a stretch where it is not, per sample; rises and falls within `edge` s.
 fn off_floor(stands: &[bool], edge: f64, rate_hz: f64) -> Vec<f64> {
     let mut share = vec![0.0; stands.len()];
     for (i, j, _) in runs(stands).into_iter().filter(|run| !run.2) {
@@ -107,7 +107,8 @@ fn off_floor(stands: &[bool], edge: f64, rate_hz: f64) -> Vec<f64> {
     share
 }
 
-/// From 0 where a foot is planted to 1 inside a flight, per sample. What the motion begins or ends with is none.
+/// From 0 while a foot is planted to 1 inside a flight, per sample. A stretch at the very beginning or end of the
+/// motion does not count as a flight.
 fn in_flight(locked: &[LockedFoot; 2], rate_hz: f64) -> Vec<f64> {
     let planted = locked[0].planted.iter().zip(&locked[1].planted);
     let grounded: Vec<bool> = planted.map(|(l, r)| *l || *r).collect();
@@ -119,10 +120,10 @@ fn in_flight(locked: &[LockedFoot; 2], rate_hz: f64) -> Vec<f64> {
     share
 }
 
-/// Low-pass of the joints of a leg while it swings: a knee that comes near to straight makes inverse kinematics jump.
-/// Planted legs stay.
+/// Low-pass of the joints of a swinging leg: a nearly straight knee makes inverse kinematics jump. Planted legs stay as
+/// they are.
 fn smooth_swings(postures: &mut [Posture], side: usize, planted: &[bool], rate_hz: f64) {
-    // From 0 where the foot is planted to 1 inside a swing.
+    // From 0 while the foot is planted to 1 inside a swing.
     let share = off_floor(planted, swing::JOINT_EDGE, rate_hz);
     for segment in leg_segments(side == 0) {
         match JOINT[segment.index()] {

@@ -1,4 +1,4 @@
-//! How the feet move between the footholds of an end.
+//! How the feet move between the footholds of a stop.
 
 use super::footsteps::PlannedStep;
 use super::initial_state::InitialState;
@@ -12,15 +12,15 @@ use crate::plan::params::stop;
 struct StanceCurve {
     place: Vec3,
     yaw: f64,
-    /// From when to when, s.
+    /// Start and end, s.
     on: f64,
     off: f64,
-    /// Pitch when it comes down, in the middle, and when it is lifted, rad.
+    /// Pitch at landing, in the middle, and at lift-off, rad.
     pitch: [f64; 3],
 }
 
 impl StanceCurve {
-    /// Pose `t` seconds into the end. The heel of a foot that is left behind rises before it is lifted, over
+    /// Pose `t` seconds into the stop. The heel of a foot that is left behind rises before lift-off, over
     /// [`stop::ROLL_TIME`].
     fn pose(&self, sole: &Sole, t: f64) -> (Vec3, Quat) {
         let [first, middle, last] = self.pitch;
@@ -39,13 +39,13 @@ fn left_behind(place: Vec3, other: Vec3, heading: f64) -> f64 {
     -(stop::ROLL_GAIN * (behind - stop::ROLL_FROM)).clamp(0.0, stop::MOST_ROLL)
 }
 
-/// A foot of a motion that comes to its end.
+/// A foot of a motion that comes to a stop.
 pub(super) struct EndingFoot {
     /// Left (0) or right (1).
     pub(super) side: usize,
     /// Heading at its last foothold, rad.
     pub(super) yaw: f64,
-    /// See [`stop::OVER_TIME`]; false where time runs backwards, and what looks like a landing is a foot that leaves.
+    /// See [`stop::OVER_TIME`]; false where time runs backwards, so that an apparent landing is really a lift-off.
     pub(super) lands: bool,
 }
 
@@ -57,7 +57,7 @@ pub(super) struct FootMoment {
     pub(super) down: bool,
 }
 
-/// The foot `t` seconds into the end.
+/// Pose of the foot `t` seconds into the stop.
 pub(super) fn pose(
     from: &InitialState,
     steps: &[PlannedStep],
@@ -127,7 +127,7 @@ pub(super) fn pose(
         return stands(ankle, rotation);
     };
     let in_air = k == 0 && !foot.down;
-    // A foot in the air, and one that lifts at once, goes on as it moves, toe-up as it may be.
+    // A foot in the air, and one that lifts at once, continues its motion, with the toes as far up as they are.
     let (start, rotation, velocity, spin) = if in_air || k == 0 && step.off <= 0.0 {
         (foot.ankle, foot.rotation, foot.velocity, foot.spin)
     } else {
@@ -141,7 +141,7 @@ pub(super) fn pose(
     let before = if lands { stop::OVER_TIME } else { 0.0 };
     let over = min_jerk_3(start, velocity, goal, long - before, t - step.off);
     let mut p = Vec3 { z: down.z, ..over };
-    // What is left of a swing rises no more.
+    // The rest of a swing under way does not rise any more.
     let arc = if in_air {
         stop::ARC_HEIGHT * ((long - stop::SHORTEST_SWING) / stop::SHORTEST_SWING).clamp(0.0, 1.0)
     } else {

@@ -1,7 +1,8 @@
 //! The steps that bring a body to a stand, on a linear inverted pendulum.
 //!
-//! The capture point ξ = c + ċ/ω says where the next foot has to land (Pratt et al. 2006); once it lies between the
-//! feet they are brought side by side. Several ways are tried; the one is taken that asks least of a body.
+//! The capture point ξ = c + ċ/ω tells where the next foot has to land (Pratt et al. 2006). Once it lies between the
+//! feet, they are brought side by side. Several sequences of steps are tried, and the one that asks least of a body is
+//! taken.
 
 use super::initial_state::InitialState;
 use super::turned;
@@ -16,7 +17,7 @@ use crate::motion::leg_ik::{center_of_mass, forward};
 use crate::plan::foot_lock::{FootPlacement, Sole, turn, yaw_pitch};
 use crate::plan::params::{common, stop};
 
-/// One step of the end.
+/// One step of the stop.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlannedStep {
     pub(super) side: usize,
@@ -29,14 +30,14 @@ pub(super) struct PlannedStep {
 /// A step that catches the body.
 #[derive(Clone, Copy)]
 struct CaptureStep {
-    /// How long it takes, s.
+    /// Duration of the step, s.
     time: f64,
     place: Vec3,
-    /// How far inside the feet the capture point is when the foot lands, m.
+    /// How far inside the support of the feet the capture point is when the foot lands, m.
     inside: f64,
 }
 
-/// Where the feet are in the plan.
+/// Places and headings of the feet in the plan.
 #[derive(Clone, Copy)]
 pub(super) struct StepFeet<'a> {
     place: [Vec3; 2],
@@ -44,13 +45,13 @@ pub(super) struct StepFeet<'a> {
     soles: &'a [Sole; 2],
 }
 
-/// Which feet are down while foot `side` swings.
+/// The feet that are down while foot `side` swings.
 fn all_but(side: usize) -> [bool; 2] {
     [side == 1, side == 0]
 }
 
 impl<'a> StepFeet<'a> {
-    /// As a motion ends.
+    /// The feet as they are where a motion ends.
     pub(super) fn of(from: &InitialState, soles: &'a [Sole; 2]) -> Self {
         Self {
             place: from.feet.map(|f| f.place),
@@ -87,7 +88,7 @@ impl<'a> StepFeet<'a> {
     }
 }
 
-/// How it stands in the end. Places from the middle between the ankles, headings against that of the whole.
+/// The final stand. Places are relative to the middle between the ankles, headings relative to that of the whole body.
 pub(super) struct StandingPose {
     pub(super) posture: Posture,
     pub(super) home: [Vec3; 2],
@@ -120,27 +121,27 @@ impl StandingPose {
     }
 }
 
-/// What can be chosen about an end.
+/// The choices in planning a stop.
 #[derive(Clone, Copy, Debug)]
 struct StepOptions {
-    /// What has to be in hand beyond [`stop::CAUGHT_INSET`], s.
+    /// Margin to have in hand beyond [`stop::CAUGHT_INSET`], s.
     spare: f64,
     /// See [`stop::BEYOND_CAPTURE`], m.
     beyond: f64,
-    /// Foot that steps first where both are down; otherwise the one that catches best.
+    /// Foot that steps first where both are down; if absent, the one that catches best.
     first: Option<usize>,
-    /// A swing that is under way already lasts at least this long, s.
+    /// Least duration of a swing that is under way already, s.
     rest: f64,
-    /// A swinging foot gets no faster than this on the average, m/s.
+    /// Highest average speed of a swinging foot, m/s.
     speed: f64,
-    /// Turn of the whole, rad.
+    /// Turn of the whole body, rad.
     turn: f64,
 }
 
 impl StepOptions {
-    /// All that are tried with the same `turn`.
+    /// All options that are tried with the same `turn`.
     ///
-    /// * `spare`: the most that should be in hand beyond [`stop::CAUGHT_INSET`], s; `in_air`: a foot is in the air.
+    /// * `spare`: the largest margin to have in hand beyond [`stop::CAUGHT_INSET`], s; `in_air`: a foot is in the air.
     fn all(spare: f64, in_air: bool, turn: f64) -> impl Iterator<Item = Self> {
         let swings = [
             (stop::SWING_REST, stop::FOOT_SPEED),
@@ -185,11 +186,11 @@ struct PendulumPlan<'a> {
     path: Vec<Vec3>,
 }
 
-/// The steps of an end and the path of its mass over the floor, first sample where the motion ends.
+/// The steps of a stop and the path of its mass over the floor; the first sample is where the motion ends.
 pub(super) struct Footsteps {
     pub(super) steps: Vec<PlannedStep>,
     pub(super) path: Vec<Vec3>,
-    /// Heading in the end, rad.
+    /// Final heading, rad.
     pub(super) heading: f64,
 }
 
@@ -198,19 +199,18 @@ pub(super) fn frequency(from: &InitialState, stand: &StandingPose) -> f64 {
     (GRAVITY / (0.5 * (from.com.z + stand.mass.z)).max(stop::LEAST_HEIGHT)).sqrt()
 }
 
-/// What the search for steps depends on besides the body's state.
+/// Inputs of the search for steps besides the body's state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StepSearch {
-    /// From hip to ankle, m.
+    /// Distance from hip to ankle, m.
     pub(super) leg: f64,
     /// Samples per second of the path.
     pub(super) rate_hz: f64,
-    /// The most that should be in hand beyond [`stop::CAUGHT_INSET`], s.
+    /// The largest margin to have in hand beyond [`stop::CAUGHT_INSET`], s.
     pub(super) spare: f64,
 }
 
-/// The steps that ask least of a body. `None` if none are found that stop it.
-///
+/// The steps that ask least of a body. `None` if no steps are found that stop it.
 pub(super) fn footsteps(
     from: &InitialState,
     stand: &StandingPose,
@@ -243,7 +243,7 @@ pub(super) fn footsteps(
         let found = StepOptions::all(spare, in_air, turn).filter_map(tried);
         found.min_by(|a, b| a.price().total_cmp(&b.price()))
     };
-    // A body that falls to a side which its feet cannot reach turns there.
+    // A body that falls towards a side which its feet cannot reach turns to that side.
     let aside = turn(from.heading, trig::atan2(from.velocity.y, from.velocity.x));
     let turns = if aside.abs() < stop::MOST_ASIDE {
         stop::TURNS
@@ -258,11 +258,11 @@ pub(super) fn footsteps(
     })
 }
 
-/// Where the feet that are down carry the body.
+/// The regions in which the feet that are down carry the body.
 struct StepSupport {
-    /// Where the capture point is to stay.
+    /// Region in which the capture point should stay.
     capture: Region,
-    /// Where the zero-moment point may be.
+    /// Region in which the zero-moment point may be.
     pressure: Region,
 }
 
@@ -281,12 +281,12 @@ impl PendulumPlan<'_> {
         (self.path.len() - 1) as f64 * self.dt
     }
 
-    /// Heading of the whole.
+    /// Heading of the whole body.
     fn heading(&self) -> f64 {
         self.from.heading + self.way.turn
     }
 
-    /// Heading that a foot gets.
+    /// Final heading of a foot.
     fn yaw(&self, side: usize) -> f64 {
         self.heading() + self.stand.yaw[side]
     }
@@ -295,7 +295,7 @@ impl PendulumPlan<'_> {
         self.path.last().copied().unwrap_or_default()
     }
 
-    /// Moves on by one sample with the zero-moment point at `p`: ξ̇ = ω (ξ − p), ċ = ω (ξ − c).
+    /// Advances by one sample with the zero-moment point at `p`: ξ̇ = ω (ξ − p), ċ = ω (ξ − c).
     fn advance(&mut self, p: [f64; 2]) {
         let grows = exp(self.omega * self.dt);
         let p = Vec3::on_floor(p);
@@ -311,7 +311,7 @@ impl PendulumPlan<'_> {
         support.pressure.nearest(wanted.xy())
     }
 
-    /// The zero-moment point within `support` that keeps the capture point there, or slows it down most.
+    /// The zero-moment point within `support` that keeps the capture point in place, or slows it down most.
     fn hold(&self, support: &StepSupport) -> [f64; 2] {
         let inside = support.capture.nearest(self.capture.xy());
         self.drive(support, Vec3::on_floor(inside))
@@ -325,8 +325,8 @@ impl PendulumPlan<'_> {
         }
     }
 
-    /// Brings the capture point to `goal` with both feet on the floor. Foot `next`, if any, steps after that, and
-    /// sooner if the leg gets no further and the other foot has the capture point.
+    /// Brings the capture point to `goal` with both feet on the floor. Foot `next`, if any, steps after that. It steps
+    /// sooner if the leg reaches no further and the other foot has the capture point.
     fn lean(&mut self, goal: Vec3, next: Option<usize>) {
         let support = StepSupport::of(&self.feet, [true; 2]);
         let other = next.map(|side| (self.feet.support(all_but(side)), self.feet.place[side]));
@@ -345,7 +345,7 @@ impl PendulumPlan<'_> {
         }
     }
 
-    /// Foot `side`, which left the floor at time `off` (s), lands at `place`.
+    /// Lands foot `side`, which left the floor at time `off` (s), at `place`.
     fn put(&mut self, side: usize, off: f64, place: Vec3) {
         self.steps.push(PlannedStep {
             side,
@@ -357,8 +357,8 @@ impl PendulumPlan<'_> {
         self.feet.yaw[side] = self.yaw(side);
     }
 
-    /// Foot `side` swings for `time` s while the other one carries the body, with the capture point at `goal` when it
-    /// lands if there is one.
+    /// Swings foot `side` for `time` s while the other one carries the body. With a `goal`, the capture point is there
+    /// when the foot lands.
     fn swing(&mut self, side: usize, time: f64, place: Vec3, goal: Option<Vec3>) {
         let off = self.now();
         let support = StepSupport::of(&self.feet, all_but(side));
@@ -378,15 +378,14 @@ impl PendulumPlan<'_> {
         self.put(side, off, place);
     }
 
-    /// When and where foot `side` should land to catch the body: as soon as it gets there without hurry.
+    /// When and where foot `side` should land to catch the body: as soon as it can get there without hurry.
     ///
-    /// * `ankle`: where it is; `least`: shortest time.
-    ///
+    /// * `ankle`: its present place; `least`: shortest time.
     fn capture_step(&self, side: usize, ankle: Vec3, least: f64) -> CaptureStep {
         let p = Vec3::on_floor(self.hold(&StepSupport::of(&self.feet, all_but(side))));
         let away = self.capture - p;
         let landing = |time: f64| p + away * exp(self.omega * time);
-        // Where it moves, more than it needs: a body stops less well than a pendulum.
+        // Aim beyond the capture point, in the direction of its motion: a body stops less well than a pendulum.
         let moves = (self.capture - self.mass()) * self.omega;
         let beyond = moves * (self.way.beyond / moves.norm().max(1.0));
         let mut best = (f64::INFINITY, least, Vec3::zero());
@@ -415,7 +414,7 @@ impl PendulumPlan<'_> {
         }
     }
 
-    /// Place of foot `side` with the middle of its sole at `wanted`, or as near as the leg allows beside the other
+    /// Place of foot `side` that puts the middle of its sole at `wanted`, or as near as the leg allows beside the other
     /// foot.
     fn reachable(&self, side: usize, wanted: Vec3) -> Vec3 {
         let heading = self.heading();
@@ -425,7 +424,7 @@ impl PendulumPlan<'_> {
         let apart = (self.stand.home[0].y - self.stand.home[1].y).abs();
         let (far, wide) = (stop::STEP_LENGTH * self.leg, stop::STEP_WIDTH * self.leg);
         let x = (local.x - common::SOLE_MIDDLE).clamp(-far, far);
-        // Far before or behind the other foot there is room to cross.
+        // Far in front of or behind the other foot there is room to cross.
         let room = ((x.abs() - stop::CROSS_BEGINS) / (stop::CROSS_ENDS - stop::CROSS_BEGINS))
             .clamp(0.0, 1.0);
         let closest = stop::LEAST_WIDTH * apart * (1.0 - room) - stop::MOST_CROSS * room;
@@ -434,7 +433,7 @@ impl PendulumPlan<'_> {
         (stance + turned(heading, Vec3::on_floor([x, y]))).horizontal()
     }
 
-    /// Where foot `side` belongs beside the other one.
+    /// The normal place of foot `side` beside the other one.
     fn beside(&self, side: usize) -> Vec3 {
         let way = self.stand.home[side] - self.stand.home[1 - side];
         (self.feet.place[1 - side] + turned(self.heading(), way)).horizontal()
@@ -445,10 +444,10 @@ impl PendulumPlan<'_> {
             && turn(self.feet.yaw[side], self.yaw(side)).abs() < stop::HOME_ANGLE
     }
 
-    /// How hard the way is for a body, less what it is worth that it has something in hand.
+    /// Cost of the steps for a body, less a bonus for the margin they leave.
     fn price(&self) -> f64 {
         let fall = |p: &[Vec3]| {
-            // By how much the mass is beside its zero-moment point, c − p = c̈/ω².
+            // Distance of the mass from its zero-moment point, c − p = c̈/ω².
             let off = (p[0] - p[1] * 2.0 + p[2]) * (1.0 / (self.dt * self.omega)).powi(2);
             let square = off.x * off.x + off.y * off.y;
             square * square * self.dt
@@ -478,7 +477,7 @@ impl PendulumPlan<'_> {
             > stop::CAUGHT_INSET + self.way.spare * speed
     }
 
-    /// A body in the air comes down, on the lower foot, as far ahead as the leg reaches. Returns which one.
+    /// Brings a body in the air down on its lower foot, as far ahead as the leg reaches. Returns that foot.
     fn land_from_flight(&mut self) -> usize {
         let from = self.from;
         let fall = from.velocity.z;
@@ -502,7 +501,7 @@ impl PendulumPlan<'_> {
         side
     }
 
-    /// The foot that is in the air already lands where it catches.
+    /// Lands the foot that is in the air already where it catches the body.
     fn land(&mut self, side: usize) {
         let since = self.from.feet[side].since + self.now();
         let least = (stop::SHORTEST_SWING - since).max(self.way.rest);
@@ -515,8 +514,8 @@ impl PendulumPlan<'_> {
         self.both(stop::DOUBLE_SUPPORT);
     }
 
-    /// Steps until the capture point is between the feet, or for as long as there is hope. With both feet down the one
-    /// goes first that catches better.
+    /// Steps until the capture point is between the feet, or for as long as there is hope. With both feet down, the one
+    /// that catches better steps first.
     fn capture(&mut self) {
         let mut ankle = self.from.feet.map(|f| f.ankle);
         let mut first = self.way.first;
@@ -538,7 +537,7 @@ impl PendulumPlan<'_> {
         }
     }
 
-    /// Brings the feet side by side, the one first that carries less, and the mass over them.
+    /// Brings the feet side by side, starting with the one that carries less, and the mass over them.
     fn close_feet(&mut self) {
         for _ in 0..2 {
             let far = |s: usize| (self.feet.middle(s) - self.capture).norm();
@@ -564,7 +563,7 @@ impl PendulumPlan<'_> {
         self.both(stop::REST_TIME);
     }
 
-    /// All of it; false if the body runs away.
+    /// Plans the whole stop; false if the body runs away.
     fn run(&mut self) -> bool {
         let mut down = self.from.down();
         if down == [false; 2] {

@@ -1,4 +1,4 @@
-//! What an end starts from: where the last samples of a motion have the body, and how it moves.
+//! The initial state of a stop: where the body is in the last samples of a motion, and how it moves.
 
 use crate::body::topology::NV;
 use crate::body::{Body, Posture};
@@ -9,11 +9,11 @@ use crate::plan::foot_lock::{Sole, turn, yaw_pitch};
 use crate::plan::params::{contact, stop};
 use crate::plan::prepare::Draft;
 
-/// How a foot is where a motion ends, and how it moves.
+/// Pose and velocity of a foot at the end of a motion.
 #[derive(Clone, Copy)]
 pub(super) struct FootState {
     pub(super) ankle: Vec3,
-    /// Of the ankle, m/s.
+    /// Velocity of the ankle, m/s.
     pub(super) velocity: Vec3,
     /// `world_from_foot`.
     pub(super) rotation: Quat,
@@ -23,29 +23,29 @@ pub(super) struct FootState {
     pub(super) place: Vec3,
     pub(super) yaw: f64,
     pub(super) down: bool,
-    /// How long it has been in the air, s.
+    /// How long the foot has been in the air, s.
     pub(super) since: f64,
 }
 
-/// What a stop starts from.
+/// The initial state of a stop.
 pub(super) struct InitialState {
     pub(super) posture: Posture,
     pub(super) rates: [f64; NV],
     pub(super) com: Vec3,
     pub(super) velocity: Vec3,
-    /// Of the pelvis, m/s.
+    /// Velocity of the pelvis, m/s.
     pub(super) pelvis_velocity: Vec3,
     pub(super) feet: [FootState; 2],
     pub(super) heading: f64,
 }
 
 impl InitialState {
-    /// Reads it off the last samples of a draft.
+    /// Reads the state off the last samples of a draft.
     pub(super) fn of(body: &Body, draft: &Draft, soles: &[Sole; 2]) -> Self {
         let last = draft.postures.len() - 1;
         let half = ((0.5 * stop::MEASURED_TIME * draft.rate_hz) as usize).clamp(1, last / 2);
         let b = &draft.postures[last];
-        // Slope of the parabola through three samples, at the last one: the mean over that time is half of it old.
+        // Slope of the parabola through three samples, at the last one: the mean over that time lags by half of it.
         let back = [last - half, last - 2 * half];
         let per_s = 0.5 * draft.rate_hz / half as f64;
         let slope = |far: [Vec3; 2]| (far[0] * 4.0 - far[1]) * per_s;
@@ -60,7 +60,7 @@ impl InitialState {
         for r in &mut rates {
             *r = r.clamp(-stop::MOST_RATE, stop::MOST_RATE);
         }
-        // A foot that is about to come down, or has just left, may look as if both were in the air.
+        // A foot about to come down, or one that has just left the floor, may look as if both were in the air.
         let flight = draft.label.iter().rev();
         let flight = flight.take_while(|l| **l == [false; 2]).count();
         let down = if flight <= last && (flight as f64) < contact::SHORTEST * draft.rate_hz {
@@ -112,7 +112,7 @@ impl InitialState {
         self.feet.map(|f| f.down)
     }
 
-    /// True if it is not at rest: what ends here would end in motion.
+    /// Whether the body is in motion, so that a clip which ended here would end in motion.
     pub(super) fn moves(&self) -> bool {
         self.pelvis_velocity.level() > stop::MOVING_SPEED
     }

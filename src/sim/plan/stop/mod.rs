@@ -1,9 +1,10 @@
-//! From standing into a motion and out of it again: what comes before the first and after the last recorded sample.
+//! From a stand into a motion and back to a stand: the samples before the first and after the last recorded one.
 //!
-//! A recording that ends in full stride has no last posture that a body could hold. Here it gets the steps that bring
-//! it to a stand: planned on a pendulum that starts where the recording stops (`footsteps`), walked by feet that roll
-//! and swing (`foot_curves`), while trunk and arms come to ease. The beginning is the same thing backwards. What comes
-//! out is a draft like any other; [`super::prepare`] locks its feet and makes the whole body keep its balance.
+//! A recording that ends in full stride has no last posture that a body could hold. This module adds the steps that
+//! bring it to a stand. They are planned on a pendulum that starts where the recording stops (`footsteps`) and walked
+//! by feet that roll and swing (`foot_curves`), while trunk and arms come to ease. The beginning is the same thing
+//! backwards. The result is a draft like any other; [`super::prepare`] locks its feet and makes the whole body keep its
+//! balance.
 
 mod foot_curves;
 mod footsteps;
@@ -27,16 +28,16 @@ fn turned(yaw: f64, v: Vec3) -> Vec3 {
     Quat::exp(Vec3::Z * yaw).rotate(v)
 }
 
-/// How a motion is to end.
+/// The intended end of a motion.
 #[derive(Clone, Copy)]
 enum StopGoal<'a> {
-    /// Standing, at ease if it does not stand.
+    /// Standing; at ease if it does not stand already.
     Stand,
-    /// The same, of a motion that runs backwards: it will come from there.
+    /// The same for a reversed motion, which in the world will come from there.
     Origin,
-    /// At rest: as it stands if it does, and else standing at ease.
+    /// At rest: unchanged if it is, else standing at ease.
     AtRest,
-    /// Standing like this, if it does not stand like that.
+    /// Standing in this posture, if it does not stand like that already.
     Like(&'a Posture),
     /// At rest in this posture, however near to it and slow it is.
     Rest(&'a Posture),
@@ -56,13 +57,13 @@ fn steps_to_stand(body: &Body, draft: &Draft, goal: StopGoal<'_>, spare: f64) ->
         }
         StopGoal::Like(posture) | StopGoal::Rest(posture) => StandingPose::of(body, posture),
     };
-    // A body that sits or lies is not led to a stand; one that squats stands on its feet.
+    // A body that sits or lies is not led to a stand; one that squats is on its feet.
     let stands = StepFeet::of(&from, &soles).stop_here(&from, frequency(&from, &stand));
     if !stands && from.posture.root_position.z < pelvis::UPRIGHT * body.standing_root_height() {
         return None;
     }
     if stands && matches!(goal, StopGoal::AtRest) {
-        // It needs no step, only time.
+        // The body needs no step, only time.
         stand = StandingPose::of(body, &from.posture);
     }
     let is_there = match goal {
@@ -90,15 +91,16 @@ fn steps_to_stand(body: &Body, draft: &Draft, goal: StopGoal<'_>, spare: f64) ->
 
 /// How the motion along footsteps begins and is sampled.
 struct PathOptions {
-    /// Knee axes that it starts with.
+    /// Knee axes at the start.
     knee_axis: [Vec3; 2],
     /// Samples per second.
     rate_hz: f64,
-    /// Whether feet that come down in it do so in the world, as time runs there.
+    /// Whether a foot that comes down here also does so in the world, where time may run the other way.
     lands: bool,
 }
 
-/// The motion along footsteps: the pelvis with the pendulum's mass, feet from hold to hold, everything else to ease.
+/// The motion along footsteps: the pelvis moves with the pendulum's mass, the feet from foothold to foothold, and
+/// everything else comes to ease.
 fn along_footsteps(
     from: &InitialState,
     stand: &StandingPose,
@@ -109,7 +111,7 @@ fn along_footsteps(
     let (axis, rate) = (options.knee_axis, options.rate_hz);
     let upright =
         Quat::exp(Vec3::Z * (found.heading - stand.heading)) * stand.posture.root_rotation;
-    // The zero-moment point of the pendulum jumps from foot to foot; a body's does not.
+    // The pendulum's zero-moment point jumps from foot to foot; a body's does not.
     let mut path = found.path.clone();
     low_pass_points(&mut path, stop::PATH_CUTOFF, rate);
     let offset = (from.posture.root_position - from.com).horizontal();
@@ -164,7 +166,7 @@ fn along_footsteps(
     out
 }
 
-/// True if nothing worth a movement is between two postures.
+/// Whether two postures differ by no movement worth making.
 fn alike(a: &Posture, b: &Posture) -> bool {
     a.joint_difference(b)
         .iter()
@@ -183,7 +185,7 @@ impl Draft {
         }
     }
 
-    /// Postures that are whole, legs included, with the feet labelled as on the floor or not.
+    /// Whole postures, legs included, with each foot labelled as on the floor or not.
     pub fn of_postures(
         body: &Body,
         rate_hz: f64,
@@ -216,7 +218,7 @@ impl Draft {
         }
     }
 
-    /// Leaves feet on the floor that lift in the very end: those of a body that is going to stop need not.
+    /// Leaves those feet on the floor that lift at the very end: a body that is about to stop need not lift them.
     fn put_down(&mut self) {
         let most = (stance::OVERLAP * self.rate_hz) as usize;
         for s in 0..2 {
@@ -230,7 +232,7 @@ impl Draft {
         }
     }
 
-    /// Appends an end, if there is one. Returns how many samples that is.
+    /// Appends an end, if there is one. Returns its number of samples.
     fn go_on(&mut self, end: Option<Self>) -> usize {
         let Some(end) = end else {
             return 0;
@@ -253,29 +255,29 @@ impl Draft {
         self.go_on(after)
     }
 
-    /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns how many
-    /// samples it took.
+    /// Continues a draft of whole postures so that it ends standing like `goal`, wherever that is. Returns the number
+    /// of samples added.
     pub fn end_like(&mut self, body: &Body, goal: &Posture) -> usize {
         self.end(body, StopGoal::Like(goal), 0.0)
     }
 
-    /// The same, but to rest in just that posture, however little that takes.
+    /// The same, but coming to rest in exactly that posture, however little that takes.
     pub fn end_at_rest(&mut self, body: &Body, goal: &Posture) -> usize {
         self.end(body, StopGoal::Rest(goal), 0.0)
     }
 
-    /// Continues a draft of whole postures to a stand, wherever that is. Returns how many samples it took; none if it
-    /// stands, sits or lies.
+    /// Continues a draft of whole postures to a stand, wherever that is. Returns the number of samples added; none if
+    /// it stands, sits or lies already.
     ///
-    /// * `given`: the moment is given, or the motion poorly known: more is kept in hand than for a moment that was
+    /// * `given`: the moment is given, or the motion poorly known: a larger margin is kept than for a moment that was
     ///   chosen for being easy.
     pub fn end_standing(&mut self, body: &Body, given: bool) -> usize {
         let spare = if given { stop::SPARE_TIME } else { 0.0 };
         self.end(body, StopGoal::Stand, spare)
     }
 
-    /// Continues a draft of whole postures to a stand and lets it begin from one, where it does not stand, sit or lie
-    /// anyway. Returns how many samples came before and after.
+    /// Continues a draft of whole postures to a stand and makes it begin in one, unless it stands, sits or lies there
+    /// already. Returns how many samples were added before and after.
     pub fn add_ends(&mut self, body: &Body) -> (usize, usize) {
         self.put_down();
         let after = steps_to_stand(body, self, StopGoal::AtRest, stop::SPARE_TIME);

@@ -1,4 +1,4 @@
-//! One foot of a stream: when it stands, where, and how it gets from one place to the next.
+//! One foot of a stream: its stances, their places, and the swings between them.
 
 use super::{H, RATE, is_sample};
 use crate::math::curve::{fall, quintic, smoothstep_to};
@@ -8,7 +8,7 @@ use crate::plan::least_without;
 use crate::plan::params::{contact, pitch, stance, swing};
 use serde::{Deserialize, Serialize};
 
-/// Samples that labels are kept for.
+/// Samples for which labels are kept.
 const KEPT: usize = 192;
 /// Stances that are kept.
 pub(super) const STANCES: usize = 8;
@@ -23,13 +23,13 @@ pub struct Stance {
     pub place: Vec3,
     /// Heading, rad.
     pub yaw: f64,
-    /// Place and heading do not change any more.
+    /// Whether place and heading are final.
     settled: bool,
-    /// It has been flat: it does not rise on its heel again.
+    /// Whether it has been flat, after which it does not rise on its heel again.
     rolled: bool,
 }
 
-/// A foot as if it stood.
+/// A foot treated as if it were planted.
 #[derive(Clone, Copy, Debug)]
 pub struct StandingSample {
     /// Point of the floor under the flat ankle, m.
@@ -38,20 +38,20 @@ pub struct StandingSample {
     pub yaw: f64,
     /// Pitch, rad, toe-up positive.
     pub pitch: f64,
-    /// How steep or rolled it is; beyond 1 it does not stand on its sole.
+    /// How steep or rolled it is; beyond 1 it is not on its sole.
     pub steep: f64,
     /// Speed of the place, m/s.
     pub speed: f64,
 }
 
-/// A foot put where it is to be.
+/// A foot posed as it should be.
 #[derive(Clone, Copy, Debug)]
 pub struct PosedFoot {
     /// Pose, without clearance.
     pub pose: FootPose,
-    /// It stands.
+    /// Whether it is planted.
     pub down: bool,
-    /// What it lacks to clear the floor, m.
+    /// Height that it lacks to clear the floor, m.
     pub lift: f64,
 }
 
@@ -66,27 +66,28 @@ pub struct StreamFoot {
     touches: [bool; 3],
     stances: [Stance; STANCES],
     count: usize,
-    /// Where it will land, as far as that can be seen.
+    /// The next landing, as far as it is known.
     coming: Option<Stance>,
-    /// Until when a foot that has moved on the floor is taken off it, and for how long it has strayed, samples.
+    /// Sample until which a foot that has moved on the floor is taken off it, and number of samples for which it has
+    /// strayed.
     moving: i64,
     strayed: i64,
-    /// For how long it has been steep, samples.
+    /// Number of samples for which it has been steep.
     steep: i64,
     /// Offset from the recording, and its first two derivatives.
     offset: [FootOffset; 3],
     posed: i64,
 }
 
-/// How steep or rolled a foot is; beyond 1 it does not stand on its sole.
+/// How steep or rolled a foot is; beyond 1 it is not on its sole.
 pub fn steepness(rotation: Quat, pitch: f64) -> f64 {
     let roll = rotation.rotate(Vec3::Y).z.abs() / trig::sin_cos(contact::MOST_TILT).0;
     roll.max(pitch / contact::LEAST_PITCH)
         .max(pitch / contact::MOST_TILT)
 }
 
-/// Pitch of a standing foot: flat within a band, with a smooth beginning, and toe-up for a moment only. `age`: for how
-/// long it has stood, samples.
+/// Pitch of a planted foot: flat within a band, with a smooth beginning, and toe-up for a moment only. `age`: samples
+/// since it was planted.
 fn stance_pitch(raw: f64, age: i64, rolled: bool) -> f64 {
     let stood = age as f64 * H;
     let u = ((stood - pitch::STREAM_LONG_STANCE)
@@ -105,7 +106,7 @@ fn stance_pitch(raw: f64, age: i64, rolled: bool) -> f64 {
     }
 }
 
-/// Pitch of a standing foot that its leg reaches: it rises on its toes by as little as that takes.
+/// Pitch of a planted foot that its leg reaches: it rises on its toes by as little as that takes.
 ///
 /// * `lacks`: how far an ankle is out of reach, m.
 pub fn risen(sole: &Sole, at: &FootPlacement, lacks: &impl Fn(Vec3) -> f64) -> f64 {
@@ -127,7 +128,7 @@ pub struct KnownUpTo {
 }
 
 impl Stance {
-    /// One from sample `start` on, of which nothing else is known.
+    /// A stance from sample `start` on, with nothing else known.
     fn since(start: i64) -> Self {
         Self {
             start,
@@ -139,7 +140,7 @@ impl Stance {
         }
     }
 
-    /// Where the foot stands in sample `j`, if it is pitched by `raw` (rad) as it came.
+    /// Placement of the foot in sample `j` for a received pitch of `raw` (rad).
     fn at(&self, j: i64, raw: f64) -> FootPlacement {
         FootPlacement {
             tip: 0.0,
@@ -151,8 +152,8 @@ impl Stance {
 }
 
 impl StreamFoot {
-    /// False if it cannot be what was written into a checkpoint, after `samples` of which the one of number `posed`
-    /// was posed last.
+    /// Whether this value is one that a checkpoint could hold after `samples` samples, of which number `posed` was
+    /// posed last.
     pub fn is_valid(&self, samples: i64, posed: i64) -> bool {
         let known = is_sample;
         let times = |s: &Stance| known(s.start) && (known(s.end) || s.end == i64::MAX);
@@ -196,17 +197,17 @@ impl StreamFoot {
         i.rem_euclid(KEPT as i64) as usize
     }
 
-    /// True if it stands in sample `i`.
+    /// Whether it is planted in sample `i`.
     pub fn is_down(&self, i: i64) -> bool {
         self.down[Self::slot(i.max(0))]
     }
 
-    /// True if it touches in sample `j`.
+    /// Whether it touches the floor in sample `j`.
     pub fn touches(&self, j: i64) -> bool {
         self.on[Self::slot(j)]
     }
 
-    /// True if it touches in sample `j` or so soon after it that the time between is no flight.
+    /// Whether it touches the floor in sample `j` or soon enough after it that the time between is no flight.
     fn lands(&self, j: i64, last: i64) -> bool {
         (j..=(j + contact::STREAM_SHORTEST_FLIGHT).min(last)).any(|i| self.on[Self::slot(i)])
     }
@@ -215,8 +216,8 @@ impl StreamFoot {
         (0..self.count).find(|k| (self.stances[*k].start..self.stances[*k].end).contains(&i))
     }
 
-    /// Notes whether it touches in sample `i`: any of its `points`, by height over its own level and by speed (`None`:
-    /// unknown, as before).
+    /// Notes whether it touches the floor in sample `i`: whether any of its `points` does, by height over its own level
+    /// and by speed (`None`: unknown, as before).
     pub fn touch(
         &mut self,
         i: i64,
@@ -246,8 +247,8 @@ impl StreamFoot {
         }
     }
 
-    /// Settles whether it stands in sample `j`; `last` is the newest sample that [`Self::touch`] has seen. Returns from
-    /// which earlier sample on it does not stand any more, if that has changed.
+    /// Decides whether it is planted in sample `j`; `last` is the newest sample that [`Self::touch`] has seen. If a
+    /// stance turns out to have ended earlier, returns the sample from which on the foot is not planted.
     pub fn label(
         &mut self,
         j: i64,
@@ -258,7 +259,7 @@ impl StreamFoot {
     ) -> Option<i64> {
         let before = j > 0 && self.down[Self::slot(j - 1)];
         let on = |i: i64| self.on[Self::slot(i)];
-        // A foot does not come down as steep as that; one that leaves the floor may be so for a moment.
+        // A foot this steep does not come down; one that is leaving the floor may be this steep for a moment.
         let now = standing(j);
         let most = if before {
             1.0
@@ -274,7 +275,7 @@ impl StreamFoot {
         } else {
             before && upright
         };
-        // One foot stands unless it is a flight: the foot that lands comes earlier.
+        // One foot is planted unless the body flies: the foot that lands counts as planted earlier.
         down |= upright && !other.touches(j) && self.lands(j, last);
         let given_up = if down {
             self.give_up(j, &now, other, &standing)
@@ -302,9 +303,9 @@ impl StreamFoot {
         given_up
     }
 
-    /// Takes a foot that has moved while it stood off the floor, to set it down anew: returns from which sample on. One
-    /// foot gives way where the other one really stands, and where there is time enough the body is given some to come
-    /// over that one.
+    /// Takes a foot that has moved while it was planted off the floor, to set it down again; returns the sample from
+    /// which on it is off. A foot gives way only while the other one is really planted, and where there is enough time
+    /// the body gets some of it to come over that other foot.
     fn give_up(
         &mut self,
         j: i64,
@@ -314,7 +315,7 @@ impl StreamFoot {
     ) -> Option<i64> {
         let k = self.stance_at(j)?;
         let st = self.stances[k];
-        // A foot that turns slowly is where it is on average as long as its place may still change.
+        // As long as its place may still change, a foot that turns slowly is where it is on average.
         let at = if st.settled {
             st
         } else {
@@ -329,7 +330,7 @@ impl StreamFoot {
         {
             return None;
         }
-        // A foot that has stood for less is not taken off the floor again.
+        // A foot planted for less time than this is not taken off the floor again.
         let least = (stance::SHORTEST * RATE) as i64;
         let wanted = j - self.strayed - stance::STREAM_SHUFFLE / 2;
         let first = wanted
@@ -346,7 +347,7 @@ impl StreamFoot {
         Some(from)
     }
 
-    /// A stance from sample `start` on, placed by what is known up to `last`: where the foot moves least.
+    /// A stance from sample `start` on, placed by the samples known up to `last`: where the foot moves least.
     fn estimate(&self, start: i64, last: i64, standing: &impl Fn(i64) -> StandingSample) -> Stance {
         let first = standing(start);
         let (mut sum, mut place, mut yaw) = (0.0, Vec3::zero(), 0.0);
@@ -368,7 +369,7 @@ impl StreamFoot {
         }
     }
 
-    /// Where it stands in sample `j`; `None` if it does not.
+    /// Placement in sample `j`; `None` if it is not planted.
     pub fn anchor(
         &self,
         j: i64,
@@ -378,8 +379,8 @@ impl StreamFoot {
         Some(st.at(j, standing(j).pitch))
     }
 
-    /// First sample after `f` in which it stands, with that stance: settled up to the last label, as it seems from
-    /// there on.
+    /// First sample after `f` in which it is planted, with that stance: final up to the last label, provisional after
+    /// that.
     fn landing(
         &self,
         f: i64,
@@ -478,7 +479,7 @@ impl StreamFoot {
         }
     }
 
-    /// What a swinging sole lacks to clear the floor as its time in the air and its way ask for, m.
+    /// Height that a swinging sole lacks, m, compared with the clearance due for its time in the air and its distance.
     fn lift(&self, sole: &Sole, f: i64, pose: &FootPose, place: Vec3) -> f64 {
         let last = self.stances[..self.count].iter().rev().find(|s| s.end <= f);
         let since = last.map_or(1.0, |s| (f + 1 - s.end) as f64 * H);

@@ -1,5 +1,5 @@
-//! A stream that a figure comes into later than it began: what leads into it is played before, and what it is behind
-//! for that is left out where the stream comes to a moment like the present one again.
+//! A stream that a figure enters later than it began. The path into the stream is played first, and the delay that this
+//! causes is made up by skipping samples where the stream returns to a moment like the present one.
 
 use super::{RATE, StreamPlan};
 use crate::body::Posture;
@@ -15,13 +15,13 @@ impl StreamPlan {
         self.input.pending.iter().map(|r| (r.posture, r.planted))
     }
 
-    /// Number of samples that were taken.
+    /// Number of samples taken.
     pub fn taken(&self) -> i64 {
         self.count
     }
 
-    /// True if what waits, behind its first `lead` samples, begins in motion: no body that stands is there with a
-    /// step less. False while that is not known.
+    /// Whether the waiting samples, after the first `lead` ones, begin in motion, so that a standing body cannot join
+    /// without a step. False while that is not known.
     pub fn begins_in_motion(&self, lead: usize) -> bool {
         let after = (stop::MEASURED_TIME * RATE).ceil() as usize;
         let came = &self.input.pending;
@@ -34,8 +34,8 @@ impl StreamPlan {
         upright && (q - p).level() * RATE > stop::STANDING_SPEED * after as f64
     }
 
-    /// The same stream, begun by a way into it from a stand: of the samples that wait, the first `lead` ones, the way,
-    /// and the rest of the stream. Allocates.
+    /// The same stream, begun by a path into it from a stand: the first `lead` waiting samples, then the path, then the
+    /// rest of the stream. Allocates.
     pub fn led_in(&self, lead: usize, way: &StreamEntry) -> Self {
         let mut out = Self::new(Arc::clone(&self.body), self.window());
         for r in self.input.pending.iter().take(lead) {
@@ -50,25 +50,25 @@ impl StreamPlan {
         out
     }
 
-    /// Leaves out what waits up to a moment that is like the present one, at most `most` seconds. Returns how much
-    /// that is, s; 0 if there is none.
+    /// Skips waiting samples up to a moment that is like the present one, at most `most` seconds. Returns the time
+    /// skipped, s; 0 if there is no such moment.
     pub fn catch_up(&mut self, most: f64) -> f64 {
         let waiting = &self.input.pending;
         let end = ((most * RATE) as usize).min(waiting.len().saturating_sub(3));
         // A stride, so that there is a like moment in every walk.
         let first = end.saturating_sub((transition::AHEAD * RATE) as usize);
-        // Less than what is steady is not worth a seam.
+        // Skipping less than a steady stretch is not worth a seam.
         let first = first.max(transition::STEADY);
-        // Another stream that is to go on from here does so first.
+        // A stream that is about to be joined to this one does that first.
         if self.count < 3 || first >= end || self.placement.join.is_some() {
             return 0.0;
         }
         let left = [3, 2, 1].map(|k| self.at(self.count - k).raw);
         let hip = self.body.standing_root_height();
-        // Going on as it is costs what it is behind.
+        // The cost of continuing without a skip is that of the delay.
         let goes_on = stream::DELAY_COST * most * most;
         let seam = |k: usize| {
-            // The sample that would come next is the one after those that are compared.
+            // The next sample is the one after those that are compared.
             let entered = [3, 2, 1].map(|back| waiting[k - back].posture);
             let seam = Seam::new(&left, &entered, hip, (end - k) as f64 / RATE);
             (seam.fits && seam.cost < goes_on).then_some((seam.cost, k))

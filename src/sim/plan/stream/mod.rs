@@ -1,14 +1,14 @@
-//! A stream made into a motion that a body can follow, while it comes, over a sliding window.
+//! Turns a stream, as it arrives, into a motion that a body can follow, over a sliding window.
 //!
-//! What [`prepare`](super::prepare) does with a whole clip happens here sample by sample, a window behind the newest
-//! one: smoothing, labels of planted feet, foot lock, swings that clear the floor and meet the next foothold, a pelvis
-//! that both legs reach, and the shift of the trunk that keeps the zero-moment point over the feet, solved over the
-//! window again with every sample. Memory is a ring, time per sample is bounded, nothing allocates. Rounds alike
-//! everywhere: it is part of the tick.
+//! [`prepare`](super::prepare) treats a whole clip; here the same happens sample by sample, one window behind the
+//! newest sample. The stages are smoothing, labels of planted feet, foot lock, swings that clear the floor and meet the
+//! next foothold, a pelvis that both legs reach, and the shift of the trunk that keeps the zero-moment point over the
+//! feet, solved over the window again with every sample. Memory is a ring, time per sample is bounded, and nothing
+//! allocates. Rounding is the same on every machine, since this is part of the tick.
 //!
-//! Places of a sample on its way, in samples behind the newest: smoothed (`stream::SMOOTH`), labelled and balanced
-//! (`LABEL`), feet posed and balanced again as the body is to be (up to `stream::FORESEEN` before the output), put out
-//! (the window).
+//! Position of a sample at each stage, in samples behind the newest: smoothed (`stream::SMOOTH`), labelled and balanced
+//! (`LABEL`), feet posed and the planned body balanced again (up to `stream::FORESEEN` before the output), output (the
+//! window).
 
 mod foot;
 mod late_entry;
@@ -42,7 +42,7 @@ use whole_body::PelvisLowering;
 pub const RATE: f64 = stream::RATE;
 /// Shortest and longest window, s.
 pub const WINDOW: (f64, f64) = (stream::SHORTEST_WINDOW, stream::LONGEST_WINDOW);
-/// Most stances of a foot that are known at a time.
+/// Largest number of stances of a foot that are known at a time.
 pub const MOST_STANCES: usize = foot::STANCES + 1;
 const H: f64 = 1.0 / RATE;
 
@@ -51,52 +51,52 @@ const LABEL: i64 = stream::SMOOTH + 1 + contact::STREAM_STEADY;
 /// Samples that may wait to be prepared: ten seconds.
 pub const MOST_PENDING: usize = 600;
 
-/// True for the number of a sample that a stream can get to within a thousand years.
+/// Whether this is the number of a sample that a stream can reach within a thousand years.
 fn is_sample(number: i64) -> bool {
     number.unsigned_abs() < 1 << 41
 }
 
-/// A sample as it came.
+/// A sample as it was received.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Raw {
     posture: Posture,
     planted: Option<[bool; 2]>,
 }
 
-/// What came with a sample.
+/// Data received with a sample.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Received {
-    /// Points of the feet as they came: ankle, toe joint, toe tip.
+    /// Points of the received feet: ankle, toe joint, toe tip.
     points: [[Vec3; 3]; 2],
-    /// Labels that came with it.
+    /// Labels received with it.
     planted: Option<[bool; 2]>,
-    /// The stream jumped just before.
+    /// Whether the stream jumped just before.
     broken: bool,
 }
 
 /// A sample on its way through the window.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Sample {
-    /// As it came, where the stream lies now, jumps spread.
+    /// The received posture, moved to where the stream lies now, with jumps spread.
     raw: Posture,
     received: Received,
     smooth: Posture,
-    /// Of the segments of `smooth`.
+    /// Poses of the segments of `smooth`.
     #[serde(skip, default = "unposed")]
     poses: [(Vec3, Quat); SEGMENT_COUNT],
     com: Vec3,
     /// Angular momentum about the centre of mass, kg·m²/s.
     momentum: Vec3,
-    /// The same of the body as it is to be, without the shift that it has there for balance.
+    /// Centre of mass and momentum of the planned body, without the shift for balance.
     built: Built,
-    /// How much the feet are believed to carry the body, 0…1.
+    /// How strongly the feet are believed to carry the body, 0…1.
     trust: f64,
-    /// Foot poses as they are to be, heights still without clearance.
+    /// Planned foot poses, heights still without clearance.
     feet: [FootPose; 2],
     down: [bool; 2],
-    /// What each sole lacks to clear the floor, m.
+    /// Height that each sole lacks to clear the floor, m.
     lift: [f64; 2],
-    /// How much the pelvis has to come down, m (≤ 0).
+    /// How far the pelvis has to come down, m (≤ 0).
     drop: f64,
 }
 
@@ -104,7 +104,7 @@ fn unposed() -> [(Vec3, Quat); SEGMENT_COUNT] {
     [(Vec3::zero(), Quat::identity()); SEGMENT_COUNT]
 }
 
-/// A body as it is to be.
+/// The planned body.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Built {
     poses: [(Vec3, Quat); SEGMENT_COUNT],
@@ -139,40 +139,40 @@ impl Sample {
     }
 }
 
-/// How far behind the newest sample things happen.
+/// How far behind the newest sample each stage is.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Timing {
     /// Samples between the newest one and the output.
     window: i64,
     /// Samples between the output and the one whose feet are posed.
     ahead: i64,
-    /// Of the smoothing, the middle one first.
+    /// Weights of the smoothing, the middle one first.
     weights: [f64; stream::SMOOTH as usize + 1],
 }
 
-/// What has come and waits.
+/// Samples that have been received and wait.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Input {
     pending: VecDeque<Raw>,
     newest: RepeatedSamples,
 }
 
-/// What was put out.
+/// The samples already output.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Output {
     knots: Vec<Knot>,
-    /// Last five postures, for their rates.
+    /// Last five postures, from which rates are computed.
     recent: [Posture; 5],
-    /// Number of the last one, −1 before the first.
+    /// Number of the last sample, −1 before the first.
     last: i64,
 }
 
-/// The shift for balance and what it goes by.
+/// The shift for balance and the averages it depends on.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct ShiftState {
     /// Shift of the centre of mass for balance, at the output and one sample before, newest last, m.
     shift: [[f64; 2]; 2],
-    /// Way from the zero-moment point into the feet on average over about a second, m.
+    /// Displacement from the zero-moment point into the support on average over about a second, m.
     lasting: [f64; 2],
     horizon: Balance,
 }
@@ -181,19 +181,19 @@ struct ShiftState {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 struct Difference(#[serde(with = "crate::saved::array")] [f64; NV]);
 
-/// Where the stream lies in the world.
+/// Place of the stream in the world.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Placement {
-    /// A stream that jumps goes on from where it was.
+    /// Transform of the stream; a stream that jumps continues from where it was.
     frame: PlanarTransform,
-    /// What is left of a jump, the samples since, and the time over which it fades, s.
+    /// The remaining part of a jump, the samples since, and the time over which it fades, s.
     fade: Option<(Difference, i64, f64)>,
-    /// From the sample of this number on it is another stream: that is a jump, however small, that fades over this
-    /// time, s.
+    /// Number of the sample from which another stream takes over, and the time, s, over which its jump, however small,
+    /// fades.
     join: Option<(i64, f64)>,
 }
 
-/// A stream of one figure on its way to a motion. Times count from the first sample, s.
+/// A stream of one figure on its way to becoming a motion. Times count from the first sample, s.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StreamPlan {
     #[serde(with = "crate::saved::definition")]
@@ -215,8 +215,8 @@ pub struct StreamPlan {
 }
 
 impl StreamPlan {
-    /// A stream without samples, prepared `window` seconds behind its newest one (within [`WINDOW`]). Allocates all it
-    /// will ever need.
+    /// A stream without samples, prepared `window` seconds behind its newest one (within [`WINDOW`]). Allocates all the
+    /// memory it will ever need.
     pub fn new(body: Arc<Body>, window: f64) -> Self {
         let window = (window.clamp(WINDOW.0, WINDOW.1) * RATE).floor() as i64;
         let length = (stream::PAST + window + 8) as usize;
@@ -259,8 +259,8 @@ impl StreamPlan {
         }
     }
 
-    /// Adds what follows from the body and the buffers to a stream that was read from a checkpoint. False if it cannot
-    /// be what was written.
+    /// Restores whatever follows from the body and the buffers in a stream that was read from a checkpoint. Returns
+    /// whether the value is one that a checkpoint could hold.
     #[must_use]
     pub fn complete(&mut self) -> bool {
         let window = self.timing.window as f64 * H;
@@ -273,7 +273,7 @@ impl StreamPlan {
         for sample in &mut self.ring {
             sample.poses = forward(&body, &sample.smooth);
         }
-        // How far everything has come follows from the number of samples: what is between is gone through in a tick.
+        // The progress of every stage follows from the number of samples, since a tick runs all of them.
         let newest = self.count - 1;
         let out = newest + 3 - self.timing.window;
         let posed = (out + self.timing.ahead).max(-1);
@@ -304,7 +304,7 @@ impl StreamPlan {
         self.timing.window as f64 * H
     }
 
-    /// Where the stream lies in the world: it moves when the stream jumps.
+    /// Transform of the stream in the world; it changes when the stream jumps.
     pub fn frame(&self) -> PlanarTransform {
         self.placement.frame
     }
@@ -314,7 +314,7 @@ impl StreamPlan {
         self.count + self.input.pending.len() as i64
     }
 
-    /// The same without those at the end that repeat one, if it breaks off with them.
+    /// The same without repeated samples at the end, if the stream breaks off with them.
     pub fn moved(&self) -> i64 {
         let repeated = if self.breaks_off() {
             self.input.newest.repeated()
@@ -324,19 +324,19 @@ impl StreamPlan {
         self.fed() - repeated
     }
 
-    /// True if its samples have repeated one in the middle of a movement for so long that it is over: no body stops
-    /// like that.
+    /// Whether its samples have repeated one in the middle of a movement for so long that the stream is over: no body
+    /// stops like that.
     pub fn breaks_off(&self) -> bool {
         self.input.newest.breaks_off()
     }
 
-    /// Another stream goes on from here: what is pushed next is moved to where this one is, and the difference fades
-    /// over `blend` seconds.
+    /// Lets another stream take over from here: the samples pushed next are moved to where this one is, and the
+    /// difference fades over `blend` seconds.
     pub fn join(&mut self, blend: f64) {
         self.placement.join = Some((self.fed(), blend.max(H)));
     }
 
-    /// The next sample, 1/[`RATE`] s after the last one.
+    /// Takes the next sample, 1/[`RATE`] s after the last one.
     ///
     /// * `planted`: feet on the floor (left, right), if the sender knows.
     ///
@@ -358,8 +358,8 @@ impl StreamPlan {
         self.input.pending.push_back(raw);
     }
 
-    /// Prepares what has come, up to time `t` (s) of the motion. Where the stream has not come that far it stands still
-    /// in its last posture.
+    /// Prepares the received samples, up to time `t` (s) of the motion. Where the stream has not come that far, it
+    /// stands still in its last posture.
     pub fn advance(&mut self, t: f64) {
         let needed = ((t * RATE - 1e-6).ceil() as i64).saturating_add(self.timing.window);
         // Time jumps of hostile clocks are not made up for sample by sample.
@@ -387,7 +387,7 @@ impl StreamPlan {
         i.rem_euclid(self.ring.len() as i64) as usize
     }
 
-    /// Sample `i`; the first one for those before it.
+    /// Sample `i`; the first one for any before it.
     fn at(&self, i: i64) -> &Sample {
         &self.ring[self.slot(i.max(0))]
     }
@@ -397,7 +397,7 @@ impl StreamPlan {
         &mut self.ring[k]
     }
 
-    /// Moves the stream to where the last samples were leading if it has jumped, and spreads what is left of the jump.
+    /// Moves the stream to where its last samples were leading if it has jumped, and spreads the rest of the jump.
     fn placed(&mut self, posture: &Posture) -> (Posture, bool) {
         let mut p = *posture;
         self.placement.frame.apply_posture(&mut p);
@@ -412,14 +412,14 @@ impl StreamPlan {
         let off = led.difference(&faded);
         let far = (off[3] * off[3] + off[4] * off[4] + off[5] * off[5]).sqrt();
         let beyond = |e: &&f64| e.abs() > stream::JUMP_ANGLE;
-        // One joint alone that snaps is a glitch of its own; a stream that jumps takes the body along.
+        // A single joint that snaps is only a glitch of that joint; a stream that jumps takes the whole body along.
         let join = self.placement.join.take_if(|(from, _)| *from <= self.count);
         let jumped = join.is_some()
             || far > stream::JUMP_DISTANCE
             || off[..3].iter().any(|e| beyond(&e))
             || off[6..].iter().filter(beyond).count() >= stream::JUMP_JOINTS;
         if jumped {
-            // The place of the pelvis over the floor and its heading go on as they were; the rest is spread.
+            // The place of the pelvis over the floor and its heading continue as they were; the rest is spread.
             let yaw = led.root_rotation.heading() - p.root_rotation.heading();
             let turn = PlanarTransform {
                 x: 0.0,
@@ -457,7 +457,7 @@ impl StreamPlan {
         p
     }
 
-    /// One sample through all stages.
+    /// Takes one sample through all stages.
     fn take(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
         let mut given = *posture;
         let (raw, broken) = self.placed(posture);
@@ -512,7 +512,7 @@ impl StreamPlan {
     fn smooth(&mut self, i: i64) {
         let centre = self.at(i).raw;
         let mut e = [0.0; NV];
-        // At the beginning the past is taken to mirror what follows.
+        // At the beginning the past is assumed to mirror the samples that follow.
         for (k, w) in (1..=stream::SMOOTH.min(i)).zip(&self.timing.weights[1..]) {
             for j in [i - k, i + k] {
                 let d = centre.difference(&self.at(j).raw);
@@ -542,12 +542,12 @@ impl StreamPlan {
         });
     }
 
-    /// Which points of the feet touch in sample `i`, as they came.
+    /// Finds the points of the received feet that touch the floor in sample `i`.
     fn touch(&mut self, i: i64) {
         if i < 0 {
             return;
         }
-        // The jump of a stream is not a movement of its feet.
+        // A jump of the stream is not a movement of its feet.
         let broken = self.at(i).received.broken || self.at(i + 1).received.broken;
         let hint = self.at(i).received.planted;
         for side in 0..2 {
@@ -568,7 +568,7 @@ impl StreamPlan {
         }
     }
 
-    /// Settles which feet stand in sample `j`; `last` is the newest one that was looked at.
+    /// Decides which feet are planted in sample `j`; `last` is the newest sample whose contacts are known.
     fn label(&mut self, j: i64, last: i64) {
         let upright =
             self.at(j).smooth.root_position.z > pelvis::SEATED * self.body.standing_root_height();
@@ -596,7 +596,7 @@ impl StreamPlan {
         }
     }
 
-    /// The whole posture of sample `out`.
+    /// Outputs the whole posture of sample `out`.
     fn emit(&mut self, out: i64) {
         self.shift_on(out);
         let posture = self.posture(out, self.balance.shift[1]);
@@ -610,7 +610,7 @@ impl StreamPlan {
         self.output.last = out;
         let n = self.output.knots.len() as i64;
         self.output.knots[out.rem_euclid(n) as usize] = Knot::of(&[posture], 0, H, down);
-        // Rates need two neighbours on either side, where there are any.
+        // Rates need two neighbours on either side, where they exist.
         let known = (out + 1).min(5) as usize;
         let recent = &self.output.recent[5 - known..];
         for back in [2, 1] {
@@ -624,7 +624,7 @@ impl StreamPlan {
         }
     }
 
-    /// The motion at time `t`, s; clamped to what was put out and is still held.
+    /// The motion at time `t`, s; clamped to the samples that were output and are still held.
     pub fn sample(&self, t: f64) -> Target {
         if self.count == 0 {
             return Target::still(Posture::default());
@@ -645,8 +645,8 @@ impl StreamPlan {
         between(knot(i), knot(i + 1), H, (x - i as f64).clamp(0.0, 1.0))
     }
 
-    /// Centroidal angular momentum of the recording at time `t`, s, also of what is not put out yet, N·m·s, axes of the
-    /// stream; `None` where that is not known. In flight a recorded body keeps it, whatever is made of its legs.
+    /// Centroidal angular momentum of the recording at time `t`, s, also for samples not output yet, N·m·s, axes of the
+    /// stream; `None` where that is not known. A recorded body keeps it in flight, however its legs are changed.
     pub fn spin_at(&self, t: f64) -> Option<Vec3> {
         let i = (t * RATE).round() as i64;
         let newest = self.count - stream::SMOOTH - 2;
@@ -669,9 +669,10 @@ impl StreamPlan {
         self.feet[side].stances()
     }
 
-    /// The motion from time `from` (s) on as far as it has come, with its feet: what was put out, then what is still in
-    /// the window as it came, led over from there. Samples are 1/[`RATE`] s apart; the first is at the time returned
-    /// with them. `came`: how many samples have come, if the motion has been prepared beyond them.
+    /// The motion from time `from` (s) on as far as it has been received, with its feet: first the samples that were
+    /// output, then those still in the window as received, joined smoothly. Samples are 1/[`RATE`] s apart; the time of
+    /// the first one is returned with them. `came`: number of received samples, if the motion has been prepared beyond
+    /// them.
     pub fn known(&self, from: f64, came: i64) -> (f64, Vec<(Posture, [bool; 2])>) {
         let n = self.output.knots.len() as i64;
         let last = self.count.min(came) - 1;

@@ -1,4 +1,5 @@
-//! What a sample asks of the floor: its angular momentum, its zero-moment point, and whether the feet can have it.
+//! The demands of a sample on the floor: its angular momentum, its zero-moment point, and whether the feet can provide
+//! that.
 
 use super::receding_horizon::Balanced;
 use super::{H, RATE, Sample, StreamPlan};
@@ -39,11 +40,11 @@ impl StreamPlan {
         sum
     }
 
-    /// How far the zero-moment point of sample `j` is from where the feet could have it, as it came.
+    /// Computes how far the received zero-moment point of sample `j` is from where the feet could have it.
     pub(super) fn balance(&mut self, j: i64) {
         let (mut balanced, load) = self.balanced(j, |s| (s.com, s.momentum));
         let way = balanced.way_inside();
-        // About a second: peaks of gait, which go there and back, are corrected, a chair is not.
+        // Over about a second: peaks of gait, which go there and back, are corrected, a chair is not.
         for (lasting, way) in self.balance.lasting.iter_mut().zip(way) {
             *lasting += (way - *lasting) * (1.0 - exp(-H));
         }
@@ -54,7 +55,7 @@ impl StreamPlan {
         self.balance.horizon.push(balanced);
     }
 
-    /// The balance of sample `j` with the centre of mass and the angular momentum that are meant, and its load, 0…1.
+    /// The balance of sample `j` with the centre of mass and the angular momentum given by `of`, and its load, 0…1.
     fn balanced(&self, j: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) -> (Balanced, f64) {
         let at = |i: i64| of(self.at(i));
         let (a, b, c) = (at(j - 2).0, at(j).0, at(j + 2).0);
@@ -95,7 +96,7 @@ impl StreamPlan {
         (balanced, load.clamp(0.0, 1.0))
     }
 
-    /// Puts sample `i` together as it is going to be, and looks at the balance of that.
+    /// Assembles sample `i` as planned, and computes its balance.
     pub(super) fn build(&mut self, i: i64) {
         let shift = self.planned(i);
         let posture = self.posture(i, shift);
@@ -113,7 +114,7 @@ impl StreamPlan {
         self.improve(i - 2, |s| (s.built.com, s.built.momentum));
     }
 
-    /// Looks at the balance of sample `i` again, with the centre of mass and the angular momentum that are meant.
+    /// Computes the balance of sample `i` again, with the centre of mass and the angular momentum given by `of`.
     pub(super) fn improve(&mut self, i: i64, of: impl Fn(&Sample) -> (Vec3, Vec3)) {
         let (mut better, load) = self.balanced(i, of);
         better.weight = self.at(i).trust * load * load;

@@ -1,5 +1,5 @@
-//! The shift of the trunk that keeps the balance of a stream: a small optimal control problem over the window, solved
-//! on with every sample.
+//! The shift of the trunk that keeps the balance of a stream: a small optimal control problem over the window, whose
+//! solution is refined with every sample.
 
 use super::{H, RATE};
 use crate::math::banded::{Factor, Pentadiagonal};
@@ -12,26 +12,26 @@ use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::ops::Range;
 
-/// What is known of the balance in one sample.
+/// The known facts about the balance in one sample.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct Balanced {
-    /// Zero-moment point as it came, m.
+    /// Zero-moment point as received, m.
     pub zmp: [f64; 2],
-    /// Where it is wanted, if feet carry the body.
+    /// Region for the zero-moment point, if feet carry the body.
     pub support: Option<SmallPolygon>,
-    /// How much that counts, 0…1.
+    /// Weight of this sample, 0…1.
     pub weight: f64,
     /// Square of the pendulum frequency, 1/s².
     pub omega2: f64,
-    /// Which way the body faces, rad.
+    /// Heading of the body, rad.
     pub heading: f64,
-    /// Zero-moment point that the supports ask for, and what it still owes them, m: kept from sample to sample.
+    /// Zero-moment point that the supports ask for, and the accumulated residual, m: kept from sample to sample.
     goal: [f64; 2],
     debt: [f64; 2],
 }
 
 impl Balanced {
-    /// Nothing counts.
+    /// A sample without any weight.
     pub fn new(zmp: [f64; 2], omega2: f64, heading: f64) -> Self {
         Self {
             zmp,
@@ -44,20 +44,20 @@ impl Balanced {
         }
     }
 
-    /// The way from the zero-moment point as it came into the support, m.
+    /// Displacement from the received zero-moment point into the support, m.
     pub fn way_inside(&self) -> [f64; 2] {
         let inside = self.support.as_ref().map(|s| s.nearest(self.zmp));
         inside.map_or([0.0; 2], |p| std::array::from_fn(|k| p[k] - self.zmp[k]))
     }
 
-    /// The same as far as it counts, m.
+    /// The same, weighted, m.
     fn lacks(&self) -> [f64; 2] {
         let most = balance::STREAM_MOST_OUTSIDE;
         self.way_inside()
             .map(|way| self.weight * way.clamp(-most, most))
     }
 
-    /// The same sample known better.
+    /// Replaces the sample by better knowledge of it.
     fn improve(&mut self, better: Self) {
         for k in 0..2 {
             self.goal[k] += better.zmp[k] - self.zmp[k];
@@ -69,7 +69,7 @@ impl Balanced {
         };
     }
 
-    /// Moves a zero-moment point into the support as far as that counts.
+    /// Moves a zero-moment point into the support, in proportion to the weight.
     fn take(&mut self, zmp: [f64; 2]) {
         let v: [f64; 2] = std::array::from_fn(|k| zmp[k] + self.debt[k]);
         let inside = self.support.as_ref().map_or(v, |s| s.nearest(v));
@@ -92,14 +92,14 @@ pub struct Balance {
     #[serde(skip)]
     rows: Vec<[f64; 3]>,
     shift: Vec<[f64; 2]>,
-    /// Number of the first of the samples, and of its shift among the shifts.
+    /// Number of the first of the samples, and the index of its shift among the shifts.
     first: (i64, usize),
-    /// Number of shifts that are worked out.
+    /// Number of shifts that are solved.
     solved: usize,
     lacking: Lacking,
 }
 
-/// What zero-moment points lack to be over the feet, on average, in the body's axes, m.
+/// Average displacement that zero-moment points lack to be over the feet, in the body's axes, m.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 struct Lacking {
     /// Sum and weight over the last second or so.
@@ -122,7 +122,7 @@ impl Lacking {
         }
     }
 
-    /// What is expected of a body that faces along `heading` (rad), m, world axes.
+    /// The displacement expected for a body that faces along `heading` (rad), m, world axes.
     fn expected(&self, heading: f64) -> [f64; 2] {
         let mean = self.lately.map(|l| l / self.weight.max(1.0));
         let expected =
@@ -132,7 +132,7 @@ impl Lacking {
 }
 
 impl Balance {
-    /// For windows of at most `most` samples. Allocates all it will ever need.
+    /// For windows of at most `most` samples. Allocates all the memory it will ever need.
     pub fn new(most: usize) -> Self {
         Self {
             samples: VecDeque::with_capacity(most + 2),
@@ -145,8 +145,8 @@ impl Balance {
         }
     }
 
-    /// Adds the buffers to what was read from a checkpoint. False if it is not for windows of at most `most` samples,
-    /// or does not hold the numbered `samples`.
+    /// Adds the buffers to a value that was read from a checkpoint. Returns whether that value is for windows of at
+    /// most `most` samples and holds the numbered `samples`.
     pub fn complete(&mut self, most: usize, samples: Range<i64>) -> bool {
         let Range { start: first, end } = samples;
         let fresh = Self::new(most);
@@ -160,13 +160,13 @@ impl Balance {
             && self.samples.len() as i64 == (end - first).max(0)
     }
 
-    /// The next sample that is known.
+    /// Adds the next known sample.
     pub fn push(&mut self, sample: Balanced) {
         self.lacking.take(&sample);
         self.samples.push_back(sample);
     }
 
-    /// Sample `i` is known better.
+    /// Replaces sample `i` by better knowledge of it.
     pub fn improve(&mut self, i: i64, better: Balanced) {
         let k = usize::try_from(i - self.first.0).ok();
         if let Some(sample) = k.and_then(|k| self.samples.get_mut(k)) {
@@ -174,24 +174,25 @@ impl Balance {
         }
     }
 
-    /// The shift that sample `i` is going to have, as far as is known now, m.
+    /// The shift planned for sample `i` with the present knowledge, m.
     pub fn planned(&self, i: i64) -> [f64; 2] {
         let k = (i - self.first.0).max(0) as usize + self.first.1;
         let last = self.solved.checked_sub(1);
         last.map_or([0.0; 2], |last| self.shift[k.min(last)])
     }
 
-    /// The shift of the centre of mass in the next sample that is put out, m.
+    /// The shift of the centre of mass in the next sample of the output, m.
     ///
     /// Minimises `Σ Δ² + τ⁴ Δ̈² + Σ (outside/COST)²` over the samples that are known, where the zero-moment point
     /// answers to a shift Δ by Δ − Δ̈/ω², as the preparation of clips does
-    /// ([`pelvis_shift`](crate::plan::pelvis_shift::pelvis_shift)); but Δ goes on from where it is, and beyond the
-    /// window it falls, as a pendulum at rest does, to what zero-moment points lack on average: bodies that are built
-    /// otherwise than the recorded one, or carry nothing where it does, are off in the same way all the time. A few
-    /// alternations are enough, since every sample takes part in as many problems as the window is long.
+    /// ([`pelvis_shift`](crate::plan::pelvis_shift::pelvis_shift)). Unlike there, Δ continues from its present value,
+    /// and beyond the window it falls, as a pendulum at rest does, to the average displacement that zero-moment points
+    /// lack: bodies that are built differently from the recorded one, or carry nothing where it does, are off in the
+    /// same way all the time. A few alternations are enough, since every sample takes part in as many problems as the
+    /// window is long.
     ///
-    /// * `so_far`: Δ of the last two samples that were put out, the newer one last, m; `None` in the beginning, where
-    ///   it is free. The newer one is the first of the samples that take part: those before it are forgotten.
+    /// * `so_far`: Δ of the last two samples of the output, the newer one last, m; `None` in the beginning, where it is
+    ///   free. The newer one is the first of the samples that take part: those before it are forgotten.
     ///
     /// O(samples); allocates nothing.
     pub fn next(&mut self, so_far: Option<[[f64; 2]; 2]>) -> [f64; 2] {
@@ -203,7 +204,7 @@ impl Balance {
         let factor = self.factor(n, so_far.is_some());
         let last = n - 2;
         let (a, dies) = self.last_answer();
-        // The last shift leads on to the one beyond: what that adds to the last zero-moment point, and to the last
+        // The last shift leads on to the one beyond: this is its effect on the last zero-moment point, and on the last
         // bend.
         let heading = self.samples.back().map_or(0.0, |s| s.heading);
         let beyond = self.lacking.expected(heading).map(|m| (1.0 - dies) * m);
@@ -246,7 +247,7 @@ impl Balance {
         }
         let next = self.shift[if so_far.is_some() { 2 } else { 1 }.min(n - 1)];
         self.matrix = factor.into_matrix();
-        // The sample that is put out next is the first of the next problem.
+        // The next sample of the output is the first of the next problem.
         if so_far.is_some() {
             self.samples.pop_front();
             self.first = (self.first.0 + 1, 2);
@@ -255,14 +256,14 @@ impl Balance {
         next
     }
 
-    /// How the last zero-moment point answers to the shift beyond, and what is left of a shift after a sample when it
-    /// dies away.
+    /// How the last zero-moment point answers to the shift beyond, and the factor by which a decaying shift shrinks per
+    /// sample.
     fn last_answer(&self) -> (f64, f64) {
         let omega2 = self.samples.back().map_or(10.0, |s| s.omega2);
         (RATE * RATE / omega2, exp(-omega2.sqrt() * H))
     }
 
-    /// How each of the samples' zero-moment points answers to the shifts of its neighbours and its own (`rows`), and
+    /// How each of the samples' zero-moment points answers to its own shift and those of its neighbours (`rows`), and
     /// the problem of the `n` shifts with the first two `held`, or at rest.
     fn factor(&mut self, n: usize, held: bool) -> Factor {
         let dies = self.last_answer().1;
@@ -322,7 +323,7 @@ mod tests {
         out
     }
 
-    /// How far the zero-moment point that answers to the shifts is out of the support along x, largest, m.
+    /// Largest distance by which the zero-moment point that answers to the shifts is out of the support along x, m.
     fn outside(shift: &[[f64; 2]]) -> f64 {
         let a = RATE * RATE / OMEGA2;
         (1..shift.len() - 1)
@@ -337,15 +338,15 @@ mod tests {
     #[test]
     fn what_is_seen_in_time_is_brought_inside() {
         let [short, long] = [10, 50].map(|window| outside(&shifts(window, recorded)));
-        // As recorded, 5 cm.
+        // The recorded value is 5 cm.
         assert!(long < 0.015, "{long}");
         assert!(short < 0.045 && long < short, "{short}, {long}");
     }
 
     #[test]
     fn what_lasts_is_expected_to_go_on() {
-        // 8 cm off all the time, in a window of a tenth of a second: nothing that is seen tells when that ends, so it
-        // is not taken to end.
+        // 8 cm off all the time, in a window of a tenth of a second: nothing in the window shows when that ends, so it
+        // is assumed not to end.
         let lasting = |_: usize| recorded(100);
         let shift = shifts(10, lasting);
         for s in &shift[60..] {
@@ -386,7 +387,7 @@ mod tests {
         let mut balance = Balance::new(40);
         (0..40).for_each(|_| balance.push(recorded(0)));
         let next = balance.next(Some([[0.030, -0.02], [0.032, -0.02]]));
-        // On at 0.12 m/s and bent by no more than supports allow: ω² (0.032 + 0.03 + 0.01) / 60².
+        // Continues at 0.12 m/s, bent by no more than supports allow: ω² (0.032 + 0.03 + 0.01) / 60².
         assert!((next[0] - 0.034).abs() < 3e-4, "{next:?}");
         assert!((next[1] + 0.02).abs() < 3e-4, "{next:?}");
     }

@@ -1,27 +1,27 @@
-//! A stream whose newest samples repeat one: a driver that has stopped moving and goes on sending.
+//! A stream whose newest samples repeat one: its driver has stopped moving and continues to send.
 
 use super::{RATE, is_sample};
 use crate::body::Posture;
 use crate::plan::params::{common, stream};
 use serde::{Deserialize, Serialize};
 
-/// True if nothing moved between two postures.
+/// Whether nothing moved between two postures.
 pub fn is_same(a: &Posture, b: &Posture) -> bool {
     a.difference(b).iter().all(|d| d.abs() < stream::SAME)
 }
 
-/// The newest sample, how it came to be there, and for how long.
+/// The newest sample, the movement that led to it, and how often it has been repeated.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct RepeatedSamples {
     posture: Option<Posture>,
-    /// Samples that have repeated it.
+    /// Number of samples that have repeated it.
     repeated: i64,
     /// Velocity of the pelvis over the floor before that, m/s.
     velocity: [f64; 2],
 }
 
 impl RepeatedSamples {
-    /// False if it cannot be what was written into a checkpoint.
+    /// Whether this value is one that a checkpoint could hold.
     pub(super) fn is_valid(&self) -> bool {
         self.repeated >= 0 && is_sample(self.repeated)
     }
@@ -34,7 +34,7 @@ impl RepeatedSamples {
             self.repeated += 1;
             return;
         }
-        // A stream that moves again after a silence begins anew.
+        // A stream that moves again after a silence counts as starting from rest.
         if self.breaks_off() {
             self.velocity = [0.0; 2];
         }
@@ -62,7 +62,7 @@ impl RepeatedSamples {
 mod tests {
     use super::*;
 
-    /// Ahead at a speed, m/s, for half a second, then the same for so many samples.
+    /// Moves ahead at a speed, m/s, for half a second, then repeats the same sample `repeats` times.
     fn stream(speed: f64, repeats: usize) -> RepeatedSamples {
         let at = |i: usize| {
             let mut p = Posture::default();

@@ -3,7 +3,7 @@ use crate::math::trig;
 use crate::motion::builtin::{at_ease, builtin};
 use crate::motion::leg_ik::{forward, solve_leg};
 
-/// Feeds `posture` sample by sample and gives what comes out, one target per sample.
+/// Feeds `posture` sample by sample and returns the output, one target per sample.
 fn through(
     body: &Arc<Body>,
     window: f64,
@@ -50,7 +50,7 @@ fn who_stands_stays_as_he_is() {
 fn planted_feet_do_not_slide_and_the_motion_is_its_own_derivative() {
     let body = Arc::new(Body::adult_man());
     let walk = builtin(&body, "walk").unwrap();
-    // As a camera sees it: a slow wobble of a centimetre over everything.
+    // As a camera records it: with a slow wobble of a centimetre over everything.
     let seen = |i: usize| {
         let t = i as f64 / RATE;
         let mut p = walk.sample(t).posture;
@@ -197,7 +197,7 @@ fn the_momentum_of_the_stream_is_known_ahead_of_what_is_put_out() {
     for t in [-1.0, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
         assert_eq!(live.spin_at(t), None, "{t}");
     }
-    // One rigid body that turns: inertia about the lateral axis times the rate, by its own links.
+    // One rigid body that turns: inertia about the lateral axis, from its own links, times the rate.
     for t in [emit, emit + 0.2, newest - 0.1] {
         let poses = forward(&body, &fall(t));
         let com = crate::motion::leg_ik::center_of_mass(&body, &poses);
@@ -214,8 +214,8 @@ fn the_momentum_of_the_stream_is_known_ahead_of_what_is_put_out() {
     }
 }
 
-/// A standing man whose feet are moved: by how much each is raised, m, turned about the vertical and pitched, toes up,
-/// rad.
+/// A standing man whose feet are moved: each is raised (m), turned about the vertical and pitched toes up (rad) by the
+/// given amounts.
 fn standing_with(body: &Body, feet: [(f64, f64, f64); 2]) -> Posture {
     let mut p = at_ease(body);
     p.root_position.z -= 0.03;
@@ -265,7 +265,7 @@ fn feet_that_turn_on_the_floor_are_set_down_anew_one_after_the_other() {
 fn who_rocks_to_and_fro_is_not_carried_by_a_chair() {
     let body = Arc::new(Body::adult_man());
     let stand = at_ease(&body);
-    // Share to which feet are believed to carry a body that moves like that.
+    // How strongly the feet are believed to carry a body that moves like that.
     let believed = |posture: &dyn Fn(f64) -> Posture| {
         let mut live = StreamPlan::new(Arc::clone(&body), 0.5);
         for i in 0..300 {
@@ -274,7 +274,7 @@ fn who_rocks_to_and_fro_is_not_carried_by_a_chair() {
         }
         live.at(live.count - 1 - LABEL).trust
     };
-    // Its zero-moment point is 0.3 m outside the feet, to either side, at every turn.
+    // Its zero-moment point is 0.3 m outside the feet, on either side, at every turning point.
     let rocks = believed(&|t| {
         let mut p = stand;
         p.root_position.y += 0.035 * trig::sin_cos(4.0 * std::f64::consts::PI * t).0;

@@ -1,5 +1,4 @@
-//! The whole posture of a sample: feet where they stand or swing, a pelvis that both legs reach, a trunk that is
-//! shifted.
+//! The whole posture of a sample: feet in their stances or swings, a pelvis that both legs reach, and a shifted trunk.
 
 use super::foot::{self, KnownUpTo, StreamFoot};
 use super::{H, Sample, StreamPlan};
@@ -16,14 +15,14 @@ use serde::{Deserialize, Serialize};
 /// the gait.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct PelvisLowering {
-    /// What is needed, forgotten slowly, m.
+    /// The lowering needed, m, forgotten slowly.
     needed: f64,
     at: f64,
     speed: f64,
 }
 
 impl PelvisLowering {
-    /// Takes the next need; the first one holds at once.
+    /// Takes the next need; the first one applies at once.
     fn take(&mut self, need: f64, first: bool) {
         if first {
             (self.needed, self.at) = (need, need);
@@ -37,7 +36,7 @@ impl PelvisLowering {
 }
 
 impl StreamPlan {
-    /// Poses of the feet of sample `f`, and what they ask of the pelvis.
+    /// Poses the feet of sample `f` and computes the lowering of the pelvis that they need.
     pub(super) fn pose_feet(&mut self, f: i64, seen: i64, labelled: i64) {
         for side in 0..2 {
             let mut foot = std::mem::replace(&mut self.feet[side], StreamFoot::new());
@@ -53,7 +52,7 @@ impl StreamPlan {
             s.lift[side] = posed.lift;
         }
         let mut drop = self.needs(f, |s, side| (s.feet[side].ankle, s.down[side]));
-        // The pelvis comes down in time for what is known to come.
+        // The pelvis comes down in time for stances that are already known.
         for i in f + 1..=labelled.min(f + leg::STREAM_AHEAD) {
             let ankle = |s: &Sample, side: usize| {
                 let sole = &self.soles[side];
@@ -80,11 +79,11 @@ impl StreamPlan {
         (s.smooth.root_position + offset + shift, leg::REACH * length)
     }
 
-    /// How far an ankle is out of the leg's reach in sample `i` while the pelvis is as low as it is now, m.
+    /// How far an ankle is out of the leg's reach in sample `i` with the pelvis as low as it is now, m.
     fn lacks(&self, i: i64, side: usize, ankle: Vec3) -> f64 {
         let (hip, most) = self.hip(i, side);
         let far = hip + Vec3::Z * self.lowering.at - ankle;
-        // Over a foot left behind the body rises on the toes; over a foot below it the pelvis comes down.
+        // The body rises on the toes of a foot left behind; over a foot below it the pelvis comes down.
         let ahead = self.at(i).smooth.root_rotation.rotate(Vec3::X);
         let behind = (far.x * ahead.x + far.y * ahead.y) / leg::STREAM_TRAILING;
         far.norm() - most - leg::STREAM_SPARED * (1.0 - behind.clamp(0.0, 1.0))
@@ -92,7 +91,7 @@ impl StreamPlan {
 
     /// How far the pelvis of sample `i` has to come down so that both legs reach their ankles, m (≤ 0).
     ///
-    /// * `ankle`: of a side, and whether that foot stands.
+    /// * `ankle`: of a side, and whether that foot is planted.
     fn needs(&self, i: i64, ankle: impl Fn(&Sample, usize) -> (Vec3, bool)) -> f64 {
         let s = self.at(i);
         let of = |side: usize| {
@@ -104,13 +103,13 @@ impl StreamPlan {
         of(0).min(of(1))
     }
 
-    /// The shift of the centre of mass that sample `i` is going to have, as it looks now, m.
+    /// The shift of the centre of mass planned for sample `i` with the present knowledge, m.
     pub(super) fn planned(&self, i: i64) -> [f64; 2] {
         let planned = self.balance.horizon.planned(i);
         planned.map(|x| x.clamp(-balance::STREAM_MOST_SHIFT, balance::STREAM_MOST_SHIFT))
     }
 
-    /// Moves the shift of the trunk on to sample `out`.
+    /// Advances the shift of the trunk to sample `out`.
     pub(super) fn shift_on(&mut self, out: i64) {
         let next = self
             .balance

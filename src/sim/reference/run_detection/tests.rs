@@ -1,4 +1,4 @@
-//! Goal: runs are told from what is only fast. Method: points of figures that move by formula, 120 Hz.
+//! Goal: runs are distinguished from other fast motions. Method: points of figures that move by formula, 120 Hz.
 
 use super::*;
 use crate::math::vec3::vec3;
@@ -39,7 +39,8 @@ fn gaits(p: &Points) -> Vec<Gait> {
         .collect()
 }
 
-/// Falls while the feet are farthest apart with `bounce` > 0, is highest in the middle of a stance with `bounce` < 0.
+/// With `bounce` > 0 the body falls while the feet are farthest apart; with `bounce` < 0 it is highest in the middle of
+/// a stance.
 fn gait(speed: f64, bounce: f64, lead: f64) -> Points {
     points(|t| {
         let phase = PI * t / STEP;
