@@ -65,7 +65,7 @@ pub fn is_upload(path: &str) -> bool {
     UPLOADS.contains(&path)
 }
 
-/// Bytes of the largest request: a file comes whole in one message, with a little around it.
+/// Bytes of the largest request: a file arrives whole in one message, with a few fields around it.
 pub fn largest_request(config: &Config) -> usize {
     config.max_clip_bytes.max(config.max_request_bytes) as usize + 65_536
 }
