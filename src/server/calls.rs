@@ -1,5 +1,5 @@
 //! The table of calls, read from the descriptor set that reflection serves: whether a call takes, and is answered with,
-//! one message. Which role each call needs is in `access::roles`, from an option in the same set.
+//! one message. The role that each call needs is in `access::roles`, from an option in the same set.
 
 use crate::config::Config;
 use prost::Message as _;

@@ -93,7 +93,7 @@ impl List {
         self.len += len;
     }
 
-    /// Bytes so far.
+    /// Number of bytes until now.
     pub fn len(&self) -> usize {
         self.len
     }

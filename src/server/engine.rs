@@ -170,7 +170,7 @@ pub fn standing(body: &Body, place: Place) -> Posture {
     }
 }
 
-/// Where a figure stands: its pelvis projected to the ground, and its heading.
+/// The place of a figure: its pelvis projected to the ground, and its heading.
 pub fn place_of(posture: &Posture) -> Place {
     Place {
         x: posture.root_position.x,

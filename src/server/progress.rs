@@ -1,4 +1,4 @@
-//! Progress of long work, for those who watch it.
+//! Progress of long work, for its watchers.
 
 use tokio::sync::watch;
 

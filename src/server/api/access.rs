@@ -75,7 +75,7 @@ impl AccessService for Api {
             let world = &request.get_ref().world;
             if !world.is_empty() {
                 let id = world_name("world", world)?;
-                // Only callers who may see the world learn whether it exists.
+                // Only callers that may see the world learn whether it exists.
                 let rights = match self.worlds.get(id) {
                     Ok(handle) => handle.grants.rights(&caller.identity, id).roles,
                     Err(_) => claims.roles_in(id),

@@ -50,7 +50,7 @@ fn id(open: &DriveOpen) -> DriverId {
     }
 }
 
-/// The world of a header, for a caller who may drive all of its figures.
+/// The world of a header, for a caller that may drive all of its figures.
 fn enter(api: &Api, caller: &Caller, open: &DriveOpen) -> Result<Arc<WorldHandle>, Fault> {
     let figures: Vec<&str> = open.figures.iter().map(String::as_str).collect();
     api.enter_for(caller, &open.world, &figures)

@@ -36,7 +36,7 @@ pub(super) fn memory(frame: &pb::WorldFrame) -> usize {
     size_of::<pb::WorldFrame>() + figures + frame.encoded_len()
 }
 
-/// Where messages of work go.
+/// The channel for messages of work.
 pub(super) type MessageSender<M> = mpsc::Sender<Result<M, Status>>;
 
 /// Sends a message of work that has a turn, when the client has room for it.

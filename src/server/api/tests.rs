@@ -1,5 +1,5 @@
-//! Worlds and clips that are created and deleted: what others see of them agrees with what is on disk, even if a client
-//! goes away in between.
+//! Worlds and clips that are created and deleted: the view of other clients agrees with the disk, even if a client goes
+//! away in between.
 
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 

@@ -25,7 +25,7 @@ pub enum ConfigError {
     Toml {
         /// Its path.
         path: String,
-        /// Where and why.
+        /// Place and problem.
         error: toml::de::Error,
     },
     /// There is no such setting.

@@ -25,7 +25,7 @@ pub(super) struct StoredWorld {
     pub recordings: Vec<StoredRecording>,
     #[prost(message, repeated, tag = "6")]
     pub controls: Vec<StoredControl>,
-    /// The client whose share of the worlds it uses; empty: a client that cannot come back.
+    /// The client that the world counts for in the shares; empty: a client that cannot come back.
     #[prost(string, tag = "7")]
     pub owner: String,
 }

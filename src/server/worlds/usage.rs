@@ -1,4 +1,4 @@
-//! Last use of a world, so that an unused one can end.
+//! Last use of a world, so that an unused one can be ended.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};

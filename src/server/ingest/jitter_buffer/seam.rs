@@ -44,8 +44,8 @@ pub struct StreamStart {
 }
 
 impl JitterBuffer {
-    /// Where this stream, of which playout time `p` (s) is due, continues `before`. A window holds the samples of
-    /// `before` on a grid of `rate` per second.
+    /// Finds the place at which this stream, of which playout time `p` (s) is due, can continue `before`. A window
+    /// holds the samples of `before` on a grid of `rate` per second.
     pub fn seam(&self, p: f64, before: &Self, rate: f64) -> StreamSeam {
         let (Some(head), Some(newest)) = (before.grid.head, self.frames.back()) else {
             return StreamSeam::Nowhere;
