@@ -393,7 +393,7 @@ impl Pool {
                 retry: Some(Duration::from_secs_f64(RETRY.0)),
             })?;
         match result.await {
-            Ok(Err(gone)) if gone == Turn::gone() => Err(Fault::Draining), // the client has not gone, so the pool was closed
+            Ok(Err(gone)) if gone == Turn::gone() => Err(Fault::Draining), // the pool was closed
             Ok(out) => out,
             Err(_) => Err(Fault::Internal("the work gave no result".into())),
         }
