@@ -146,7 +146,7 @@ pub fn retarget(
     let defaults = Preparation::default();
     let preparation = Preparation {
         lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
-        // Uploaded motions are simulated, and measured strength does not apply to running.
+        // Uploaded motions are simulated, and measured strength is not enough for running.
         walk_runs: reading.walk_runs.unwrap_or(true),
         ..defaults
     };

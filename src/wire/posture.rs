@@ -24,8 +24,8 @@ pub fn joint_rotation(posture: &Posture, s: usize) -> Quat {
     }
 }
 
-/// Sets the joint of segment `s` from `parent_from_segment`. A rotation beyond the hinges is dropped: the rotation is
-/// split about their axes in order, and the rest about the missing axis is left out.
+/// Sets the joint of segment `s` from `parent_from_segment`. Rotation that hinges cannot represent is dropped: the
+/// rotation is split about their axes in order, and the rest about the missing axis is left out.
 pub fn set_joint_rotation(posture: &mut Posture, s: usize, q: Quat) {
     let d = DOF_START[s];
     match JOINT[s] {

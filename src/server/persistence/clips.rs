@@ -41,7 +41,7 @@ impl Persistence {
         written.map(Writing).map_err(storage)
     }
 
-    /// Begins to forget a clip, in the same order.
+    /// Begins to forget a clip. Later changes under its name are written later.
     ///
     /// # Errors
     /// It cannot be written now.

@@ -28,7 +28,7 @@ pub(super) async fn write(
     let Some(journal) = &handle.journal else {
         return Ok(before);
     };
-    // If the world is rewound before that, it has another one.
+    // If the world is rewound in the meantime, there is another checkpoint to write.
     while let Some(capture) = journal.to_write(before) {
         let encoded = Arc::clone(&capture);
         let bytes = tokio::task::spawn_blocking(move || checkpoints::encode(&encoded));

@@ -303,8 +303,7 @@ impl HostedWorld {
         }
     }
 
-    /// Ends the drive of a figure, whose motion continues unchanged; its driver is fenced. Returns whether it had a
-    /// driver.
+    /// Ends the drive of a figure without stopping its motion; its driver is fenced. Returns whether it had a driver.
     pub(super) fn detach(&mut self, figure: &str, why: &str) -> bool {
         let Some(i) = self.drives.iter().position(|d| d.has(figure)) else {
             return false;

@@ -151,7 +151,7 @@ impl Scene {
                 continue;
             };
             let first = reset.then(|| pair.now.state());
-            // First, because a reset comes after a stop that is still being planned.
+            // Before the reset, which would carry out a stop that is still being planned.
             if let Some(f) = self.world.figure_mut(key) {
                 f.set_drive(Motion::External(pair));
             }

@@ -64,7 +64,7 @@ impl WorldTicket {
         self.shared.wake(&self.slot);
     }
 
-    /// Abandons a world whose round does not end; others are waiting for its end.
+    /// Abandons a world whose round does not end, so that those waiting for its end can continue.
     pub fn abandon(&self) {
         if self.slot.outside.outlet.lost.borrow().is_some() {
             self.slot.gone();
