@@ -23,7 +23,7 @@ use std::time::{Duration, Instant, SystemTime};
 use tokio::sync::watch;
 use tonic::Request;
 
-/// How often worlds are looked at that may be idle only for some time.
+/// How often the server looks for worlds that have been idle for too long.
 const IDLE_LOOK: Duration = Duration::from_millis(250);
 
 /// The state that the services share.
@@ -38,23 +38,23 @@ pub struct App {
     pub clips: Clips,
     /// Checkpoints of worlds.
     pub checkpoints: Checkpoints,
-    /// Parts of their past that are kept.
+    /// Recordings: kept parts of the past of worlds.
     pub recordings: Arc<Recordings>,
-    /// Where files become clips.
+    /// Converts files to clips.
     pub conversions: Pool,
-    /// Where clips are simulated.
+    /// Simulates clips.
     pub simulations: Pool,
     /// Identities and roles.
     pub access: Arc<Access>,
     /// The data directory.
     pub persistence: Option<Arc<Persistence>>,
-    /// Long work that is done without a waiting client.
+    /// Long work that continues without a waiting client.
     pub(crate) operations: Arc<Operations<Encoded>>,
     /// Recent requests by name, with their answers.
     pub(crate) repeats: Arc<Repeats>,
     /// When the server started.
     pub started: SystemTime,
-    /// Turns true when streams are to end.
+    /// Turns true when streams have to end.
     pub(crate) stopping: watch::Receiver<bool>,
     /// Viewers that are shown the past.
     pub(crate) late: LateViewers,
@@ -64,7 +64,7 @@ pub struct App {
 }
 
 impl App {
-    /// An application without worlds; [`restore`](Self::restore) brings those of the data directory back.
+    /// An application without worlds; [`restore`](Self::restore) brings back those of the data directory.
     ///
     /// # Errors
     /// The built-in data cannot be prepared, the data directory cannot be used, or a certificate or key cannot be used.
@@ -124,7 +124,7 @@ impl App {
         }
     }
 
-    /// Why new clients should rather go elsewhere. Names of worlds are not for everyone.
+    /// Reason why new clients should go elsewhere. It names no worlds, because not everyone may know their names.
     pub fn unready(&self) -> Option<String> {
         if self.worlds.is_draining() {
             return Some("shutting down".into());
@@ -135,7 +135,7 @@ impl App {
         }
     }
 
-    /// Waits until the changes of a world are on disk, also if the client goes away: a half-written state would differ
+    /// Waits until the changes of a world are on disk, even if the client goes away: a half-written state would differ
     /// from the one in memory.
     pub(crate) async fn stored(&self, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
         let Some(persistence) = self.persistence.clone() else {
@@ -145,8 +145,8 @@ impl App {
         to_the_end(async move { persistence.changed(&handle).await }).await
     }
 
-    /// Writes a new world down, whether or not its client waits for it; one that cannot be is ended again. Called
-    /// before anything else is waited for: others can see the world already.
+    /// Writes a new world to disk, whether or not its client waits; a world that cannot be written is ended again.
+    /// Called before any other wait, because others can see the world already.
     pub(crate) async fn written(self: &Arc<Self>, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
         let Some(persistence) = self.persistence.clone() else {
             return Ok(());
@@ -162,7 +162,7 @@ impl App {
         .await
     }
 
-    /// A world by the last part of its name; one in quarantine says so.
+    /// A world by the last part of its name. A world in quarantine is refused with that reason.
     pub(crate) fn existing(&self, id: &str) -> Result<Arc<WorldHandle>, Fault> {
         self.worlds.get(id).map_err(|missing| {
             let quarantined = self.persistence.as_ref().map(|p| p.check(id));
@@ -170,7 +170,7 @@ impl App {
         })
     }
 
-    /// Refuses what is not to come into being after its world has left.
+    /// Refuses to create something in a world that has been deleted.
     pub(crate) fn still_there(&self, handle: &WorldHandle) -> Result<(), Fault> {
         match self.worlds.holds(handle) {
             true => Ok(()),
@@ -178,7 +178,7 @@ impl App {
         }
     }
 
-    /// The world of this name, for a caller who has the role there that its call needs.
+    /// The world of this name, for a caller with the role there that its call needs.
     pub(crate) fn world<T>(
         &self,
         request: &Request<T>,
@@ -189,7 +189,8 @@ impl App {
         self.enter(caller(request)?, id)
     }
 
-    /// World and last part of the name of a figure, likewise; a driver must be one of that figure.
+    /// World and last part of the name of a figure, for a caller with the role that its call needs; a driver must be
+    /// one of that figure.
     pub(crate) fn figure<'a, T>(
         &self,
         request: &Request<T>,
@@ -206,7 +207,7 @@ impl App {
         self.enter_for(caller, id, &[])
     }
 
-    /// The world, for a caller who has the role that its call needs, for these figures.
+    /// The world, for a caller with the role that its call needs, for these figures.
     pub(crate) fn enter_for(
         &self,
         caller: &Caller,
@@ -239,7 +240,7 @@ impl App {
         self.admit(caller, handle, (role, figures))
     }
 
-    /// The world, for a caller who has this role there, for these figures.
+    /// The world, for a caller with this role there, for these figures.
     pub(crate) fn admit(
         &self,
         caller: &Caller,
@@ -271,7 +272,7 @@ impl App {
         }
     }
 
-    /// The world, for a caller who has this role there, whatever role its call needs.
+    /// The world, for a caller with this role there, whatever role its call needs.
     pub(crate) fn enter_as(
         &self,
         caller: &Caller,
@@ -284,7 +285,7 @@ impl App {
         }
     }
 
-    /// Ends this very world, and not another one of its name, also on disk. `by`: who wants it.
+    /// Ends this very world, and not another one of its name, also on disk. `by`: the caller or the reason.
     pub(crate) async fn delete(
         self: &Arc<Self>,
         handle: &Arc<WorldHandle>,
@@ -300,7 +301,7 @@ impl App {
         .await
     }
 
-    /// Forgets what is kept of a world that has ended. Until then no other one has its name.
+    /// Forgets the stored data of a world that has ended. Until then no other world can have its name.
     pub(crate) async fn forget_world(&self, leaving: Leaving) -> Result<(), Fault> {
         let handle = &leaving.handle;
         self.checkpoints.forget_world(&handle.id);
@@ -311,7 +312,7 @@ impl App {
         }
     }
 
-    /// Ends worlds that nobody has used for as long as they may be idle, for ever.
+    /// Ends worlds that have been idle for longer than they may be; never returns.
     pub async fn end_idle_worlds(&self) {
         loop {
             tokio::time::sleep(IDLE_LOOK).await;
@@ -347,7 +348,7 @@ impl App {
         self.next_stream.fetch_add(1, Ordering::Relaxed)
     }
 
-    /// The body of a reference. Building one takes milliseconds, so it is done where waiting does no harm.
+    /// The body of a reference. Building one takes milliseconds, so it is done on a blocking thread.
     pub(crate) async fn body(
         self: &Arc<Self>,
         field: &'static str,
@@ -368,7 +369,7 @@ pub(crate) async fn stopped(stopping: &mut watch::Receiver<bool>) {
 
 /// The caller of a request.
 pub(crate) fn caller<T>(request: &Request<T>) -> Result<&Caller, Fault> {
-    // `access::identify` has put it there, or the call has not come here.
+    // `access::identify` has put it there for every call that gets here.
     let caller = request.extensions().get::<Caller>();
     caller.ok_or_else(|| Fault::Internal("nobody knows who makes this call".into()))
 }

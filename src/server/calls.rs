@@ -1,5 +1,5 @@
 //! The table of calls, read from the descriptor set that reflection serves: whether a call takes, and is answered with,
-//! one message. Which role each call needs is in `access::roles`, from an option in the same set.
+//! one message. The role that each call needs is in `access::roles`, from an option in the same set.
 
 use crate::config::Config;
 use prost::Message as _;
@@ -65,7 +65,7 @@ pub fn is_upload(path: &str) -> bool {
     UPLOADS.contains(&path)
 }
 
-/// Bytes of the largest request: a file comes whole in one message, with a little around it.
+/// Bytes of the largest request: a file arrives whole in one message, with a few fields around it.
 pub fn largest_request(config: &Config) -> usize {
     config.max_clip_bytes.max(config.max_request_bytes) as usize + 65_536
 }

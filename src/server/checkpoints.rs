@@ -1,5 +1,5 @@
-//! Checkpoints as they are kept in memory and handed out: bytes with the physics of a world and what belongs to it on
-//! the server.
+//! Checkpoints as they are kept in memory and handed out: bytes with the physics of a world and its state on the
+//! server.
 //!
 //! ```text
 //!   magic 8 │ format u16 │ physics, with the server's part beside it
@@ -23,7 +23,7 @@ const HEADER: usize = 10;
 /// A state of a world as bytes.
 ///
 /// # Errors
-/// None for a world of this server.
+/// The state cannot be encoded; impossible for a world of this server.
 pub fn encode(capture: &Capture) -> Result<Vec<u8>, Fault> {
     let _timed = CheckpointTimer::new("encode");
     let failed = |e: &dyn std::fmt::Display| Fault::Internal(format!("writing a checkpoint: {e}"));
@@ -39,7 +39,8 @@ pub fn encode(capture: &Capture) -> Result<Vec<u8>, Fault> {
 /// The world that bytes describe. Slow: not on the thread of a tick.
 ///
 /// # Errors
-/// With `field` as their place in the request: they are no checkpoint, damaged, of another version or other numerics.
+/// The bytes, whose place in the request is `field`, are no checkpoint, damaged, or of another version or other
+/// numerics.
 pub fn decode(field: &str, bytes: &[u8]) -> Result<Scene, Fault> {
     let _timed = CheckpointTimer::new("decode");
     let lost = |message: String| Fault::DataLoss {
@@ -82,14 +83,14 @@ fn other_version(message: String) -> Fault {
     }
 }
 
-/// A checkpoint that is kept.
+/// A stored checkpoint.
 #[derive(Debug)]
 pub struct KeptCheckpoint {
     /// Last part of the name of its world.
     pub world: String,
     /// Last part of its name.
     pub id: String,
-    /// Tick and time (s) of the state.
+    /// Tick of the state.
     pub tick: u64,
     /// World time, s.
     pub time: f64,
@@ -99,11 +100,11 @@ pub struct KeptCheckpoint {
     pub bytes: Vec<u8>,
     /// When it was taken.
     pub created: SystemTime,
-    /// Who took it.
+    /// The client that took it.
     pub owner: ClientKey,
 }
 
-/// All checkpoints that are kept, by world and name.
+/// All stored checkpoints, by world and name.
 #[derive(Debug)]
 pub struct Checkpoints {
     all: Mutex<BTreeMap<(String, String), Arc<KeptCheckpoint>>>,
@@ -128,8 +129,8 @@ impl Checkpoints {
         self.all.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Keeps one, under a name that is free if `id` is empty, unless `there` says that its world is not there any more:
-    /// a world leaves before its checkpoints are forgotten, so none comes after that.
+    /// Keeps a checkpoint, under a free name if `id` is empty, unless `there` reports that its world is gone: a world
+    /// leaves before its checkpoints are forgotten, so none is added after that.
     ///
     /// # Errors
     /// The name is taken; there are too many, or too many bytes, of all or of this client; those of `there`.
@@ -179,7 +180,7 @@ impl Checkpoints {
         Ok(kept)
     }
 
-    /// One.
+    /// One checkpoint.
     ///
     /// # Errors
     /// There is none of that name.
@@ -194,7 +195,7 @@ impl Checkpoints {
         all.values().filter(|k| k.world == world).cloned().collect()
     }
 
-    /// Forgets one.
+    /// Forgets one checkpoint.
     ///
     /// # Errors
     /// There is none of that name.
@@ -205,7 +206,7 @@ impl Checkpoints {
         gone.map(drop).ok_or_else(|| missing(world, id))
     }
 
-    /// Forgets those of a world.
+    /// Forgets the checkpoints of a world.
     pub fn forget_world(&self, world: &str) {
         let mut all = self.all();
         all.retain(|_, k| k.world != world);
@@ -213,7 +214,7 @@ impl Checkpoints {
     }
 }
 
-/// Tells the metrics what is kept.
+/// Updates the metrics.
 fn tell(all: &BTreeMap<(String, String), Arc<KeptCheckpoint>>) {
     let bytes: usize = all.values().map(|k| k.bytes.len()).sum();
     metrics::gauge!("sinew_checkpoints").set(all.len() as f64);

@@ -1,4 +1,4 @@
-//! The demo world: people of different build lift the same crate.
+//! The demo world: people of different builds lift the same crate.
 
 use super::BoxError;
 use super::app::App;
@@ -21,11 +21,10 @@ const PEOPLE: [(&str, &str, f64); 3] = [
     ("child", "child", -1.15),
 ];
 
-/// Creates the world `demo` and returns who is in it: those of the man, the woman and the child that this build has
-/// bodies for.
+/// Creates the world `demo` and returns its figures: of man, woman and child, those for which this build has bodies.
 ///
 /// # Errors
-/// The world is there already, or a limit of the configuration is too small for it.
+/// The world exists already, or a limit of the configuration is too small for it.
 pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
     let settings = convert::world::settings(None)?;
     let world = app.worlds.create(
@@ -34,7 +33,7 @@ pub async fn create(app: &Arc<App>) -> Result<Vec<&'static str>, BoxError> {
         false,
         ("demo".into(), Vec::new()),
     )?;
-    // It is made again at each start.
+    // It is created again at each start, so it is not stored.
     world.stored.send_replace(Persisted::Never);
     let mut present = Vec::new();
     for (name, body, y) in PEOPLE {

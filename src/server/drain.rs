@@ -1,4 +1,4 @@
-//! How the server ends: it says so, lets what runs come to its end, writes down what there is, and goes.
+//! How the server ends: it announces the end, lets running work finish, writes its state to disk, and exits.
 
 use super::app::App;
 use super::edge::Edge;
@@ -21,7 +21,7 @@ pub(super) struct Drain {
 }
 
 impl Drain {
-    /// Ends everything once `shutdown` is there. When it returns, connections are to close.
+    /// Ends everything once `shutdown` completes. When it returns, connections should close.
     pub(super) async fn run(self, shutdown: impl Future<Output = ()>) {
         shutdown.await;
         let Self {
@@ -33,11 +33,11 @@ impl Drain {
         let config = &app.config;
         let seconds = Duration::from_secs_f64;
         tracing::info!("shutting down");
-        // Whoever looks after this server sees that it ends before it does.
+        // The announcement comes first, so that load balancers and supervisors see the end before it happens.
         app.worlds.refuse_new();
         health.end().await;
         tokio::time::sleep(seconds(config.lame_duck_s)).await;
-        // New requests are told to come again later, elsewhere. Streams end; calls may come to their end.
+        // New requests are told to try again later, elsewhere. Streams end; calls may finish.
         stop.send_replace(true);
         if !edge.finish(seconds(config.shutdown_grace_s)).await {
             tracing::warn!("calls were still worked on after the grace time");
@@ -50,7 +50,7 @@ impl Drain {
                 tracing::error!("the last states of worlds were not written within {WRITING:?}");
             }
         }
-        app.worlds.drain().await; // ticks end whole; waiting steps learn why
+        app.worlds.drain().await; // ticks finish; waiting steps learn the reason
         if let Some(persistence) = &app.persistence {
             persistence.close().await;
         }

@@ -1,5 +1,5 @@
-//! Messages that are kept as they go over the wire. Decoded, a message of many small ones takes many times as much
-//! memory, and every reader would need a copy of its own.
+//! Messages kept in their encoded form. Once decoded, a message made of many small ones takes many times as much
+//! memory, and every reader would need its own copy.
 
 use bytes::{Bytes, BytesMut};
 use prost::Message;
@@ -28,7 +28,7 @@ impl Encoded {
         }
     }
 
-    /// Bytes.
+    /// Number of bytes.
     pub fn len(&self) -> usize {
         self.len
     }
@@ -38,7 +38,7 @@ impl Encoded {
         self.len == 0
     }
 
-    /// With more fields of the same message behind it.
+    /// With more fields of the same message appended.
     #[must_use]
     pub fn then(mut self, more: Self) -> Self {
         self.len += more.len;
@@ -93,7 +93,7 @@ impl List {
         self.len += len;
     }
 
-    /// Bytes so far.
+    /// Number of bytes until now.
     pub fn len(&self) -> usize {
         self.len
     }
@@ -103,7 +103,7 @@ impl List {
         self.len == 0
     }
 
-    /// What was added.
+    /// The list as it was built.
     pub fn into_encoded(mut self) -> Encoded {
         // The last piece is rarely full.
         self.full.push(Bytes::copy_from_slice(&self.last));

@@ -1,7 +1,7 @@
-//! The only place of the server that builds and steps the physics: bodies, clips, worlds.
+//! The only place in the server that builds and steps the physics: bodies, clips, worlds.
 //!
-//! Everything else of the server goes through the types and functions that are named here, so that the seam between
-//! clock and physics is one file.
+//! The rest of the server goes through the types and functions named here, so that the seam between clock and physics
+//! is one file.
 
 use crate::workers::Turn;
 use sinew_physics::body::palm::load_point;
@@ -54,12 +54,12 @@ pub fn build_body(profile: sinew_physics::body::Profile) -> Result<Body, Fault> 
     })
 }
 
-/// A body as MuJoCo XML, its actuators as strong as the average person that the body stands for.
+/// A body as MuJoCo XML, with actuators as strong as the average person that the body represents.
 pub fn mjcf(body: &Body) -> String {
     sinew_physics::body::export::mjcf(body, &Strength::for_body(body).actuation())
 }
 
-/// A body as URDF, its joints as strong as the average person that the body stands for.
+/// A body as URDF, with joints as strong as the average person that the body represents.
 pub fn urdf(body: &Body) -> String {
     sinew_physics::body::export::urdf(body, &Strength::for_body(body).actuation())
 }
@@ -72,7 +72,8 @@ pub fn builtin(body: &Body, name: &str) -> Option<Clip> {
 /// Prepares a motion for a body. It is given up once `stop` says so.
 ///
 /// # Errors
-/// A problem of the file or its motion, with `field` as the place of the source in the request; the work was given up.
+/// A problem of the file or its motion, with `field` as the place of the source in the request; or the work was given
+/// up.
 pub fn prepare(
     field: &str,
     name: &str,
@@ -109,7 +110,7 @@ pub fn prepare(
     }
 }
 
-/// How a file is read, and how its motion is prepared.
+/// How to read a file, and how to prepare its motion.
 pub(super) fn options(
     name: &str,
     reading: &BvhReading,
@@ -133,7 +134,7 @@ pub(super) fn options(
 /// A clip of `body` from a recording. The clip keeps the place and heading of the recording.
 ///
 /// # Errors
-/// Input that cannot be used, with bone, frame or figure; the work was given up.
+/// Unusable input, with the bone, frame or figure; or the work was given up.
 pub fn retarget(
     name: &str,
     recording: &Recording,
@@ -145,7 +146,7 @@ pub fn retarget(
     let defaults = Preparation::default();
     let preparation = Preparation {
         lock_feet: reading.lock_feet.unwrap_or(defaults.lock_feet),
-        // Uploaded motions are simulated, and measured strength does not run.
+        // Uploaded motions are simulated, and measured strength is not enough for running.
         walk_runs: reading.walk_runs.unwrap_or(true),
         ..defaults
     };
@@ -169,7 +170,7 @@ pub fn standing(body: &Body, place: Place) -> Posture {
     }
 }
 
-/// Where a figure stands: pelvis over the ground and its heading.
+/// The place of a figure: its pelvis projected to the ground, and its heading.
 pub fn place_of(posture: &Posture) -> Place {
     Place {
         x: posture.root_position.x,
@@ -227,7 +228,7 @@ pub fn new_world(s: &WorldSettings) -> Result<World, Fault> {
     .map_err(|e| refused("world", &e))
 }
 
-/// Checks that a world with these settings would take a figure: a hidden one is made of it.
+/// Checks that a world with these settings would accept a figure, by adding a hidden one.
 ///
 /// # Errors
 /// The physics refuses the input.
@@ -240,7 +241,7 @@ pub fn check_figure(
     add_figure(&mut scratch, "figure", figure, body).map(|_| ())
 }
 
-/// Checks an obstacle; `new`: whether there is room for it, too.
+/// Checks an obstacle; `new`: also whether there is room for it.
 ///
 /// # Errors
 /// The physics refuses the input.
@@ -249,14 +250,14 @@ pub fn check_obstacle(world: &World, setup: &ObstacleSetup, new: bool) -> Result
     checked.map_err(|e| refused_obstacle(&e))
 }
 
-/// World time of the first frame of the clip that a figure plays at `time` (s), if it does: not before that, and not in
-/// the stand after it.
+/// World time of the first frame of the clip that a figure plays at `time` (s). `None` before that frame, and in the
+/// stand after the clip.
 pub fn playing_since(figure: &Figure, time: f64) -> Option<f64> {
     let Motion::Clip(play) = figure.drive() else {
         return None;
     };
     if figure.next_clip().is_some() {
-        return None; // it comes to a stand, or is on its way over
+        return None; // it is coming to a stand, or in a transition
     }
     let at = play.clip_time(time);
     let plays = at >= 0.0 && (play.looped || at <= play.clip.duration());
@@ -293,10 +294,10 @@ pub fn perturb(world: &mut World, key: FigureKey, p: Perturbation) -> Result<(),
         .map_err(|e| refused("perturbations", &e))
 }
 
-/// Checks a perturbation against others that a figure has or is about to get.
+/// Checks a perturbation against the others that a figure has or is about to get.
 ///
 /// # Errors
-/// It is a load that the other hand is to help with, and that hand holds one then.
+/// It is a load that the other hand is to help with, and that hand holds one at that time.
 pub fn check_beside<'a>(
     prefix: &str,
     p: &Perturbation,
@@ -308,12 +309,12 @@ pub fn check_beside<'a>(
     Ok(())
 }
 
-/// Room for perturbations that a figure has left.
+/// How many more perturbations a figure has room for.
 pub fn perturbation_room(figure: &Figure) -> usize {
     MAX_PERTURBATIONS.saturating_sub(figure.perturbations().count())
 }
 
-/// Puts a figure into a state. Speeds that no body reaches are cut.
+/// Puts a figure into a state. Speeds beyond those of any body are limited.
 pub fn reset(world: &mut World, key: FigureKey, mut state: State) -> Result<(), Fault> {
     const FASTEST: f64 = 200.0;
     for v in &mut state.velocity {
@@ -324,7 +325,7 @@ pub fn reset(world: &mut World, key: FigureKey, mut state: State) -> Result<(), 
         .map_err(|e| refused("figure", &e))
 }
 
-/// Changes strength, controller and its choices.
+/// Changes strength, controller and the controller's options.
 pub fn retune(
     world: &mut World,
     key: FigureKey,
@@ -373,7 +374,7 @@ pub fn set_constraints(
         .map_err(|e| refused("figure", &e))
 }
 
-/// The constraints that hold, at world time `now`.
+/// The constraints that are active at world time `now`.
 pub fn constraints(figure: &Figure, now: f64) -> Vec<ConstraintSettings> {
     let holds = figure.constraints().iter().filter(|c| c.to > now);
     holds
@@ -392,7 +393,7 @@ pub fn constraints(figure: &Figure, now: f64) -> Vec<ConstraintSettings> {
         .collect()
 }
 
-/// Where the numbers of a body and of its strength come from, by segment or DOF.
+/// The sources of the numbers of a body and of its strength, by segment or DOF.
 pub fn provenance(body: &Body) -> Vec<(&'static str, Provenance)> {
     let strength = Strength::for_body(body);
     let segments = (0..SEGMENT_COUNT).flat_map(|s| {
@@ -447,8 +448,8 @@ pub fn add_figure(
     Ok(key)
 }
 
-/// A clip that begins at a place at world time `start`; with its lead-in, which then is what begins there, if it is
-/// played from standing.
+/// A clip that begins at a place at world time `start`. When played from standing, it includes its lead-in, which then
+/// begins there.
 pub fn playback(
     clip: Arc<Clip>,
     start: f64,
@@ -470,7 +471,7 @@ pub fn playback(
     }
 }
 
-/// The transform that moves a motion which begins at `from` so that it begins at `to`.
+/// The transform that moves a motion beginning at `from` so that it begins at `to`.
 pub fn placing(from: Place, to: Place) -> PlanarTransform {
     let turn = PlanarTransform {
         x: 0.0,
@@ -541,7 +542,7 @@ pub fn perturbation(body: &Body, what: &Disturbance, from: f64) -> Perturbation 
     }
 }
 
-/// A figure's event in the words of the server. `name` knows what is touched.
+/// A figure's event in the terms of the server. `name` gives the name of a touched object.
 pub fn event_kind(e: &FigureEvent, name: impl Fn(Other) -> String) -> EventKind {
     let part = |o: Other| match o {
         Other::Figure(_, s) => Some(s),
@@ -582,15 +583,15 @@ pub fn event_kind(e: &FigureEvent, name: impl Fn(Other) -> String) -> EventKind 
     }
 }
 
-/// A figure after the tick of `dt` that began at world time `start`; its loads are those of that tick.
-/// `name`: what is touched, as it is called outside.
+/// A figure after the tick of `dt` that began at world time `start`; its loads are those of that tick. `name` gives the
+/// name of a touched object.
 pub fn snapshot(
     figure: &Figure,
     (start, dt): (f64, f64),
     applied: (i64, i64),
     name: impl Fn(Other) -> String,
 ) -> FigureSnapshot {
-    let soon = start + 1e-9 * dt; // as the physics has it: times on a tick boundary belong to that tick
+    let soon = start + 1e-9 * dt; // as in the physics: a time on a tick boundary belongs to the tick that it begins
     let report = figure.report();
     let touches = report.map_or(&[][..], |r| &r.touches);
     FigureSnapshot {

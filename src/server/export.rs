@@ -1,4 +1,4 @@
-//! Recordings as files: the recorded part is simulated again, tick by tick, and written as it goes.
+//! Recordings as files: the recorded part is simulated again, tick by tick, and written at the same time.
 
 use super::recordings::Recorded;
 use super::tick::replay::{Replay, ReplayError};
@@ -30,13 +30,13 @@ pub enum Format {
 /// Most frames of a BVH file: it is written at its end.
 const MAX_BVH_FRAMES: usize = 1_000_000;
 
-/// Takes pieces of the file with the ticks that are done: whether more is wanted.
+/// Takes pieces of the file with the number of ticks done; returns whether more is wanted.
 pub type Give<'a> = dyn FnMut(Vec<u8>, u64) -> bool + 'a;
 
-/// Writes a recording of the world `world`. It is given up once `stop` says so, or `give` does.
+/// Writes a recording of the world `world`. It is given up once `stop` or `give` asks for that.
 ///
 /// # Errors
-/// A state is not the one that was recorded; there is no such figure; it was given up.
+/// A state differs from the recorded one; there is no such figure; or it was given up.
 pub fn export(
     world: &str,
     recorded: &Recorded,
@@ -103,13 +103,13 @@ pub fn export(
 trait FileWriter {
     /// Takes the state after a tick.
     fn tick(&mut self, scene: &Scene) -> Result<(), Fault>;
-    /// The bytes that can be handed out.
+    /// The bytes that can be handed out now.
     fn take(&mut self) -> Vec<u8>;
     /// The rest at the end.
     fn finish(self: Box<Self>) -> Result<Vec<u8>, Fault>;
 }
 
-/// Bytes that are handed out in order, as they come.
+/// Bytes that are handed out in the order in which they were written.
 #[derive(Clone, Default)]
 struct SharedBytes(Arc<Mutex<Vec<u8>>>);
 
@@ -231,7 +231,7 @@ impl FileWriter for Mcap {
     }
 }
 
-/// The figure that a file is about: by its name, or the first one that there was.
+/// The figure that a file is about: by its name, or else the first one.
 fn chosen<'a>(
     wanted: &mut Option<String>,
     scene: &'a Scene,

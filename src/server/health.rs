@@ -1,7 +1,7 @@
-//! The answers to probes over `grpc.health.v1`. `/livez` and `/readyz` say the same.
+//! The answers to probes over `grpc.health.v1`. `/livez` and `/readyz` answer the same.
 //!
-//! The empty name and `readiness` say whether new clients are welcome; `liveness` whether the process answers; the name
-//! of a service whether that one does.
+//! The empty name and `readiness` report whether new clients are welcome; `liveness` whether the process answers; the
+//! name of a service whether that service does.
 
 use super::api;
 use super::app::App;
@@ -13,12 +13,12 @@ use tonic_health::server::HealthReporter;
 pub const LIVENESS: &str = "liveness";
 /// New clients are welcome.
 pub const READINESS: &str = "readiness";
-/// Names that say whether new clients are welcome.
+/// Names that report whether new clients are welcome.
 const READY: [&str; 2] = ["", READINESS];
-/// How often readiness is looked at.
+/// Interval at which readiness is checked.
 const EVERY: Duration = Duration::from_millis(250);
 
-/// Tells the health service.
+/// Updates the health service.
 #[derive(Clone)]
 pub(super) struct Health(HealthReporter);
 
@@ -52,7 +52,7 @@ impl Health {
         }
     }
 
-    /// Nothing serves for long any more. The server must say that it is not ready before.
+    /// Reports that no service will serve for much longer. The server must have reported before that it is not ready.
     pub(super) async fn end(&self) {
         self.set(&READY, NotServing).await;
         self.set(&api::SERVICE_NAMES, NotServing).await;

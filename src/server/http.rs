@@ -101,7 +101,7 @@ async fn status_page(
     headers: HeaderMap,
 ) -> Response {
     let mut rows = String::new();
-    // Names are shown to those who may watch.
+    // Only callers that may watch the world see its name.
     let peer = peer.as_deref().map(|p| &**p);
     let known = app.access.identity(&headers, peer).await.ok();
     let seen = |w: &WorldHandle| {

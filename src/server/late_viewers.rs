@@ -1,4 +1,4 @@
-//! Frames of the past that are worked out for viewers who join late, and the bound on them.
+//! Frames of the past that are computed for viewers that join late, and the bound on them.
 
 use crate::tick::journal::JournalSegment;
 use crate::tick::replay::{Replay, ReplayError};
@@ -9,12 +9,12 @@ use sinew_wire::types::{RosterEntry, Snapshot};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
-/// Frames of figures that are worked out ahead of a viewer.
+/// Frames, each of one figure, that are computed ahead of a viewer.
 const AHEAD: usize = 256;
 /// Ticks at a time, at most.
 const MOST_TICKS: usize = 64;
-/// Viewers for which something is kept, at most: those that have read last. Frames of others are worked out again when
-/// they continue reading, so one that never reads costs nothing for long.
+/// Most viewers for which something is kept: those that have read last. Frames of others are computed again when they
+/// continue reading, so one that never reads costs nothing for long.
 const KEPT: usize = 16;
 
 /// Frames and work that are kept for a viewer between two of its reads.
@@ -34,7 +34,7 @@ pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 pub struct LateViewers(Mutex<VecDeque<Weak<Mutex<KeptForViewer>>>>);
 
 impl LateViewers {
-    /// Notes that a viewer reads; what is kept for the one that has not for the longest is let go.
+    /// Notes that a viewer reads, and drops what is kept for the viewer that has not read for the longest.
     pub(crate) fn reads(&self, kept: &Arc<Mutex<KeptForViewer>>) {
         let mut all = locked(&self.0);
         all.retain(|k| k.strong_count() > 0 && !Weak::ptr_eq(k, &Arc::downgrade(kept)));
@@ -47,19 +47,19 @@ impl LateViewers {
     }
 }
 
-/// A part of the past that is being done again.
+/// A part of the past that is being simulated again.
 pub(crate) struct ReplayWork {
     pub replay: Option<Replay>,
     pub past: Vec<Arc<JournalSegment>>,
     /// Its last tick.
     pub until: u64,
-    /// Of the last frame.
+    /// Roster of the last frame.
     pub roster: Option<Arc<[RosterEntry]>>,
     pub version: i32,
 }
 
 impl ReplayWork {
-    /// Does the next ticks, from tick `from` on.
+    /// Simulates the next ticks, from tick `from` on.
     pub(crate) fn go_on(
         mut self,
         world: &Arc<str>,
@@ -71,7 +71,7 @@ impl ReplayWork {
             Some(replay) => replay,
             None => Replay::of(&self.past)?,
         };
-        // Segments that are done are let go.
+        // Segments that are done are dropped.
         let now = replay.scene.world().tick();
         let done = self.past.partition_point(|s| s.start.tick() < now);
         self.past.drain(..done.saturating_sub(1));
@@ -98,7 +98,7 @@ impl ReplayWork {
         if begins && now == from {
             each(&replay.scene);
         }
-        // Those behind it have their turn later.
+        // The segments after it have their turn later.
         let begun = self.past.partition_point(|s| s.start.tick() <= until);
         let done = replay.through_past(&self.past[..begun], until, &mut each);
         match done {

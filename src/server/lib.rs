@@ -68,14 +68,14 @@ const HTTP2_FRAME: u32 = 16 * 1024;
 const HEADER_LIST: u32 = 16 * 1024;
 /// Streams that were reset and not yet forgotten, per connection (rapid reset).
 const RESET_STREAMS: usize = 32;
-/// Streams of one connection that the server resets because the other side broke the protocol on them; one more ends
+/// Streams of one connection that the server resets because the other side violated the protocol on them; one more ends
 /// the connection ("made you reset"). tonic's own default is no limit.
 const BROKEN_STREAMS: usize = 64;
 /// Different ages at which connections are asked to close.
 const AGES: usize = 8;
 
-/// Serves until `shutdown` completes, then says so for the lame-duck time, ends streams, lets calls and ticks come to
-/// their end, writes down the states of worlds and closes connections.
+/// Serves until `shutdown` completes. Then it announces the end for the lame-duck time, ends streams, lets calls and
+/// ticks finish, writes the states of worlds to disk and closes connections.
 ///
 /// # Errors
 /// The built-in data cannot be prepared, or the listener fails.
@@ -115,9 +115,9 @@ pub async fn serve(
     routes
         .add_service(health_service)
         .add_service(described().build_v1()?)
-        .add_service(described().build_v1alpha()?); // what ghz and other older tools ask for
+        .add_service(described().build_v1alpha()?); // ghz and other older tools ask for this one
     api::add_services(&mut routes, &app);
-    // tonic's own fallback would answer for the pages below.
+    // Without this, tonic's own fallback would answer for the pages below.
     let edge = edge::Edge::new(&config);
     let grpc = routes
         .routes()

@@ -39,7 +39,7 @@ impl Bodies {
         }
     }
 
-    /// The body of a reference, built if need be; `field` is where the profile stands in the request.
+    /// The body of a reference, built if necessary; `field` is the place of the profile in the request.
     ///
     /// # Errors
     /// The tables do not cover the profile.
@@ -50,7 +50,7 @@ impl Bodies {
         let built = Arc::new(engine::build_body(body.profile).map_err(|f| f.within(field))?);
         let mut held = locked(&self.held);
         if held.len() >= self.most {
-            // Figures keep theirs; one that nobody uses is built again when it is asked for.
+            // Figures keep theirs; an unused body is built again on request.
             held.retain(|id, b| Arc::strong_count(b) > 1 || NAMED.iter().any(|n| n.0 == id));
         }
         if held.len() < self.most {
@@ -83,8 +83,8 @@ impl Bodies {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Manner {
     repeats: bool,
-    /// Times as fast as recorded, in steps of 1/[`TEMPO_STEPS`]: what is left is a change of speed that balance does
-    /// not feel.
+    /// How many times as fast as recorded, in steps of 1/[`TEMPO_STEPS`]: the remaining change of speed is too small to
+    /// affect balance.
     tempo: u32,
 }
 
@@ -97,7 +97,7 @@ impl Manner {
         Self::paced(repeats, 1.0)
     }
 
-    /// The nearest tempo to `speed` that a recording is prepared for.
+    /// The tempo nearest to `speed` for which a recording is prepared.
     fn paced(repeats: bool, speed: f64) -> Self {
         let tempo = (speed.clamp(TEMPI.0, TEMPI.1) * TEMPO_STEPS).round() as u32;
         Self { repeats, tempo }
@@ -110,14 +110,14 @@ impl Manner {
 
 /// A stored motion.
 struct StoredClip {
-    /// Which of all that have had its name it is.
+    /// Tells it from all others that have had its name.
     number: u64,
     info: ClipInfo,
     source: Option<MotionSource>,
     bytes: u64,
     /// Prepared for bodies by the last parts of their names.
     prepared: Mutex<HashMap<(String, Manner), Arc<Clip>>>,
-    /// Rehearsed for figures, the latest last.
+    /// Rehearsed for figures, in order of age, the latest last.
     rehearsed: Mutex<Vec<Arc<Rehearsed>>>,
 }
 
@@ -128,9 +128,9 @@ pub struct NewClip {
     pub id: Option<String>,
     /// Name for people.
     pub display_name: String,
-    /// Its owner; `None`: everybody.
+    /// Its owner; `None`: it belongs to all callers.
     pub owner: Option<Arc<str>>,
-    /// How far it may go so that a figure keeps to it.
+    /// How far the motion may be changed so that a figure can follow it.
     pub follow: FollowSettings,
 }
 
@@ -141,22 +141,22 @@ pub struct Clips {
     share: f64,
     held: Mutex<BTreeMap<String, Arc<StoredClip>>>,
     next: AtomicU64,
-    /// Clips so far.
+    /// Clips created until now.
     count: AtomicU64,
 }
 
 /// Bytes of a prepared frame: posture, velocity and acceleration.
 const FRAME_BYTES: u64 = (size_of::<Posture>() + 2 * 45 * 8 + 8) as u64;
-/// Figures that one clip is kept rehearsed for.
+/// Most figures for which rehearsals of one clip are kept.
 const MAX_REHEARSED: usize = 16;
-/// Bodies and manners that one clip is kept prepared for.
+/// Most combinations of body and manner for which one clip is kept prepared.
 const MAX_PREPARED: usize = 16;
 
 impl Clips {
     /// The built-in clips.
     ///
     /// # Errors
-    /// A built-in clip cannot be made for the adult man: a mistake of the program.
+    /// A built-in clip cannot be made for the adult man: a bug in the program.
     pub fn new(config: &Config, bodies: &Bodies) -> Result<Self, Fault> {
         let reference = by_id("adult-man").ok_or_else(|| Fault::not_found("body", "adult-man"))?;
         let body = bodies.get("body", &reference)?;
@@ -226,7 +226,7 @@ impl Clips {
             });
         }
         if new.owner.is_some() {
-            // One of many leaves room for the others, in number and in bytes.
+            // One owner among many leaves room for the others, in number and in bytes.
             let own = held.values().filter(|s| s.info.owner == new.owner);
             let (count, used) = own.fold((0, bytes), |(n, b), s| (n + 1, b + s.used()));
             check_part("max_clips", count, self.most, self.share)?;
@@ -235,7 +235,7 @@ impl Clips {
         self.space(held, bytes)
     }
 
-    /// Makes room for so many bytes, if need be by forgetting preparations that nobody plays.
+    /// Makes room for these bytes, if necessary by forgetting preparations that no figure plays.
     fn space(&self, held: &BTreeMap<String, Arc<StoredClip>>, bytes: u64) -> Result<(), Fault> {
         let fits = || held.values().map(|s| s.used()).sum::<u64>() + bytes <= self.most_bytes;
         if !fits() {
@@ -254,7 +254,7 @@ impl Clips {
         })
     }
 
-    /// Refuses early what would be refused in the end, before any work is done.
+    /// Refuses early a clip that would be refused in the end, before any work is done.
     ///
     /// # Errors
     /// The name is taken or there is no room.
@@ -262,7 +262,7 @@ impl Clips {
         self.room(&locked(&self.held), new, source_bytes(source))
     }
 
-    /// The name of a new clip, one that is free if none is given.
+    /// The name of a new clip, or a free one if none is given.
     fn free_id(&self, held: &BTreeMap<String, Arc<StoredClip>>, new: &NewClip) -> String {
         new.id.clone().unwrap_or_else(|| {
             loop {
@@ -308,10 +308,10 @@ impl Clips {
         Ok((info, clip))
     }
 
-    /// The clip that [`Self::create`] would store. As slow.
+    /// The clip that [`Self::create`] would store. Equally slow.
     ///
     /// # Errors
-    /// Its own.
+    /// Same as [`Self::create`].
     pub fn would_create(
         &self,
         new: &NewClip,
@@ -327,7 +327,7 @@ impl Clips {
     }
 
     /// Stores a motion, prepared for one body. Slow: not on an async thread. It is given up once `stop` says so.
-    /// `stored` learns of it before anybody can see it.
+    /// `stored` learns of it before any caller can see it.
     ///
     /// # Errors
     /// The file is bad, the name is taken, there is no room, or it was given up; those of `stored`. Nothing is stored
@@ -372,7 +372,7 @@ impl Clips {
         Ok(info)
     }
 
-    /// Takes a clip back that was stored before. It is prepared when it is played.
+    /// Brings back a clip that was stored before. It is prepared when it is played.
     ///
     /// # Errors
     /// The name is taken or there is no room.
@@ -416,10 +416,10 @@ impl Clips {
         Ok(())
     }
 
-    /// Works out the report and the forecast of a clip that was taken back. Slow: not on an async thread.
+    /// Computes the report and the forecast of a clip that was brought back. Slow: not on an async thread.
     ///
     /// # Errors
-    /// There is none of that name, it cannot be prepared any more, or it was given up.
+    /// There is none of that name, it can no longer be prepared, or it was given up.
     pub fn complete(&self, id: &str, body: &Body, stop: &dyn Fn() -> bool) -> Result<(), Fault> {
         let stored = self.stored(id)?;
         let Some(source) = stored.source.clone() else {
@@ -433,7 +433,7 @@ impl Clips {
             ..stored.info.clone()
         };
         let mut held = locked(&self.held);
-        // It may have been deleted, and another one of its name created.
+        // It may have been deleted, and another clip of its name created.
         if held.get(id).is_some_and(|now| Arc::ptr_eq(now, &stored)) {
             let key = (info.body.clone(), Manner::recorded(false));
             let mut prepared = locked(&stored.prepared).clone();
@@ -477,7 +477,7 @@ impl Clips {
     /// Forgets a clip. `gone` learns of it before its name is free.
     ///
     /// # Errors
-    /// There is none of that name, or it comes with the server; those of `gone`, and then it stays.
+    /// There is none of that name, or it is built in; or `gone` fails, and then the clip stays.
     pub fn delete(
         &self,
         id: &str,
@@ -500,9 +500,9 @@ impl Clips {
         }
     }
 
-    /// What a clip that is to be played at `speed` is prepared for, and the speed at which it is played then: a
-    /// recording is prepared for the pace it gets, because what balances at one pace falls at another; what is made of
-    /// postures or built in is played faster or slower as it is.
+    /// The manner in which a clip to be played at `speed` is prepared, and the speed at which it is then played. A
+    /// recording is prepared for its actual pace, because a motion that balances at one pace falls at another. A clip
+    /// made of postures, or a built-in one, is played faster or slower as it is.
     ///
     /// # Errors
     /// There is none of that name.
@@ -552,7 +552,7 @@ impl Clips {
         self.keep(&stored, key, Arc::new(clip))
     }
 
-    /// Keeps what was prepared. All that is held is counted, also what only a figure plays.
+    /// Keeps a prepared clip. All held bytes count, including those that only a figure still plays.
     fn keep(
         &self,
         stored: &StoredClip,
@@ -563,7 +563,7 @@ impl Clips {
         self.space(&held, clip_bytes(&clip))?;
         let mut prepared = locked(&stored.prepared);
         if prepared.len() >= MAX_PREPARED {
-            // Figures keep theirs; one that nobody plays is prepared again when it is asked for.
+            // Figures keep theirs; a clip that no figure plays is prepared again on request.
             prepared.retain(|_, c| Arc::strong_count(c) > 1);
         }
         Ok(prepared.entry(key).or_insert(clip).clone())
@@ -576,11 +576,11 @@ impl Clips {
     pub fn memory(&self, id: &str) -> Result<u64, Fault> {
         let stored = self.stored(id)?;
         let file = stored.source.as_ref().map_or(0, source_bytes);
-        // A number takes at least two bytes in a file, and eight when it is read.
+        // A number takes at least two bytes in a file, and eight once it is read.
         Ok(4 * file + SAMPLE_BYTES * stored.info.frames as u64)
     }
 
-    /// The source that a clip is rehearsed from.
+    /// The source from which a clip is rehearsed.
     ///
     /// # Errors
     /// There is none of that name.
@@ -593,7 +593,7 @@ impl Clips {
         })
     }
 
-    /// True while the clip is there of which this was the score.
+    /// Whether the clip of which this was the score still exists.
     pub fn holds(&self, score: &Score) -> bool {
         let stored = self.stored(&score.id);
         stored.is_ok_and(|s| s.number == score.number)
@@ -603,11 +603,11 @@ impl Clips {
         1 + self.count.fetch_add(1, Ordering::Relaxed)
     }
 
-    /// Keeps a rehearsal of a clip, in the place of one for the same figure, or else of the oldest if there are too
-    /// many. Returns those.
+    /// Keeps a rehearsal of a clip. It replaces one for the same figure, or else the oldest if there are too many.
+    /// Returns the replaced ones.
     ///
     /// # Errors
-    /// The clip is there no more, or there is no room.
+    /// The clip no longer exists, or there is no room.
     pub fn keep_rehearsed(
         &self,
         score: &Score,
@@ -653,8 +653,8 @@ impl Clips {
 }
 
 impl StoredClip {
-    /// Bytes of the file and of what was prepared from it. What is prepared twice by accident of time, or repeats the
-    /// same frames, is counted as often.
+    /// Bytes of the file and of everything prepared from it. Clips that were prepared twice by coincidence, or that
+    /// repeat the same frames, are counted each time.
     fn used(&self) -> u64 {
         let prepared = locked(&self.prepared);
         let rehearsed = locked(&self.rehearsed);
@@ -735,7 +735,7 @@ mod tests {
             assert_eq!(manner, Manner::recorded(true));
             assert_eq!(left, speed);
         }
-        // However many paces are asked for, the memory is bounded, and what a figure plays stays.
+        // However many paces are requested, the memory is bounded, and a clip that a figure plays stays.
         let (played, _) = clips.manner("w", false, 1.2).unwrap();
         let held = clips
             .prepared("w", &man.id, &body, played, &|| false)

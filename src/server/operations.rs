@@ -1,4 +1,4 @@
-//! Long work that goes on whether or not somebody waits for it, kept in memory with what came of it.
+//! Long work that continues whether or not a client waits for it, kept in memory with its result.
 
 use crate::progress::WorkProgress;
 use crate::shares::part;
@@ -11,23 +11,23 @@ use std::time::{Duration, SystemTime};
 use tokio::sync::watch;
 use tokio::task::AbortHandle;
 
-/// How far an operation is.
+/// Progress of an operation.
 #[derive(Debug)]
 pub enum OperationState<T> {
-    /// It waits for its turn or is worked on.
+    /// It waits for its turn or is being worked on.
     Going,
     /// It has ended.
     Ended {
-        /// When.
+        /// End time.
         at: SystemTime,
-        /// What came of it; `None`: it was given up.
+        /// The result; `None`: it was given up.
         outcome: Option<Result<Arc<T>, Fault>>,
-        /// Bytes of that.
+        /// Bytes of the result.
         bytes: u64,
     },
 }
 
-// Derived, this would ask the result to be `Clone`, too.
+// A derived `Clone` would require the result to be `Clone`, too.
 impl<T> Clone for OperationState<T> {
     fn clone(&self) -> Self {
         match self {
@@ -48,11 +48,11 @@ pub struct Operation<T> {
     pub number: u64,
     /// Last part of its name.
     pub id: String,
-    /// Who started it.
+    /// The principal that started it.
     pub principal: Arc<str>,
-    /// When.
+    /// Creation time.
     pub created: SystemTime,
-    /// How far its work is.
+    /// Progress of its work.
     pub progress: WorkProgress,
     state: watch::Sender<OperationState<T>>,
     work: Mutex<Option<AbortHandle>>,
@@ -74,7 +74,7 @@ pub struct OperationLimits {
     pub share: f64,
     /// Bytes of results (`max_operation_bytes`).
     pub bytes: u64,
-    /// How long one that has ended is kept.
+    /// How long an operation that has ended is kept.
     pub ttl: Duration,
 }
 
@@ -86,7 +86,7 @@ struct HeldOperations<T> {
 }
 
 impl<T> Operation<T> {
-    /// How far it is.
+    /// Its progress.
     pub fn state(&self) -> OperationState<T> {
         self.state.borrow().clone()
     }
@@ -96,7 +96,7 @@ impl<T> Operation<T> {
         matches!(*self.state.borrow(), OperationState::Ended { .. })
     }
 
-    /// Waits until it has.
+    /// Waits until it has ended.
     pub async fn ended(&self) {
         let ended = |state: &OperationState<T>| matches!(state, OperationState::Ended { .. });
         // The sender lives in this operation.
@@ -110,7 +110,7 @@ impl<T> Operation<T> {
         }
     }
 
-    /// Notes the end; the first one counts.
+    /// Notes the end. Only the first one counts.
     fn end(&self, outcome: Option<Result<T, Fault>>, bytes: u64) {
         self.state.send_if_modified(|state| {
             let going = matches!(state, OperationState::Going);
@@ -130,7 +130,7 @@ impl<T> Operation<T> {
         self.end(None, 0);
         let work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(work) = &*work {
-            work.abort(); // what it waits for notices that nobody waits any more
+            work.abort(); // the awaited future notices that nothing waits for it any more
         }
     }
 }
@@ -148,7 +148,7 @@ impl<T: Send + Sync + 'static> Operations<T> {
         })
     }
 
-    /// What is held, without what has expired.
+    /// The held operations, without the expired ones.
     fn lock(&self) -> MutexGuard<'_, HeldOperations<T>> {
         // Entries are whole.
         let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
@@ -162,10 +162,10 @@ impl<T: Send + Sync + 'static> Operations<T> {
         held
     }
 
-    /// Starts an operation. `size` says how many bytes its result takes.
+    /// Starts an operation. `size` returns the number of bytes of its result.
     ///
     /// # Errors
-    /// There are too many that go on.
+    /// Too many are still running.
     pub fn start<W>(
         self: &Arc<Self>,
         principal: Arc<str>,
@@ -239,17 +239,17 @@ impl<T: Send + Sync + 'static> Operations<T> {
         found.ok_or_else(|| Fault::not_found("operation", OPERATION.name([id])))
     }
 
-    /// Those of a principal, in the order they were started.
+    /// Those of a principal, in the order in which they were started.
     pub fn list(&self, principal: &str) -> Vec<Arc<Operation<T>>> {
         let held = self.lock();
         let mine = held.all.values().filter(|o| *o.principal == *principal);
         mine.cloned().collect()
     }
 
-    /// Forgets one that has ended.
+    /// Forgets an operation that has ended.
     ///
     /// # Errors
-    /// There is none of that name, or it goes on.
+    /// There is none of that name, or it is still running.
     pub fn delete(&self, principal: &str, id: &str) -> Result<(), Fault> {
         let operation = self.get(principal, id)?;
         if !operation.has_ended() {
@@ -265,7 +265,7 @@ impl<T: Send + Sync + 'static> Operations<T> {
 }
 
 impl<T> HeldOperations<T> {
-    /// Makes room for one more of a principal by forgetting the oldest that have ended.
+    /// Makes room for one more operation of a principal by forgetting the oldest that have ended.
     fn make_room(&mut self, limits: &OperationLimits, principal: &str) -> Result<(), Fault> {
         let own = part(limits.most, limits.share);
         for (most, whose) in [(own, Some(principal)), (limits.most, None)] {
@@ -288,15 +288,15 @@ impl<T> HeldOperations<T> {
         Ok(())
     }
 
-    /// Makes room for so many bytes of a principal: always the oldest result is forgotten of whoever has the most, the
-    /// new one included. So nobody loses what is within an equal share of all.
+    /// Makes room for a number of bytes of a principal. The oldest result of the principal with the most bytes is
+    /// always forgotten first, counting the new one. So no principal loses a result within an equal share of all.
     fn free(&mut self, principal: &Arc<str>, bytes: u64, most: u64) -> Result<(), Fault> {
         let mut used = BTreeMap::from([(principal.clone(), bytes)]);
         for o in self.all.values() {
             *used.entry(o.principal.clone()).or_default() += o.bytes();
         }
         while used.values().sum::<u64>() > most {
-            // Of those with as much, the one that the room is for.
+            // Among principals with equal bytes, the one that needs the room.
             let all = used.iter_mut();
             let largest = all.max_by_key(|(p, used)| (**used, *p == principal));
             let oldest = largest.and_then(|(whose, used)| {
@@ -421,7 +421,7 @@ mod tests {
         assert!(all.get("ann", &bobs.id).is_err());
         assert!(all.delete("ann", &bobs.id).is_err());
         assert_eq!(all.list("ann").len(), 4);
-        // Of those that have ended the oldest makes room.
+        // The oldest one that has ended makes room.
         for _ in 0..6 {
             let o = all.start("bob".into(), text, size).unwrap();
             o.ended().await;
@@ -440,7 +440,7 @@ mod tests {
             o
         };
         let bobs = start("bob", 10).await;
-        // However much one has made, those of another are kept.
+        // However many results one principal has, those of another are kept.
         for _ in 0..20 {
             start("ann", 30).await;
         }
@@ -451,7 +451,7 @@ mod tests {
             start("bob", 15).await;
         }
         assert_eq!((all.list("ann").len(), all.list("bob").len()), (1, 5));
-        // What has room neither in its own share nor in what others have beyond theirs is refused.
+        // A result is refused if it fits neither in its own share nor in the excess of others over theirs.
         let large = start("ann", 71).await;
         assert_eq!(
             outcome(&large).unwrap().unwrap_err().reason(),

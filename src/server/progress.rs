@@ -1,13 +1,13 @@
-//! How far long work is, for those who watch it.
+//! Progress of long work, for its watchers.
 
 use tokio::sync::watch;
 
-/// Least change that is told.
+/// Least change that is reported.
 const STEP: f64 = 0.01;
-/// What is told at most before the end.
+/// Largest value reported before the end.
 const NEARLY: f64 = 0.99;
 
-/// How far a piece of work is: nothing while it waits for its turn, then a share of 0…1.
+/// Progress of a piece of work: nothing while it waits for its turn, then a share of 0…1.
 #[derive(Clone, Debug)]
 pub struct WorkProgress(watch::Sender<Option<f64>>);
 
@@ -18,7 +18,7 @@ impl Default for WorkProgress {
 }
 
 impl WorkProgress {
-    /// So much is done, of all that there is to do. It never goes back.
+    /// Reports that `done` of `all` is done. The share never decreases.
     pub fn tell(&self, done: f64, all: f64) {
         let share = if all > 0.0 { done / all } else { 0.0 };
         let share = share.clamp(0.0, NEARLY);
@@ -31,7 +31,7 @@ impl WorkProgress {
         });
     }
 
-    /// Follows it.
+    /// Follows the progress.
     pub fn watch(&self) -> watch::Receiver<Option<f64>> {
         self.0.subscribe()
     }

@@ -1,4 +1,4 @@
-//! Recordings of worlds: parts of their past that are kept, in memory, and written as files on demand.
+//! Recordings of worlds: parts of their past, kept in memory and written as files on demand.
 
 use super::shares::{ClientKey, check_part};
 use super::tick::journal::{Journal, JournalSegment, Pin, PinEnd};
@@ -14,7 +14,7 @@ pub struct KeptRecording {
     pub world: String,
     /// Last part of its name.
     pub id: String,
-    /// When it was begun.
+    /// Creation time.
     pub created: SystemTime,
     owner: ClientKey,
     journal: Arc<Journal>,
@@ -26,11 +26,11 @@ pub struct KeptRecording {
 pub struct Recorded {
     /// First tick and last.
     pub ticks: (u64, u64),
-    /// What it takes, bytes.
+    /// Its size, bytes.
     pub bytes: u64,
-    /// Why it has ended.
+    /// Reason for its end.
     pub end: Option<PinEnd>,
-    /// What is kept.
+    /// The recorded segments.
     pub segments: Vec<Arc<JournalSegment>>,
 }
 
@@ -52,13 +52,13 @@ impl KeptRecording {
     }
 }
 
-/// What is stored of a recording: that it is there, whose it is, and of what. The past itself is in the log.
+/// The stored part of a recording: its existence, its owner and its range. The past itself is in the log.
 #[derive(Clone, PartialEq, prost::Message)]
 pub struct StoredRecording {
     /// Last part of its name.
     #[prost(string, tag = "1")]
     pub id: String,
-    /// Who began it.
+    /// The client that began it.
     #[prost(string, tag = "2")]
     pub owner: String,
     /// Its first tick.
@@ -67,16 +67,16 @@ pub struct StoredRecording {
     /// Its last tick, once it has ended.
     #[prost(uint64, optional, tag = "4")]
     pub last: Option<u64>,
-    /// Why it has ended, as it is told.
+    /// The reason for its end, by name.
     #[prost(string, tag = "5")]
     pub end: String,
-    /// When it was begun, ms since 1970.
+    /// Creation time, ms since 1970.
     #[prost(uint64, tag = "6")]
     pub created_ms: u64,
 }
 
 impl KeptRecording {
-    /// As it is stored.
+    /// Its stored form.
     fn stored(&self) -> StoredRecording {
         let end = self.pin.end();
         let created = self.created.duration_since(SystemTime::UNIX_EPOCH);
@@ -91,7 +91,7 @@ impl KeptRecording {
     }
 }
 
-/// What it is called that a recording has ended.
+/// The name of a reason for the end of a recording.
 pub fn end_name(end: PinEnd) -> &'static str {
     match end {
         PinEnd::Stopped => "STOPPED",
@@ -101,7 +101,7 @@ pub fn end_name(end: PinEnd) -> &'static str {
     }
 }
 
-/// The end of that name.
+/// The reason of that name.
 fn end_of(name: &str) -> Option<PinEnd> {
     use PinEnd::{Full, Lost, Restored, Stopped};
     let all = [Stopped, Full, Restored, Lost];
@@ -117,21 +117,21 @@ pub struct Recordings {
     share: f64,
 }
 
-/// A recording that is to be begun.
+/// A recording to begin.
 #[derive(Debug)]
 pub struct NewRecording {
     /// Last part of the name of its world.
     pub world: String,
-    /// Last part of its name; `None`: one that is free.
+    /// Last part of its name; `None`: a free one.
     pub id: Option<String>,
-    /// Tick to begin with; `None`: now.
+    /// First tick; `None`: now.
     pub first: Option<u64>,
-    /// Who begins it.
+    /// The client that begins it.
     pub owner: ClientKey,
 }
 
 impl Recordings {
-    /// None yet, and at most so many, of so many bytes each; one client may have `share` of them.
+    /// None yet. At most `most` recordings of `most_bytes` each; one client may have `share` of them.
     pub fn new(most: u64, most_bytes: u64, share: f64) -> Self {
         Self {
             all: Mutex::default(),
@@ -141,7 +141,7 @@ impl Recordings {
         }
     }
 
-    /// Bytes of one of them, at most.
+    /// Most bytes of one recording.
     pub fn most_bytes(&self) -> u64 {
         self.most_bytes
     }
@@ -151,11 +151,11 @@ impl Recordings {
         self.all.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Begins one, unless `there` says that its world is not there any more: a world leaves before its recordings are
-    /// forgotten, so none comes after that.
+    /// Begins a recording, unless `there` reports that its world is gone: a world leaves before its recordings are
+    /// forgotten, so none is added after that.
     ///
     /// # Errors
-    /// The name is taken, there are too many, of all or of this client, or the tick is not held; those of `there`.
+    /// The name is taken, there are too many, of all or of this client, or the tick is not held; or `there` fails.
     pub fn start(
         &self,
         journal: Arc<Journal>,
@@ -200,12 +200,12 @@ impl Recordings {
         Ok(recording)
     }
 
-    /// Recordings of a world as they are stored, by name.
+    /// Recordings of a world in stored form, by name.
     pub fn stored(&self, world: &str) -> Vec<StoredRecording> {
         self.of_world(world).iter().map(|r| r.stored()).collect()
     }
 
-    /// Brings one back that was stored, with what is left of its past, of a world that goes on at tick `now`.
+    /// Brings back a stored recording, with the remaining part of its past, of a world that continues at tick `now`.
     pub fn bring_back(
         &self,
         journal: &Arc<Journal>,
@@ -221,7 +221,7 @@ impl Recordings {
             first == stored.first && reached.is_some_and(|r| r >= stored.last.unwrap_or(now));
         let end = match (end_of(&stored.end), whole) {
             (end, true) => end,
-            // What is there of one that goes on leads up to now.
+            // If the recording continues, the remaining part leads up to now.
             (None, false) if reached == Some(now) => None,
             (_, false) => Some(PinEnd::Lost),
         };
@@ -250,7 +250,7 @@ impl Recordings {
         self.all().insert((world.to_owned(), stored.id), recording);
     }
 
-    /// One.
+    /// One recording.
     ///
     /// # Errors
     /// There is none of that name.
@@ -265,7 +265,7 @@ impl Recordings {
         all.values().filter(|r| r.world == world).cloned().collect()
     }
 
-    /// Forgets one.
+    /// Forgets one recording.
     ///
     /// # Errors
     /// There is none of that name.
@@ -274,7 +274,7 @@ impl Recordings {
         gone.map(drop).ok_or_else(|| missing(world, id))
     }
 
-    /// Forgets those of a world.
+    /// Forgets the recordings of a world.
     pub fn forget_world(&self, world: &str) {
         self.all().retain(|_, r| r.world != world);
     }

@@ -1,4 +1,4 @@
-//! Rehearsals of clips for figures: the figure that a clip is rehearsed for, the work itself, and its result.
+//! Rehearsals of clips for figures: the figure for which a clip is rehearsed, the work itself, and its result.
 
 use super::engine::{self, Clip};
 use super::workers::Turn;
@@ -21,7 +21,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// The figure that a clip is rehearsed for, as it is, in its world.
+/// The figure for which a clip is rehearsed, as it is in its world.
 #[derive(Clone, Debug)]
 pub struct Performer {
     body: Arc<Body>,
@@ -36,7 +36,7 @@ impl Performer {
     /// A figure of a world.
     ///
     /// # Errors
-    /// It holds one load in both hands, or may.
+    /// It holds one load in both hands, or may do so.
     pub fn of(figure: &Figure, world: &WorldParams, time: f64) -> Result<Self, Fault> {
         let holds = |p: &Perturbation| p.load().filter(|l| l.from <= time && time < l.to);
         let held: Vec<HeldLoad> = figure.perturbations().filter_map(holds).collect();
@@ -50,7 +50,7 @@ impl Performer {
                 facts: vec![],
             });
         }
-        // A load that is held now is held all the time.
+        // A load that is held now is held throughout.
         let always = |load: HeldLoad| {
             Perturbation::Held(HeldLoad {
                 from: 0.0,
@@ -67,7 +67,7 @@ impl Performer {
         })
     }
 
-    /// Whether a rehearsal for the one is one for the other.
+    /// Whether a rehearsal for one is also valid for the other.
     pub fn is_like(&self, other: &Self) -> bool {
         self.body.profile == other.body.profile
             && self.links == other.links
@@ -75,7 +75,7 @@ impl Performer {
             && self.decisive() == other.decisive()
     }
 
-    /// The parameters of its world that matter.
+    /// The parameters of its world that affect a rehearsal.
     fn decisive(&self) -> [f64; 4] {
         let w = &self.world;
         [w.rate_hz, f64::from(w.substeps), w.gravity, w.friction]
@@ -98,23 +98,23 @@ impl Performer {
     }
 }
 
-/// A rehearsal that was found.
+/// The result of a rehearsal.
 #[derive(Clone, Debug)]
 pub struct Rehearsed {
-    /// The figure that it is for.
+    /// The figure for which it is valid.
     pub performer: Performer,
-    /// There is help in it.
+    /// Whether it contains help.
     pub helps: bool,
-    /// The motion that is played.
+    /// The motion to play.
     pub motion: Arc<RehearsedMotion>,
-    /// When it was found, ms since 1970: the oldest are forgotten first.
+    /// Time of the result, ms since 1970: the oldest are forgotten first.
     pub found_ms: u64,
 }
 
-/// A rehearsal as it is stored.
+/// A rehearsal in stored form.
 #[derive(Serialize, Deserialize)]
 struct StoredRehearsal<'a> {
-    /// Version of the server that has found it: what it adds is for that simulator.
+    /// Version of the server that found it: its corrections are only valid for that simulator.
     version: Cow<'a, str>,
     profile: Profile,
     links: Cow<'a, Links>,
@@ -126,11 +126,11 @@ struct StoredRehearsal<'a> {
     motion: Cow<'a, RehearsedMotion>,
 }
 
-/// This version.
+/// The version of this server.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 impl Rehearsed {
-    /// As it is stored.
+    /// The rehearsal in stored form.
     pub fn to_bytes(&self) -> Vec<u8> {
         let p = &self.performer;
         postcard::to_stdvec(&StoredRehearsal {
@@ -150,10 +150,10 @@ impl Rehearsed {
     /// Reads a stored rehearsal.
     ///
     /// # Errors
-    /// It cannot have been written, or another version has found it.
+    /// The bytes cannot have been written by a server, or another version has found it.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Fault> {
         let cannot = |why: &str| Fault::Internal(format!("a rehearsal that cannot be used: {why}"));
-        // It stands first: what follows is of that version.
+        // The version stands first, because the format of the rest depends on it.
         let (version, _): (Cow<'_, str>, _) =
             postcard::take_from_bytes(bytes).map_err(|e| cannot(&e.to_string()))?;
         if version != VERSION {
@@ -178,7 +178,7 @@ impl Rehearsed {
         })
     }
 
-    /// A short name of the figure that it is for, the same for all that are alike ([`Performer::is_like`]).
+    /// A short name of the figure for which it is valid, the same for all that are alike ([`Performer::is_like`]).
     pub fn figure(&self) -> String {
         let p = &self.performer;
         let like = (&p.body.profile, &p.links, &p.strength, p.decisive());
@@ -186,28 +186,28 @@ impl Rehearsed {
         hex::encode(&Sha256::digest(bytes)[..8])
     }
 
-    /// Bytes in memory, near enough.
+    /// Approximate bytes in memory.
     pub fn bytes(&self) -> u64 {
         let m = &self.motion;
         (m.desired.len() * size_of::<Target>() + m.path.len() * size_of::<RootStep>()) as u64
     }
 }
 
-/// A recording in the forms that it takes.
+/// The forms of a recording.
 struct RehearsalForms {
     reference: TrackingReference,
     /// The clip that is rehearsed.
     as_recorded: Arc<Clip>,
 }
 
-/// The source that a clip is rehearsed from.
+/// The source from which a clip is rehearsed.
 #[derive(Debug)]
 pub struct Score {
     /// Last part of its name.
     pub id: String,
-    /// Its source; `None`: it comes with the server.
+    /// Its source; `None`: it is built in.
     pub source: Option<MotionSource>,
-    /// Which of all that have had this name it is.
+    /// Tells it from all others that have had this name.
     pub number: u64,
 }
 
@@ -255,8 +255,8 @@ impl Score {
     }
 }
 
-/// Rehearses a clip, on one thread. `go_on` is told which share of the search is done, and stops it by `false`: the
-/// best so far is the result. `stop` gives it up.
+/// Rehearses a clip, on one thread. `go_on` gets the share of the search that is done, and stops the search with
+/// `false`: the best motion until then is the result. `stop` gives it up.
 ///
 /// # Errors
 /// The clip cannot be rehearsed, or it was given up.
@@ -302,7 +302,7 @@ pub fn rehearse(
     Ok((info, rehearsed))
 }
 
-/// Half for the way to the end of the clip, half for the rounds after that.
+/// Half for reaching the end of the clip, half for the rounds after that.
 fn share(p: &Progress, polish: usize) -> f64 {
     let [reached, all] = p.reached.map(|n| n as f64);
     let polished = p.polished as f64 / polish.max(1) as f64;

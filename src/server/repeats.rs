@@ -1,9 +1,9 @@
 //! Repeats of requests (AIP-155): a client that does not know whether its request arrived sends it again under the same
-//! `request_id` and gets the answer of the first.
+//! `request_id` and gets the answer to the first.
 //!
-//! What a request does is done in a task of its own, so that it is done whether or not its client waits for it. A
-//! repeat that comes meanwhile waits for that task. Answers are kept for some time; requests that were refused have
-//! changed nothing and are forgotten, so that a repeat is a new attempt.
+//! The work of a request runs in a task of its own, so that it is completed whether or not its client waits. A repeat
+//! that arrives in the meantime waits for that task. Answers are kept for some time. Refused requests have changed
+//! nothing and are forgotten, so that a repeat is a new attempt.
 
 use crate::shares::part;
 use bytes::Bytes;
@@ -16,30 +16,30 @@ use tokio::sync::watch;
 
 /// How long an answer is kept.
 const KEPT: Duration = Duration::from_secs(600);
-/// Bytes of all answers that are kept, and of those of one principal.
+/// Most bytes of all kept answers, and of those of one principal.
 const BYTES: (usize, usize) = (32 * 1024 * 1024, 16 * 1024 * 1024);
-/// Names of forgotten requests that a principal may have in its queue beside as many as it has requests.
+/// Names of forgotten requests that a principal may have in its queue, in addition to its number of requests.
 const SPARE: usize = 16;
 
-/// Which request.
+/// The key of a request.
 #[derive(Clone, Debug)]
 pub struct RequestKey {
-    /// Whose.
+    /// Its principal.
     pub principal: Arc<str>,
-    /// Which call.
+    /// Its call.
     pub call: Arc<str>,
     /// Its `request_id`.
     pub id: String,
 }
 
-/// The outcome of a request; `None` as long as it is worked on.
+/// The outcome of a request; `None` while it is being worked on.
 type RepeatOutcome = Option<Result<Bytes, Fault>>;
 
 #[derive(Debug)]
 struct RepeatEntry {
     /// Tells this entry from later ones of the same key.
     number: u64,
-    /// Hash of the request: another one must not have its name.
+    /// Hash of the request: a different request must not have its name.
     request: u64,
     since: Instant,
     bytes: usize,
@@ -53,7 +53,7 @@ type Name = (Arc<str>, String);
 #[derive(Debug, Default)]
 struct Own {
     entries: HashMap<Name, RepeatEntry>,
-    /// Oldest first. What is not in `entries` under its number any more is passed over.
+    /// Oldest first. Names that are no longer in `entries` under their number are skipped.
     order: VecDeque<(u64, Name)>,
     bytes: usize,
 }
@@ -81,7 +81,7 @@ impl Own {
         Some(entry)
     }
 
-    /// Forgets the oldest request, if it is from before `since`; `None` for any.
+    /// Forgets the oldest request, if it is from before `since`; `None`: whatever its age.
     fn forget_oldest(&mut self, since: Option<Instant>) -> Option<RepeatEntry> {
         while let Some((number, name)) = self.order.front() {
             match self.entries.get(name).filter(|e| e.number == *number) {
@@ -111,7 +111,7 @@ impl HeldAnswers {
         }
     }
 
-    /// Forgets what is too old of a principal, and its oldest requests until it has no more than its part.
+    /// Forgets expired requests of a principal, and its oldest ones until it has no more than its part.
     fn trim(&mut self, principal: &Arc<str>, now: Instant, most: usize) {
         let since = now.checked_sub(KEPT);
         while let Some(own) = self.of.get_mut(principal) {
@@ -126,7 +126,7 @@ impl HeldAnswers {
         }
     }
 
-    /// Forgets the oldest requests of those who have the most, until there is room again.
+    /// Forgets the oldest requests of the principals with the most, until there is room again.
     fn make_room(&mut self, most: usize) {
         while self.count > most || self.bytes > BYTES.0 {
             let by_count = self.count > most;
@@ -147,7 +147,7 @@ impl HeldAnswers {
     }
 }
 
-/// Puts the outcome into its entry, also that of work that ended abnormally.
+/// Puts the outcome into its entry, even if the work ended abnormally.
 struct OutcomeGuard {
     repeats: Arc<Repeats>,
     key: RequestKey,
@@ -186,7 +186,7 @@ impl Repeats {
         self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Keeps an answer; forgets a request that was refused.
+    /// Keeps an answer; forgets a refused request.
     fn settle(&self, key: &RequestKey, number: u64, result: &Result<Bytes, Fault>) {
         let held = &mut *self.lock();
         let name = (key.call.clone(), key.id.clone());
@@ -211,10 +211,10 @@ impl Repeats {
         }
     }
 
-    /// The answer to a request, which is worked on once however often it comes. `request` is its hash.
+    /// The answer to a request, which is done once however often it arrives. `request` is its hash.
     ///
     /// # Errors
-    /// Those of the work; another request has the same name.
+    /// Same as those of the work; or a different request has the same name.
     pub async fn once(
         self: &Arc<Self>,
         key: RequestKey,
@@ -266,7 +266,7 @@ impl Repeats {
         own.entries.insert(name.clone(), entry);
         own.order.push_back((number, name));
         if own.order.len() > 2 * own.entries.len() + SPARE {
-            // Names of what was refused meanwhile.
+            // Names of requests that were refused in the meantime.
             let live =
                 |(n, name): &(u64, Name)| own.entries.get(name).is_some_and(|e| e.number == *n);
             own.order.retain(live);
@@ -285,10 +285,10 @@ impl Repeats {
     }
 }
 
-/// Does work in a task of its own, so that what has begun is done to its end whether or not its client waits for it.
+/// Runs work in a task of its own, so that it is completed once begun, whether or not its client waits.
 ///
 /// # Errors
-/// Those of the work; it ended abnormally.
+/// Same as those of the work; or it ended abnormally.
 pub async fn to_the_end<T: Send + 'static>(
     work: impl Future<Output = Result<T, Fault>> + Send + 'static,
 ) -> Result<T, Fault> {
@@ -310,7 +310,7 @@ mod tests {
         }
     }
 
-    /// Counts how often it is done.
+    /// Counts how often it runs.
     fn work(
         count: &Arc<AtomicU32>,
         result: Result<&'static str, Fault>,
@@ -333,7 +333,7 @@ mod tests {
             assert_eq!(answer.unwrap(), "a");
         }
         assert_eq!(count.load(Ordering::SeqCst), 1);
-        // Somebody else's, and another one's.
+        // The same id of another principal, and of another call.
         for other in [key("bob", "1"), key("ann", "2")] {
             repeats.once(other, 7, work(&count, Ok("b"))).await.unwrap();
         }

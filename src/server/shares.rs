@@ -1,14 +1,14 @@
-//! What one client may have of what all share.
+//! The share of one client in common resources.
 //!
-//! Without accounts a client is a connection or an address. On the machine of the server every program has the same
-//! address, so there it is the connection; elsewhere it is the address, however many connections come from it.
+//! Without accounts a client is a connection or an address. On the server's own machine every program has the same
+//! address, so there a client is a connection; elsewhere it is the address, however many connections come from it.
 
 use sinew_wire::status::Fault;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Who asks. What belongs to one client shares its part of workers, streams and worlds.
+/// The client that makes a request. Everything of one client shares its part of workers, streams and worlds.
 pub type ClientKey = Arc<str>;
 
 /// The client behind a peer address.
@@ -18,7 +18,7 @@ pub fn client_at(peer: Option<SocketAddr>) -> ClientKey {
         Some(at) if at.ip().to_canonical().is_loopback() => at.to_string().into(),
         Some(at) => match at.ip().to_canonical() {
             IpAddr::V4(ip) => ip.to_string().into(),
-            // Whoever has one address of a network of IPv6 has all of them.
+            // The owner of one IPv6 address of a network has all of them.
             IpAddr::V6(ip) => {
                 let [a, b, c, d, ..] = ip.segments();
                 format!("{a:x}:{b:x}:{c:x}:{d:x}::/64").into()
@@ -27,7 +27,8 @@ pub fn client_at(peer: Option<SocketAddr>) -> ClientKey {
     }
 }
 
-/// Whether a client can come back under the same name when the server has ended: who is a connection cannot.
+/// Whether a client can come back under the same name after a restart of the server. A client that is a connection
+/// cannot.
 pub fn comes_back(client: &str) -> bool {
     client.parse::<SocketAddr>().is_err()
 }
@@ -39,8 +40,8 @@ pub fn part(most: u64, share: f64) -> u64 {
 
 /// Refuses one more if a client has its part already.
 ///
-/// # Errors
-/// `own` is the part of a client of what `limit` bounds.
+/// `own`, the client's use of `limit`, has reached its part.
+/// `own` is what the client uses of `limit` already, with one more.
 pub fn check_part(limit: &'static str, own: u64, most: u64, share: f64) -> Result<(), Fault> {
     let part = part(most, share);
     if own < part {
@@ -64,7 +65,7 @@ pub struct Places {
     gauge: &'static str,
 }
 
-/// A place that is given back when the stream ends.
+/// A place that is freed when the stream ends.
 #[derive(Debug)]
 pub struct HeldPlace {
     taken: Arc<Mutex<Vec<ClientKey>>>,
@@ -102,7 +103,7 @@ impl Places {
     /// Takes a place.
     ///
     /// # Errors
-    /// All are taken, or the client has its part.
+    /// All are taken, or the client already has its part.
     pub fn take(&self, client: ClientKey) -> Result<HeldPlace, Fault> {
         let mut taken = locked(&self.taken);
         if taken.len() as u64 >= self.most {

@@ -1,4 +1,4 @@
-//! One clip tracked by one figure, without clock and world: as fast as it computes.
+//! One clip tracked by one figure, without clock and world: as fast as it can be computed.
 
 use super::encoded::{Encoded, List};
 use super::engine::{self, Clip, FigureKey, Motion, World};
@@ -42,7 +42,7 @@ pub struct SimulationLimits {
 /// The field of `SimulateClipResponse` that holds the frames.
 pub const FRAMES: u32 = 2;
 
-/// Most events that are kept: a figure in trouble changes support and saturation at every tick.
+/// Most events that are kept: a figure in trouble changes support and saturation in every tick.
 const MAX_EVENTS: usize = 20_000;
 
 /// Name of the only figure.
@@ -108,31 +108,31 @@ impl Merit {
 
 /// The receiver of frames as they are computed.
 pub trait FrameSink {
-    /// So much is done; a frame, if this tick has one for the view.
+    /// Takes the share that is done, and a frame if this tick has one for the view.
     ///
     /// # Errors
-    /// Nobody takes it any more.
+    /// The frames have no receiver any more.
     fn take(&mut self, frame: Option<pb::WorldFrame>, share: f64) -> Result<(), Fault>;
 
-    /// There are no more.
+    /// There are no more frames.
     ///
     /// # Errors
-    /// Nobody takes the last ones any more.
+    /// The last frames have no receiver any more.
     fn end(&mut self) -> Result<(), Fault>;
 }
 
 /// The receiver of frames during the simulation.
 pub struct Sink<'a> {
-    /// Told how far it is.
+    /// Receives the progress.
     pub progress: &'a WorkProgress,
-    /// Takes the frames in place of the outcome.
+    /// Takes the frames instead of the outcome.
     pub parts: Option<&'a mut dyn FrameSink>,
 }
 
-/// Simulates, tick by tick as long as its turn lasts.
+/// Simulates, tick by tick, as long as its turn lasts.
 ///
 /// # Errors
-/// Settings that the physics refuses; more frames than the limit allows; nobody waits any more.
+/// The physics refuses the settings; there are more frames than the limit allows; or no client waits any more.
 pub fn run(
     s: &SimulationSettings,
     body: &Arc<Body>,
@@ -239,8 +239,8 @@ fn scene(
     Ok((world, key))
 }
 
-/// Frames of the view, as long as they fit into the response. They are kept encoded: a small frame takes a hundred
-/// times as much memory as bytes on the wire.
+/// Frames of the view, as many as fit into the response. They are kept encoded: a small frame takes a hundred times as
+/// much memory as bytes on the wire.
 struct EncodedFrames {
     taken: List,
     most: u64,

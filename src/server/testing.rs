@@ -1,4 +1,4 @@
-//! What unit tests of the server share: a directory that goes, and a server on it.
+//! Shared helpers of the server's unit tests: a temporary directory, and a server on it.
 
 use super::app::App;
 use super::config::Config;
@@ -7,22 +7,22 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tokio::sync::watch;
 
-/// An empty directory that goes when the test ends.
+/// An empty directory that is removed when the test ends.
 pub(crate) struct Temporary(pub PathBuf);
 
 impl Temporary {
-    /// One of its own.
+    /// A new directory for this test.
     pub fn new() -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         let n = NEXT.fetch_add(1, Ordering::Relaxed);
         let name = format!("sinew-test-{}-{n}", std::process::id());
         let dir = std::env::temp_dir().join(name);
-        let _ = std::fs::remove_dir_all(&dir); // of an earlier process of this number
+        let _ = std::fs::remove_dir_all(&dir); // left by an earlier process with this number
         std::fs::create_dir_all(&dir).expect("a directory");
         Self(dir)
     }
 
-    /// A server that stores its worlds in it, with these settings besides.
+    /// A server that stores its worlds in it, with these additional settings.
     pub async fn open(&self, more: &[(&str, &str)]) -> Arc<App> {
         let dir = self.0.to_str().expect("a path of letters");
         let own = [
@@ -48,7 +48,7 @@ impl Drop for Temporary {
     }
 }
 
-/// Ends a server as one does that was asked to.
+/// Shuts down a server in the orderly way.
 pub(crate) async fn close(app: Arc<App>) {
     app.worlds.drain().await;
     app.persistence

@@ -1,4 +1,4 @@
-//! The viewer: the files of `clients/web/dist`, which is built and committed there and needs nothing from elsewhere.
+//! The viewer: the files of `clients/web/dist`, which are built and committed there and load nothing from elsewhere.
 
 use axum::Router;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
@@ -10,7 +10,7 @@ use flate2::write::GzEncoder;
 use std::io::Write as _;
 use std::sync::OnceLock;
 
-/// The page may run its own script and style, draw its own pictures and talk to this server; nothing else.
+/// The page may run its own script and style, show its own pictures and talk to this server, and nothing else.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; \
     connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
@@ -48,7 +48,7 @@ static FILES: [File; 4] = files! {
     "/icon.svg" "icon.svg" "image/svg+xml";
 };
 
-/// FNV-1a: names the version of a file, nothing more.
+/// FNV-1a, only to name the version of a file.
 fn hash(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, b| {
         (hash ^ u64::from(*b)).wrapping_mul(0x0000_0100_0000_01b3)
@@ -118,7 +118,7 @@ fn wants_gzip(asked: &HeaderMap) -> bool {
     gzip > 0.0 && gzip >= quality(asked, "identity").unwrap_or(0.0)
 }
 
-/// Whether the client keeps the representation with this tag already.
+/// Whether the client already has the representation with this tag.
 fn has(asked: &HeaderMap, tag: &HeaderValue) -> bool {
     let values = asked.get_all(header::IF_NONE_MATCH).into_iter();
     values
@@ -133,7 +133,7 @@ fn answer(file: &File, asked: &HeaderMap) -> Response {
     let chosen = if gzip { file.gzip() } else { file.plain() };
     let headers: [(HeaderName, HeaderValue); 7] = [
         (header::CONTENT_TYPE, HeaderValue::from_static(file.kind)),
-        // Kept, and asked for again each time: a new server never meets an old page.
+        // Clients keep it, but ask again each time, so that a new server never meets an old page.
         (header::CACHE_CONTROL, HeaderValue::from_static("no-cache")),
         (header::VARY, HeaderValue::from_static("accept-encoding")),
         (header::ETAG, chosen.tag.clone()),
@@ -163,7 +163,7 @@ fn answer(file: &File, asked: &HeaderMap) -> Response {
     response
 }
 
-/// `/` and what it loads.
+/// `/` and the files that it loads.
 pub(super) fn router<S: Clone + Send + Sync + 'static>() -> Router<S> {
     FILES.iter().fold(Router::new(), |router, file| {
         router.route(

@@ -1,11 +1,11 @@
-//! Work that takes long: files to clips, offline simulations. Each kind has workers of its own, a few at a time, off
-//! the async threads, and is given up soon after the client is gone.
+//! Work that takes long: converting files to clips, and offline simulations. Each kind has its own few workers, off the
+//! async threads, and is given up soon after its client is gone.
 //!
-//! Clients share the workers of a pool: the one with the least at work is next, and work that a client has more of than
-//! another one that waits makes room at its next [`Turn::stop`] and goes on later. So nobody waits for the end of what
-//! somebody else has asked for.
+//! Clients share the workers of a pool. The client with the least work running is next. If a client has more running
+//! than a waiting one, its work makes room at its next [`Turn::stop`] and continues later. So no client waits for the
+//! end of another client's work.
 //!
-//! Work that takes much memory says so before. It begins when there is room for it beside other such work.
+//! Work that takes much memory declares that in advance. It begins when there is room for it beside other such work.
 
 use crate::shares::ClientKey;
 use sinew_wire::status::Fault;
@@ -18,20 +18,20 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::oneshot;
 
-/// How long work goes on before it makes room for somebody else's.
+/// How long work runs before it makes room for that of another client.
 const SLICE: Duration = Duration::from_millis(100);
-/// Pieces of work per worker that may have begun: each holds a thread and what it has so far, also while others have
-/// their turns.
+/// Most pieces of work per worker that may have begun: each holds a thread and its data, even while others have their
+/// turns.
 const BEGUN: usize = 8;
-/// Bytes of all work that has begun, by its own account. More than that has one piece of work only, alone.
+/// Bytes of all work that has begun, as declared. A single piece of work may take more, alone.
 const MEMORY: u64 = 512 * 1024 * 1024;
-/// Work that takes no more is not counted: little of it has begun at a time.
+/// Work that takes no more than this is not counted, because little of it has begun at a time.
 const LITTLE: u64 = 8 * 1024 * 1024;
-/// Weight of the latest piece of work in the mean time that one takes.
+/// Weight of the latest duration in the mean.
 const RECENT: f64 = 0.2;
 /// Least and most time after which a client is told to try again, s.
 const RETRY: (f64, f64) = (0.1, 30.0);
-/// Niceness of the threads: what has a clock comes first.
+/// Niceness of the threads: threads with a clock come first.
 #[cfg(target_os = "linux")]
 const NICE: i32 = 10;
 
@@ -51,14 +51,14 @@ struct PoolShared {
 #[derive(Debug, Default)]
 struct PoolState {
     running: usize,
-    /// Pieces of work that have begun and are not done.
+    /// Pieces of work that have begun and have not ended.
     begun: usize,
     /// Bytes that they take.
     memory: u64,
     clients: BTreeMap<ClientKey, PoolUse>,
     waiting: Vec<Waiter>,
     turns: u64,
-    /// The server ends: no work is begun or finished any more.
+    /// Whether the server is ending: no work is begun or finished any more.
     closed: bool,
     /// Mean time that a piece of work takes, s.
     mean: f64,
@@ -77,14 +77,14 @@ struct PoolUse {
 struct Waiter {
     client: ClientKey,
     cancelled: Cancelled,
-    /// It had a turn before, so its place in the queue is not counted.
+    /// Whether it had a turn before, so that its place in the queue is not counted.
     begun: bool,
     /// Bytes that it takes, if they are many.
     memory: u64,
     grant: oneshot::Sender<Turn>,
 }
 
-/// Tells the work that nobody waits for it any more.
+/// Tells the work that no client waits for it any more.
 #[derive(Clone, Debug, Default)]
 struct Cancelled(Arc<AtomicBool>);
 
@@ -109,10 +109,10 @@ pub struct Turn {
     client: ClientKey,
     cancelled: Cancelled,
     since: Cell<Instant>,
-    /// It occupies a worker.
+    /// Whether it occupies a worker.
     works: Cell<bool>,
     memory: u64,
-    /// Another turn of the same work stands for this one, or it never came to its work.
+    /// Whether another turn of the same work stands for this one, or it never got to its work.
     replaced: Cell<bool>,
 }
 
@@ -121,7 +121,7 @@ impl Drop for Turn {
         if self.replaced.get() {
             return;
         }
-        // The work is done, or given up while others had their turns.
+        // The work is done, or was given up while others had their turns.
         let mut state = self.pool.state();
         state.begun -= 1;
         state.memory -= self.memory;
@@ -133,7 +133,7 @@ impl Drop for Turn {
 }
 
 impl Turn {
-    /// Whether the work is to be given up. Work asks often; this may take as long as the turns of others.
+    /// Whether the work has to be given up. Work calls this often; a call may take as long as the turns of others.
     pub fn stop(&self) -> bool {
         if self.cancelled.is_set() {
             return true;
@@ -146,15 +146,15 @@ impl Turn {
             return self.pool.state().closed;
         };
         let Ok(turn) = next.blocking_recv() else {
-            return true; // only who is cancelled waits in vain
+            return true; // only cancelled work waits in vain
         };
-        turn.replaced.set(true); // this one goes on instead
+        turn.replaced.set(true); // this turn continues instead
         self.works.set(true);
         self.since.set(Instant::now());
         self.cancelled.is_set()
     }
 
-    /// True while somebody else's work does not begin because so much has.
+    /// Whether another client's work cannot begin because too much has begun.
     pub fn is_wanted(&self) -> bool {
         let state = self.pool.state();
         let mut new = state.waiting.iter().filter(|w| !w.begun);
@@ -162,7 +162,8 @@ impl Turn {
             && new.any(|w| w.client != self.client && !w.cancelled.is_set())
     }
 
-    /// Gives the worker to another client who has fewer, if one waits; then the next turn of this work will come.
+    /// Gives the worker to a waiting client with less running work, if there is one. Returns the next turn of this
+    /// work.
     fn make_room(&self) -> Option<oneshot::Receiver<Turn>> {
         let mut state = self.pool.state();
         let mine = state.running_of(&self.client);
@@ -221,7 +222,7 @@ impl PoolState {
         }
     }
 
-    /// False for work that must not begin, because too much of it has, in number or in bytes.
+    /// Whether work may run. New work must not begin while too much has begun, in number or in bytes.
     fn may_go_on(&self, waiter: &Waiter, pool: &Pool) -> bool {
         let fits = waiter.memory == 0
             || self.memory == 0
@@ -229,7 +230,7 @@ impl PoolState {
         waiter.begun || self.begun < BEGUN * pool.0.most && fits
     }
 
-    /// Of the work that takes much memory, the next to begin: no other of it goes before.
+    /// The next work to begin among that which takes much memory: no other such work goes before it.
     fn next_large(&self) -> Option<usize> {
         let all = self.waiting.iter().enumerate();
         let large = all.filter(|(_, w)| !w.begun && w.memory > 0);
@@ -241,8 +242,9 @@ impl PoolState {
         self.clients.get(client).map_or(0, |u| u.turn)
     }
 
-    /// Gives free workers to those who wait: to the client with the least at work, then to the one whose last turn is
-    /// longest ago. A client's work goes on before more of it begins, then who came first is first.
+    /// Gives free workers to waiting work: first to the client with the least work running, then to the client whose
+    /// last turn is longest ago. A client's begun work continues before more of it begins; otherwise the order is that
+    /// of arrival.
     fn grant(&mut self, pool: &Pool) {
         for w in self.waiting.extract_if(.., |w| w.cancelled.is_set()) {
             if let Some(used) = self.clients.get_mut(&w.client) {
@@ -283,7 +285,7 @@ impl PoolState {
                         self.memory += waiter.memory;
                     }
                 }
-                // Nobody waits for it; it must not give back what it has not got.
+                // The work was cancelled; the turn must not give back what it never got.
                 Err(turn) => turn.replaced.set(true),
             }
         }
@@ -292,8 +294,8 @@ impl PoolState {
 }
 
 impl Pool {
-    /// `most` at a time, and `most_waiting` that wait. `limit` is the setting that bounds those, `what` one piece of
-    /// work.
+    /// `most` run at a time, and `most_waiting` wait. `limit` is the setting that bounds the latter, `what` the name of
+    /// one piece of work.
     pub fn new(what: &'static str, limit: &'static str, most: u64, most_waiting: u64) -> Self {
         Self(Arc::new(PoolShared {
             what,
@@ -305,7 +307,7 @@ impl Pool {
     }
 
     fn state(&self) -> MutexGuard<'_, PoolState> {
-        // Nothing in it is left half done by a panic.
+        // No change is left half done by a panic.
         self.0.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -314,7 +316,7 @@ impl Pool {
         self.state().running
     }
 
-    /// A place in the queue. One client has at most half of them.
+    /// Queues work. One client has at most half of the places.
     fn queue(
         &self,
         client: &ClientKey,
@@ -345,10 +347,10 @@ impl Pool {
         Ok(granted)
     }
 
-    /// Does long work for a client when its turn comes. The work asks its turn often whether to stop.
+    /// Does long work for a client when its turn comes. The work often asks its turn whether to stop.
     ///
     /// # Errors
-    /// Those of the work; too much work waits; the work panicked.
+    /// Same as those of the work; too much work waits; the work panicked.
     pub async fn run<T: Send + 'static>(
         &self,
         client: &ClientKey,
@@ -357,7 +359,7 @@ impl Pool {
         self.run_large(client, 0, work).await
     }
 
-    /// The same for work that takes so many bytes of memory.
+    /// The same for work that takes `memory` bytes.
     ///
     /// # Errors
     /// Those of [`Self::run`].
@@ -391,13 +393,13 @@ impl Pool {
                 retry: Some(Duration::from_secs_f64(RETRY.0)),
             })?;
         match result.await {
-            Ok(Err(gone)) if gone == Turn::gone() => Err(Fault::Draining), // it was not the client who went
+            Ok(Err(gone)) if gone == Turn::gone() => Err(Fault::Draining), // the pool was closed
             Ok(out) => out,
             Err(_) => Err(Fault::Internal("the work gave no result".into())),
         }
     }
 
-    /// Gives up all work: the server ends.
+    /// Gives up all work, because the server is ending.
     pub fn close(&self) {
         let mut state = self.state();
         state.closed = true;
@@ -422,7 +424,7 @@ fn abnormal(panic: &(dyn Any + Send)) -> Fault {
     Fault::Internal(format!("the work ended abnormally: {text}"))
 }
 
-/// Lets the threads of worlds go first. Where that is not possible, work competes with them as before.
+/// Lets the threads of worlds go first. Where that is not possible, work competes with them equally.
 fn be_nice() {
     #[cfg(target_os = "linux")]
     if let Err(e) = rustix::process::nice(NICE) {
@@ -579,7 +581,7 @@ mod tests {
             let (pool, ended) = (pool.clone(), ended.clone());
             tokio::spawn(async move { pool.run_large(&client(name), memory, until(ended)).await })
         };
-        // However large, one has room alone.
+        // However large, one piece of work has room alone.
         let first = large("a", 2 * MEMORY);
         while pool.running() < 1 {
             tokio::task::yield_now().await;

@@ -1,4 +1,4 @@
-//! Frames: what a view shows of a world after one tick.
+//! Frames: the part of a world that a view shows after a tick.
 
 use super::convert::motion::follow_mode_out;
 use super::pb;
@@ -56,7 +56,7 @@ impl FieldSet {
     }
 }
 
-/// In single precision. What is beyond its range is the largest number of it: nothing infinite is sent.
+/// A number in single precision. A number beyond that range becomes the largest one, so that no infinity is sent.
 fn single(value: f64) -> f32 {
     let most = f64::from(f32::MAX);
     value.clamp(-most, most) as f32
@@ -75,7 +75,7 @@ pub fn numbers(format: NumberFormat, values: &[f64]) -> Option<pb::Numbers> {
         },
         NumberFormat::Fixed16 => {
             let most = values.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-            // The scale that is sent is the one that is divided by, so that rounding happens once.
+            // The divisor is the scale as it is sent, so that rounding happens once.
             let scale = single(most / 32767.0);
             let step = f64::from(scale);
             let mut bytes = Vec::with_capacity(2 * values.len());
@@ -96,8 +96,8 @@ pub fn numbers(format: NumberFormat, values: &[f64]) -> Option<pb::Numbers> {
     })
 }
 
-/// Numbers that hold places in the world: a fixed-point step would grow with the distance from the origin, so crowds
-/// get floats.
+/// Numbers that are places in the world. A fixed-point step would grow with the distance from the origin, so crowds get
+/// floats.
 fn places(format: NumberFormat, values: &[f64]) -> Option<pb::Numbers> {
     numbers(
         match format {
@@ -161,7 +161,7 @@ fn joint_rotations(p: &Posture) -> Vec<f64> {
         .collect()
 }
 
-/// Loads as they are listed on the wire.
+/// Loads in the form of the wire.
 pub fn loads(list: &[(SegmentId, Vec3, f64)]) -> Vec<pb::CarriedLoad> {
     list.iter()
         .map(|(s, p, m)| pb::CarriedLoad {
@@ -276,7 +276,7 @@ pub fn figure_frame(
             joint_rotations: numbers(format, &joint_rotations(p)),
         });
     }
-    let Some(r) = &f.report else { return out }; // before the first tick nothing was computed
+    let Some(r) = &f.report else { return out }; // nothing was computed before the first tick
     if fields.has("acceleration") {
         out.acceleration = numbers(format, &r.acceleration);
     }
@@ -351,7 +351,7 @@ pub fn world_frame(snapshot: &Snapshot, view: &ViewSpec) -> pb::WorldFrame {
     }
 }
 
-/// Who is who in the frames of a view.
+/// The names of the figures in the frames of a view.
 pub fn roster(snapshot: &Snapshot, view: &ViewSpec) -> pb::Roster {
     pb::Roster {
         world: format!("worlds/{}", snapshot.world),
@@ -370,7 +370,7 @@ pub fn roster(snapshot: &Snapshot, view: &ViewSpec) -> pb::Roster {
     }
 }
 
-/// The frame of a view as a message of a watch, encoded once for all that share the view.
+/// The frame of a view as a message of a watch, encoded once for all viewers of the view.
 pub fn shared_frame(snapshot: &Snapshot, view: &ViewSpec) -> Bytes {
     WatchWorldResponse::Frame(Box::new(world_frame(snapshot, view))).share()
 }
@@ -380,7 +380,7 @@ pub fn shared_roster(snapshot: &Snapshot, view: &ViewSpec) -> Bytes {
     WatchWorldResponse::Roster(Box::new(roster(snapshot, view))).share()
 }
 
-/// Numbers as they were meant, whatever the format; for clients.
+/// The numbers themselves, whatever the format; for clients.
 pub fn values(n: &pb::Numbers) -> Vec<f64> {
     if !n.f64.is_empty() {
         n.f64.clone()

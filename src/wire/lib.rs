@@ -1,8 +1,8 @@
-//! Protobuf messages and domain types, and the way between them.
+//! Protobuf messages and domain types, and the conversion between them.
 //!
 //! [`pb`] is generated and checked in (`tests/source/proto_bootstrap.rs`). Only [`convert`] and [`frame`] read or fill
-//! its fields; past them everything is a domain type of [`types`] or of [`sinew_physics`]. [`status`] turns faults into
-//! gRPC statuses; [`scan`] looks through the bytes of a request before [`codec`] decodes them.
+//! its fields; beyond them everything is a domain type of [`types`] or of [`sinew_physics`]. [`status`] turns faults
+//! into gRPC statuses; [`scan`] checks the bytes of a request before [`codec`] decodes them.
 
 /// Messages, clients and servers of package `sinew.v1`, generated.
 #[allow(

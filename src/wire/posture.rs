@@ -24,8 +24,8 @@ pub fn joint_rotation(posture: &Posture, s: usize) -> Quat {
     }
 }
 
-/// Sets the joint of segment `s` from `parent_from_segment`. What hinges cannot do is dropped: of a rotation that is
-/// split about their axes in order, the rest about the axis that is missing.
+/// Sets the joint of segment `s` from `parent_from_segment`. Rotation that hinges cannot represent is dropped: the
+/// rotation is split about their axes in order, and the rest about the missing axis is left out.
 pub fn set_joint_rotation(posture: &mut Posture, s: usize, q: Quat) {
     let d = DOF_START[s];
     match JOINT[s] {
@@ -34,7 +34,7 @@ pub fn set_joint_rotation(posture: &mut Posture, s: usize, q: Quat) {
         Joint::Hinge1(h) => {
             let axis = DOF_AXIS[d];
             let v = [q.x, q.y, q.z][axis.axis] * f64::from(axis.sign);
-            // Twist about the axis, the shorter way round.
+            // Twist about the axis, by the shorter way.
             let (v, w) = if q.w < 0.0 { (-v, -q.w) } else { (v, q.w) };
             posture.hinge[h] = 2.0 * v.atan2(w);
         }
@@ -43,7 +43,7 @@ pub fn set_joint_rotation(posture: &mut Posture, s: usize, q: Quat) {
             let (i, j) = (a.axis, b.axis);
             let k = 3 - i - j;
             let cyclic = if (i + 1) % 3 == j { 1.0 } else { -1.0 };
-            // R = R_i(α) R_j(β) R_k(γ): the image of axis k holds α and β and not γ.
+            // R = R_i(α) R_j(β) R_k(γ): the image of axis k depends on α and β, not on γ.
             let m = q.to_mat3();
             let image = [m.x, m.y, m.z][k].to_array();
             let alpha = (-cyclic * image[j]).atan2(image[k]);

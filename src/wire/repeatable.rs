@@ -2,11 +2,11 @@
 
 use super::pb;
 
-/// A request that is done once, however often it is sent under the same name.
+/// A request that is done once, however often it is sent with the same id.
 pub trait Repeatable: prost::Message {
-    /// Its name; empty: it counts each time.
+    /// Its id; empty: it counts each time.
     fn request_id(&self) -> &str;
-    /// It only tries: nothing is done, so its name is free afterwards.
+    /// Whether it is a trial: it does nothing, so its id is free afterwards.
     fn is_trial(&self) -> bool;
 }
 

@@ -1,9 +1,9 @@
-//! The bytes of a request, looked through before they are decoded.
+//! Checks the bytes of a request before they are decoded.
 //!
-//! A message may take far more memory than bytes: an empty element of a repeated field is two bytes on the wire and
-//! two hundred in memory. [`scan`] walks the bytes by the types of the descriptor set, without allocating for what it
-//! finds, adds up what the decoded message would take, and refuses one that grows out of proportion. It also finds
-//! everything that makes bytes malformed, so that the error names the field as the protos do.
+//! A message may take far more memory than bytes: an empty element of a repeated field is two bytes on the wire and two
+//! hundred in memory. [`scan`] walks the bytes by the types of the descriptor set, without allocating for their
+//! content. It adds up the size of the decoded message, and refuses one that grows out of proportion. It also finds
+//! everything that makes bytes malformed, so that the error names the field as in the protos.
 
 use super::DESCRIPTOR_SET;
 use super::status::Fault;
@@ -17,18 +17,18 @@ pub const DECODED_BYTES: usize = 256 * 1024;
 /// Decoded bytes per byte on the wire that a request may take beyond [`DECODED_BYTES`]. A frame of 39 joint angles
 /// takes 1.7, one of bone rotations up to 2.8.
 pub const DECODED_PER_BYTE: usize = 4;
-/// Messages inside messages; the deepest of the protos has seven.
+/// Largest depth of nested messages; the deepest of the protos has seven.
 pub const DEPTH: usize = 16;
 
-/// Bytes of a `String`, `Vec` or `Bytes`, without what it points to.
+/// Bytes of a `String`, `Vec` or `Bytes`, without its content.
 const HANDLE: usize = 32;
 /// Bytes of a number, a flag or a discriminant with its padding.
 const WORD: usize = 8;
 
-/// How a field looks on the wire.
+/// Form of a field on the wire.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum FieldKind {
-    /// A number of variable length; so many bytes decoded.
+    /// A number of variable length, with its decoded bytes.
     Varint(usize),
     /// A number of four or eight bytes.
     Fixed(usize),
@@ -50,7 +50,7 @@ struct Field {
 struct MessageShape {
     /// By number.
     fields: Vec<Field>,
-    /// Bytes of the decoded message, without what it points to. At least as many as the Rust type has.
+    /// Bytes of the decoded message, without the content behind its pointers. At least as many as the Rust type has.
     bytes: usize,
 }
 
@@ -58,7 +58,7 @@ struct MessageShape {
 #[derive(Debug)]
 struct Shapes {
     all: Vec<MessageShape>,
-    /// Types that methods take, by full name.
+    /// Request types of methods, by full name.
     requests: BTreeMap<String, usize>,
 }
 
@@ -160,8 +160,8 @@ fn struct_bytes(message: &DescriptorProto, all: &BTreeMap<String, &DescriptorPro
     plain + choices
 }
 
-/// Checks the bytes of a request of the type `name` (`sinew.v1.PushMotionRequest`). What no method of the protos takes,
-/// a response for example, is not looked at.
+/// Checks the bytes of a request of the type `name` (`sinew.v1.PushMotionRequest`). A type that no method takes, a
+/// response for example, is not checked.
 ///
 /// # Errors
 /// Malformed bytes, or a message that would take too much memory decoded, with the path of the field.
@@ -202,11 +202,11 @@ const WRONG_TYPE: ScanProblem = ScanProblem::Malformed("has another type on the 
 
 struct ScanWalk<'a> {
     shapes: &'a [MessageShape],
-    /// Decoded bytes that may still come.
+    /// Decoded bytes that remain.
     left: usize,
-    /// Messages that are entered: type, position of the field in it, element of the field.
+    /// The open messages: type, position of the field in it, element of the field.
     path: Vec<(usize, usize, usize)>,
-    /// Elements so far of each field of each message that is entered.
+    /// Number of elements of each field of each open message.
     counts: Vec<usize>,
 }
 
@@ -268,7 +268,7 @@ impl<'a> ScanWalk<'a> {
                 if self.path.len() > DEPTH {
                     return Err(ScanProblem::Malformed("is nested too deeply"));
                 }
-                // A singular message lies inside the one that has it.
+                // A singular message lies inside the one that contains it.
                 self.take(if field.repeated {
                     self.shapes[shape].bytes
                 } else {
@@ -285,7 +285,7 @@ impl<'a> ScanWalk<'a> {
         Ok(())
     }
 
-    /// The field where the walk is, for example `batch.frames[3].figures[0].figure`.
+    /// The field at which the walk is, for example `batch.frames[3].figures[0].figure`.
     fn field(&self) -> String {
         let parts = self.path.iter().map(|&(shape, i, element)| {
             let field = &self.shapes[shape].fields[i];

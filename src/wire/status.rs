@@ -1,8 +1,8 @@
-//! Faults of requests and how they look on the wire: a gRPC code with `google.rpc` details (AIP-193).
+//! Faults of requests and their form on the wire: a gRPC code with `google.rpc` details (AIP-193).
 //!
-//! Every status carries an `ErrorInfo` with a reason in UPPER_SNAKE; bad input names the field in a `BadRequest`, an
-//! unknown resource its name in a `ResourceInfo`, a limit its name in a `QuotaFailure`, and what may work later says
-//! when in a `RetryInfo`.
+//! Every status carries an `ErrorInfo` with a reason in UPPER_SNAKE. Bad input names the field in a `BadRequest`, an
+//! unknown resource its name in a `ResourceInfo`, a limit its name in a `QuotaFailure`. A request that may work later
+//! gets the time in a `RetryInfo`.
 
 use std::time::Duration;
 use tonic::{Code, Status};
@@ -11,10 +11,10 @@ use tonic_types::{ErrorDetails, StatusExt};
 /// Domain of the reasons in `ErrorInfo`.
 pub const DOMAIN: &str = "sinew";
 
-/// Why a request was not carried out. Nothing was changed.
+/// Reason why a request was not carried out. Nothing was changed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Fault {
-    /// A field holds something that is not allowed.
+    /// A field has a value that is not allowed.
     #[error("{field}: {problem}")]
     Invalid {
         /// Path of the field, for example `batch.frames[3].figures[0].velocity[7]`.
@@ -39,7 +39,7 @@ pub enum Fault {
         limit: &'static str,
         /// Its value.
         value: u64,
-        /// The amount that passes it.
+        /// The amount that exceeds it.
         message: String,
     },
     /// There is no such resource.
@@ -47,7 +47,7 @@ pub enum Fault {
     NotFound {
         /// Kind of resource: `world`, `figure`, `clip`, `body`, `segment`, `dof`, `bone`.
         kind: &'static str,
-        /// Its name as it was asked for.
+        /// The requested name.
         name: String,
     },
     /// The name is taken.
@@ -58,17 +58,17 @@ pub enum Fault {
         /// The name.
         name: String,
     },
-    /// The server does not answer a request that says this about itself.
+    /// The server does not answer requests with this property.
     #[error("{message}")]
     Refused {
         /// Reason in UPPER_SNAKE.
         reason: &'static str,
         /// The message.
         message: String,
-        /// Name of the setting that lists what is answered.
+        /// Name of the setting that lists the accepted values.
         setting: &'static str,
     },
-    /// The caller has not said who it is, or cannot prove it.
+    /// The caller is not authenticated, or cannot prove its identity.
     #[error("{message}")]
     Unauthenticated {
         /// Reason in UPPER_SNAKE.
@@ -86,7 +86,7 @@ pub enum Fault {
         /// Further facts.
         facts: Vec<(&'static str, String)>,
     },
-    /// The request does not fit the state the resource is in.
+    /// The request does not fit the state of the resource.
     #[error("{message}")]
     Precondition {
         /// Reason in UPPER_SNAKE.
@@ -103,12 +103,12 @@ pub enum Fault {
         limit: &'static str,
         /// Its value.
         value: u64,
-        /// The amount that would pass it.
+        /// The amount that would exceed it.
         message: String,
-        /// When trying again may work; `None` if only giving something up helps.
+        /// Time after which another attempt may succeed; `None` if only giving something up helps.
         retry: Option<Duration>,
     },
-    /// The ticks of running worlds would need more of the processors than they may.
+    /// The ticks of running worlds would need more of the processors than allowed.
     #[error(
         "{whose} would need {percent:.0} % of its processor time for ticks; {limit:.0} % may be used"
     )]
@@ -120,17 +120,17 @@ pub enum Fault {
         /// The allowed share, %.
         limit: f64,
     },
-    /// A tick is not held any more or not computed yet.
+    /// A tick is no longer held, or not computed yet.
     #[error("tick {asked} is not held; held are {oldest} to {newest}")]
     Expired {
-        /// Wanted tick.
+        /// Requested tick.
         asked: i64,
         /// Oldest tick that is held.
         oldest: i64,
         /// Newest tick.
         newest: i64,
     },
-    /// Something else took over in the meantime.
+    /// Another request or a failure interrupted it.
     #[error("{message}")]
     Aborted {
         /// Reason in UPPER_SNAKE.
@@ -138,7 +138,7 @@ pub enum Fault {
         /// The message.
         message: String,
     },
-    /// Stored data cannot be read any more.
+    /// Stored data can no longer be read.
     #[error("{message}")]
     DataLoss {
         /// Reason in UPPER_SNAKE.
@@ -155,7 +155,7 @@ pub enum Fault {
         /// The longest time for any request.
         limit: Duration,
     },
-    /// A status that was made without a reason, by a library.
+    /// A status that a library made without a reason.
     #[error("{message}")]
     Foreign {
         /// Its code.
@@ -183,7 +183,7 @@ fn spaced(field: &str) -> String {
     }
 }
 
-/// Characters of `worlds/{world}/obstacles/{obstacle}` with the longest ids there are.
+/// Most characters of `worlds/{world}/obstacles/{obstacle}`, with the longest ids.
 const LONGEST_NAME: usize = 144;
 
 /// The existing names, for kinds of resource that are the same on every server.
@@ -206,8 +206,8 @@ impl Fault {
         }
     }
 
-    /// Unknown resource. The name is told as far as an existing one could be long: errors travel in headers, which are
-    /// short.
+    /// Unknown resource. The name is cut to the length of the longest existing one, because errors travel in headers,
+    /// which are short.
     pub fn not_found(kind: &'static str, name: impl Into<String>) -> Self {
         let mut name = name.into();
         if let Some((end, _)) = name.char_indices().nth(LONGEST_NAME) {
@@ -259,7 +259,7 @@ impl Fault {
     }
 }
 
-/// The message of a code that has no other.
+/// The reason for a code without one.
 fn foreign_reason(code: Code) -> &'static str {
     match code {
         Code::Cancelled => "CANCELLED",
@@ -268,7 +268,7 @@ fn foreign_reason(code: Code) -> &'static str {
         Code::NotFound => "RESOURCE_NOT_FOUND",
         Code::PermissionDenied => "ROLE_REQUIRED",
         Code::ResourceExhausted => "LIMIT_REACHED",
-        Code::OutOfRange => "MESSAGE_TOO_LARGE", // tonic's word for it
+        Code::OutOfRange => "MESSAGE_TOO_LARGE", // tonic uses this code
         Code::Unimplemented => "NOT_AVAILABLE",
         Code::Unavailable => "UNAVAILABLE",
         Code::Unauthenticated => "CREDENTIALS_REQUIRED",
@@ -276,21 +276,21 @@ fn foreign_reason(code: Code) -> &'static str {
     }
 }
 
-/// Whether a status says why.
+/// Whether a status gives a reason.
 pub fn is_explained(status: &Status) -> bool {
     status.get_error_details().error_info().is_some()
 }
 
-/// Type of a kind of resource, as the protos call it: `sinew/World`.
+/// Type of a kind of resource in the protos: `sinew/World`.
 fn resource_type(kind: &str) -> String {
     let (first, rest) = kind.split_at(kind.len().min(1));
     format!("sinew/{}{rest}", first.to_uppercase())
 }
 
-/// A fault as a message, for operations that tell later what a call would have told.
+/// A fault as a message, for operations that report later the error that a call would have returned.
 pub fn rpc_status(fault: Fault) -> tonic_types::Status {
     let status = Status::from(fault);
-    // The details of a status are its whole message.
+    // The details of a status are a whole `Status` message.
     prost::Message::decode(status.details()).unwrap_or_else(|_| tonic_types::Status {
         code: status.code().into(),
         message: status.message().to_owned(),

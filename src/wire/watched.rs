@@ -11,14 +11,14 @@ use prost::{DecodeError, Message};
 /// `sinew.v1.WatchWorldResponse`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum WatchWorldResponse {
-    /// Neither roster nor frame: a message of a newer server.
+    /// Neither roster nor frame: a message from a newer server.
     #[default]
     Unknown,
-    /// Who is who from now on.
+    /// The figures by index from now on.
     Roster(Box<Roster>),
     /// A frame.
     Frame(Box<WorldFrame>),
-    /// Either, already encoded as this message. Only sent, never received.
+    /// Either of these, already encoded as this message. Only sent, never received.
     Encoded(Bytes),
 }
 

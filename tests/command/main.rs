@@ -1,7 +1,7 @@
 //! The real binary: from a shell, under attack, killed, and in a shortened run of hours.
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail by panicking")]
 
-#[cfg(target_os = "linux")] // limits of a process and its memory as Linux tells them
+#[cfg(target_os = "linux")] // limits and memory of a process in the way of Linux
 mod abuse;
 #[cfg(unix)]
 mod chaos;

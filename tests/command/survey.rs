@@ -152,7 +152,7 @@ fn an_interrupted_survey_takes_over_what_it_had_and_runs_again_what_changed() {
     f.record("corpus/wave.bvh", "wave", 1.5);
     f.record("corpus/squat.bvh", "squat", 1.5);
     let (corpus, out) = (f.path("corpus"), f.path("s.json"));
-    // Interrupted after the first clips: the survey itself cannot be written, because a folder stands there.
+    // Interrupted after the first clips: the survey itself cannot be written, because a folder has its name.
     std::fs::create_dir(f.0.join("s.json")).unwrap();
     assert_eq!(survey(&[&corpus, "--out", &out]).status.code(), Some(1));
     std::fs::remove_dir(f.0.join("s.json")).unwrap();

@@ -1,4 +1,4 @@
-//! Files to clips, playing them, simulating without a world.
+//! Converting files to clips, playing them, and simulating without a world.
 
 use crate::corpus;
 use crate::support::{FALLEN, TestServer};
@@ -363,7 +363,7 @@ async fn a_walking_figure_goes_over_to_a_turn_without_a_stand() {
         let v = sinew_wire::frame::values(f.velocity.as_ref().unwrap());
         assert!(v[3].hypot(v[4]) > 0.3, "it stands at {now} s");
     }
-    // Up to 0.4 s of it are left out.
+    // Up to 0.4 s of the clip are skipped.
     let began = began.expect("it has begun");
     assert!((begins..begins + 0.5).contains(&began), "{began} s");
     server.stop().await;

@@ -119,7 +119,7 @@ async fn a_request_under_one_name_is_done_once() {
         (code, reason.as_str()),
         (Code::FailedPrecondition, "REQUEST_ID_REUSED")
     );
-    // The name counts only within its call, and a new name is a new request.
+    // The id counts only within its call, and a new id is a new request.
     let resume = pb::ResetFigureRequest {
         name: format!("{world}/figures/none"),
         request_id: "step-1".into(),
@@ -134,7 +134,7 @@ async fn a_request_under_one_name_is_done_once() {
     worlds.step_world(new).await.unwrap();
     assert_eq!(server.get_world(world).await.tick, 10);
 
-    // A refused request is tried again under its name.
+    // A refused request is tried again under its id.
     let delete = pb::DeleteWorldRequest {
         name: "worlds/later".into(),
         request_id: "delete-1".into(),
@@ -307,7 +307,7 @@ async fn a_mask_says_what_an_update_takes() {
         display_name: "studio".into(),
         speed: 2.0,
         rate_hz: 240.0, // set at creation: not taken
-        tick: 99,       // of the server
+        tick: 99,       // set by the server
         ..Default::default()
     };
     let update = |update_mask| pb::UpdateWorldRequest {
@@ -498,7 +498,7 @@ async fn trying_out_answers_and_changes_nothing() {
         Code::NotFound
     );
 
-    // Nothing of it has left a trace in the state.
+    // None of the trials has left a trace in the state.
     let twin = server.paused_world("twin").await;
     server.figure(&twin, "a").await;
     server.ball(&twin, "ball").await;

@@ -198,7 +198,7 @@ async fn a_world_is_done_again_and_goes_back_to_any_tick_of_its_past() {
     assert!(frame.figures[1].applied_sequence >= 60, "it is driven");
     let done = server.replay(&world, 2).await;
     assert_eq!((done.compared_tick_count, done.difference), (81, None));
-    // Earlier times are still held.
+    // Earlier ticks are still held.
     let back = server.seek(&world, 5).await.unwrap();
     assert_eq!(back.tick, 5);
     let shown = server.frame(&world, &["root_pose"]).await;
@@ -470,7 +470,7 @@ async fn a_fork_goes_on_as_the_world_would_to_which_nothing_more_comes() {
         server.step("worlds/now", 30).await;
         let walks = server.look("worlds/now/figures/b").await.status.unwrap();
         assert_eq!(walks.clip, "clips/walk");
-        // Left alone it stands after the grace time of its driver, five seconds, and stays so.
+        // Left alone, the figure stands after the grace time of its driver, five seconds, and stays standing.
         server.fork_at("left", &world, then.tick).await.unwrap();
         server.step("worlds/left", 400).await;
         let shown = server.frame("worlds/left", &["status"]).await;
@@ -492,7 +492,7 @@ async fn recordings_outlive_the_server_as_far_as_its_log_reaches() {
     let on = |dir: &Path| {
         let dir = dir.to_str().unwrap().to_owned();
         async move {
-            // However slow this machine is, nothing of it is old.
+            // However slow this machine is, none of the history expires.
             let settings = [
                 ("data_dir", dir.as_str()),
                 ("durability", "each"),

@@ -42,7 +42,7 @@ struct Streamed {
     delay: (f64, f64),
     /// Farthest from the start, m.
     far: f64,
-    /// Speed of the pelvis in the end, m/s.
+    /// Speed of the pelvis at the end, m/s.
     speed: f64,
 }
 
@@ -256,7 +256,7 @@ async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
     let stand = engine::standing(&body, engine::place_of(&last));
     let (mut feedback, mut speed) = (None, Vec::new());
     for push in 0..200i64 {
-        // 50 ms each, in a world that is stepped as far.
+        // 50 ms each, in a world that is stepped by the same time.
         let frames = (push * 6..(push + 1) * 6)
             .map(|i| match i - restart {
                 past @ 0.. => frame_of(past, &stand),

@@ -34,7 +34,7 @@ impl Asked {
         }
     }
 
-    /// Nothing changed: the same tick, the same state, the same things.
+    /// Nothing changed: the same tick, state, figures and clips.
     async fn unchanged(self) {
         let after = self.server.frame(&self.world, &["root_pose"]).await;
         assert_eq!(

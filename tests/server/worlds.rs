@@ -1,4 +1,4 @@
-//! Worlds, figures, perturbations, pages of the port.
+//! Worlds, figures, perturbations, and the pages on the port.
 
 use crate::support::{TestServer, refusal, view};
 use sinew_wire::frame::values;

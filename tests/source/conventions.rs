@@ -65,7 +65,7 @@ fn every_quantity_has_a_unit_of_the_table_or_a_reason_to_have_none() {
         }
         let all_of = format!("{}.*", field.parent_message().name());
         let names = [name_of(&field), field.name().to_owned(), all_of];
-        // The longest ending decides: `_rad_s` is no `_s`.
+        // The longest ending decides: `_rad_s` does not count as `_s`.
         let suffix = suffixes
             .iter()
             .filter(|s| field.name().ends_with(s.as_str()))
@@ -143,7 +143,7 @@ fn every_field_of_a_request_says_how_it_behaves() {
     }
 }
 
-/// The type of the resources that a field names, if it says so.
+/// The type of the resources that a field names, if it is declared.
 fn reference(field: &FieldDescriptor, extension: &ExtensionDescriptor) -> Option<String> {
     let options = field.options();
     if !options.has_extension(extension) {
@@ -233,7 +233,7 @@ fn standard_methods_have_the_fields_of_their_kind() {
             () if name.starts_with("List") => &["page_size", "page_token"],
             () if name.starts_with("Create") => &["request_id", "validate_only"],
             () if name.starts_with("Update") => &["update_mask", "validate_only"],
-            () if name == "DeleteOperation" => &["name"], // one that is gone is gone
+            () if name == "DeleteOperation" => &["name"], // a deleted one is already gone
             () if name.starts_with("Delete") => &["name", "request_id"],
             () => &[],
         };

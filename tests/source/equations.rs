@@ -1,18 +1,18 @@
 //! The table that leads from each equation to its code and its tests, `docs/equations.md`, held against the source.
 //!
-//! Goal: whoever looks for an equation finds the functions that compute it and the tests that check it, and both say
-//! which equation that is. Method: the rows of the tables are read; each path in them is looked up among the items of
-//! `src/`, each test among the tests of the repository, and the comments above them must name what the row is about.
+//! Goal: a reader who looks for an equation finds the functions that compute it and the tests that check it, and both
+//! name the equation. Method: the rows of the tables are read; each path in them is looked up among the items of
+//! `src/`, each test among the tests of the repository, and the comments above them must name the subject of the row.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// What is defined somewhere.
+/// An item and the place of its definition.
 struct Item {
     /// Modules, without the crate: `sim::contact::newton`. Empty outside `src/`.
     module: String,
-    /// The type that it is a method of.
+    /// The type of which it is a method.
     owner: String,
     name: String,
     /// Comments and attributes above it; in Python the line below it.
@@ -134,7 +134,7 @@ fn each(path: &str) -> Vec<String> {
     }
 }
 
-/// What stands between backticks.
+/// The text between backticks.
 fn quoted(cell: &str) -> Vec<String> {
     let parts = cell.split('`').skip(1).step_by(2);
     parts.flat_map(each).collect()
@@ -179,7 +179,7 @@ fn names(about: &str) -> Vec<String> {
             let first = about.split_whitespace().next().unwrap_or_default();
             let known =
                 first.starts_with(['§', 'S']) || first.starts_with(|c: char| c.is_ascii_digit());
-            // A section is also called that in words.
+            // A section may also be named in words.
             let words = first.strip_prefix('§').map(|n| format!("Section {n}"));
             let short = Some(first.to_owned()).filter(|_| known);
             short.into_iter().chain(words).collect()
@@ -188,7 +188,7 @@ fn names(about: &str) -> Vec<String> {
     }
 }
 
-/// Items that a path may mean.
+/// Items to which a path may refer.
 fn meant<'a>(items: &'a [Item], path: &str) -> Vec<&'a Item> {
     let mut parts: Vec<&str> = path.split("::").collect();
     let name = parts.pop().unwrap();
@@ -201,7 +201,7 @@ fn meant<'a>(items: &'a [Item], path: &str) -> Vec<&'a Item> {
     found.collect()
 }
 
-/// What is wrong with the table.
+/// The faults of the table.
 fn faults(page: &str, items: &[Item]) -> Vec<String> {
     let mut out = Vec::new();
     for row in rows(page) {
@@ -209,14 +209,14 @@ fn faults(page: &str, items: &[Item]) -> Vec<String> {
         let names = names(&about);
         let says =
             |item: &&Item| names.is_empty() || names.iter().any(|n| item.docs.contains(n.as_str()));
-        // A path from the root of the crate is exact; what is shorter explains it.
+        // A path from the root of the crate is exact; a shorter one is relative to it.
         let code: Vec<_> = code
             .iter()
             .filter(|p| p.starts_with("sim::") || p.starts_with("evaluate::"))
             .collect();
         let tests: Vec<_> = tests.iter().filter(|t| !t.contains("::")).collect();
         if about == "(1)" {
-            continue; // the page says why it has none
+            continue; // the page gives a reason
         }
         if code.is_empty() || tests.is_empty() {
             out.push(format!("{about}: no function or no test"));
@@ -236,7 +236,7 @@ fn faults(page: &str, items: &[Item]) -> Vec<String> {
         for test in tests {
             let found: Vec<_> = items.iter().filter(|i| i.name == *test).collect();
             if found.is_empty() {
-                continue; // a quantity that a test looks at, not a test
+                continue; // a quantity that a test observes, not a test
             }
             real += 1;
             if !found.iter().any(|i| i.is_test) {

@@ -1,14 +1,14 @@
-//! Goal: the source can be held in mind. Method: the numbers that `cargo run -p tools --bin house` prints are held to
-//! limits that may only shrink.
+//! Goal: the source stays small enough to understand. Method: the numbers that `cargo run -p tools --bin house` prints
+//! are held to limits that may only shrink.
 
 use sinew_source::{FIELDS, Item, PARAMETERS, Source, decisions, measures, packages, sources};
 use std::path::Path;
 
 /// A measure and its limit. A change that improves a number lowers its limit.
 struct Limit {
-    /// As [`measures`] names it.
+    /// Its name, as in [`measures`].
     measure: &'static str,
-    /// Largest number that is accepted.
+    /// Largest accepted number.
     limit: usize,
     /// The number to reach.
     goal: usize,
@@ -157,7 +157,7 @@ fn decision_records_are_few() {
 #[test]
 fn turns_of_phrase_are_found_in_comments_only() {
     use sinew_source::words::{comments, patterns};
-    // The signs of comments are put in later, so that these are not counted.
+    // The comment signs are inserted later, so that these lines are not counted.
     let source = [
         "##/ What is kept. True if somebody",
         "##/ who moves goes on so far. What is it?",

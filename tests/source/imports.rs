@@ -1,14 +1,14 @@
-//! Imports of the source: which file uses names that another file defines, and circles among files.
+//! Imports of the source: the files that use names of another file, and circles among files.
 //!
 //! A path counts where it is used, not where a module is imported: after `use super::plan`, the path `plan::stop::Stop`
 //! uses the file of `plan::stop`. A name that a file imports or re-exports is followed to the file that defines it.
-//! Methods are not followed: a call does not say which file it calls.
+//! Methods are not followed, because a call does not name the file that it calls.
 
 use crate::tokens::{Token, after_block, sign, tokens, without_tests, word};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Crates by their names in code, and the part of the source that each of them is.
+/// Crates by their names in code, with the part of the source that each of them is.
 const CRATES: &[(&str, &str)] = &[
     ("sinew_physics", "sim"),
     ("sinew_evaluate", "evaluate"),
@@ -17,7 +17,7 @@ const CRATES: &[(&str, &str)] = &[
     ("sinew_server", "server"),
 ];
 
-/// A path in the source, from the part on.
+/// A path in the source, starting with the part.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Use {
     /// Its words.
@@ -31,19 +31,19 @@ pub struct Use {
 /// A file of the source, without its tests.
 #[derive(Clone, Debug)]
 pub struct File {
-    /// Where it is.
+    /// Its path.
     pub path: PathBuf,
-    /// Its module: words from the part on.
+    /// Its module: words starting with the part.
     pub module: Vec<String>,
     /// Its tokens.
     pub tokens: Vec<Token>,
     /// Every path in it that begins at a crate, at `self` or at `super`.
     pub paths: Vec<Vec<String>>,
-    /// Words before the paths of its crate: the part, or nothing where there is one crate of all parts.
+    /// Words before the paths of its crate: the part, or none if one crate has all parts.
     crate_root: Vec<String>,
 }
 
-/// The part that a crate is.
+/// The part of the source that is this crate.
 fn part(name: &str) -> Option<&'static str> {
     CRATES
         .iter()
@@ -110,9 +110,9 @@ fn uses_that(
 /// Reads one path, or a group of them in braces.
 struct Tree<'a> {
     t: &'a [Token],
-    /// The module that `self` is.
+    /// The module for `self`.
     here: Vec<String>,
-    /// The path that `crate` is.
+    /// The path for `crate`.
     crate_root: &'a [String],
 }
 
@@ -166,7 +166,7 @@ impl Tree<'_> {
             }
             if sign(t.get(i), ':') && sign(t.get(i + 1), ':') {
                 i += 2;
-                // `::<` begins type arguments: the path is over.
+                // `::<` begins type arguments, so the path ends here.
                 if sign(t.get(i), '<') {
                     break;
                 }
@@ -270,7 +270,7 @@ fn read_use(file: &File, i: usize, prefix: &[String]) -> Vec<Use> {
     out
 }
 
-/// Which file uses names of which.
+/// The use of names between files.
 pub struct Graph {
     /// Paths of the files, from the root of the repository.
     pub names: Vec<String>,
@@ -286,7 +286,7 @@ struct Names {
     files: BTreeMap<Vec<String>, usize>,
     /// (Module, name) → path.
     imported: BTreeMap<(Vec<String>, String), Vec<String>>,
-    /// Module → modules of which it presents everything.
+    /// Module → modules whose names it re-exports with `*`.
     globs: BTreeMap<Vec<String>, Vec<Vec<String>>>,
     /// (Module, name) of every item.
     defined: BTreeSet<(Vec<String>, String)>,
@@ -358,14 +358,14 @@ impl Names {
         }
     }
 
-    /// The longest module with a file of its own that `path` begins with.
+    /// The longest module with a file of its own with which `path` begins.
     fn module(&self, path: &[String]) -> Option<usize> {
         (1..=path.len())
             .rev()
             .find(|n| self.files.contains_key(&path[..*n]))
     }
 
-    /// The file that defines what `path` names; `None` for a module, and for names from elsewhere.
+    /// The file that defines the item at `path`; `None` for a module, and for names from elsewhere.
     fn defines(&self, path: &[String]) -> Option<usize> {
         let mut path = path.to_vec();
         for _ in 0..12 {
@@ -396,7 +396,7 @@ impl Names {
     }
 }
 
-/// Reads which file uses which.
+/// Reads the use of names between files.
 pub fn graph(root: &Path) -> Graph {
     let files = files(root);
     let names = Names::of(&files);
@@ -441,9 +441,9 @@ pub fn graph(root: &Path) -> Graph {
 }
 
 impl Graph {
-    /// Circles: groups of files each of which uses all the others, directly or by way of others; the largest first.
+    /// Circles: groups of files in which each uses all the others, directly or through others; the largest first.
     ///
-    /// A module is composed of the modules below it and may use them, and they may use what it defines. So the use of a
+    /// A module is composed of the modules below it and may use them, and they may use its definitions. So the use of a
     /// module below does not close a circle, except one that leaves the module: `a` uses `b`, `b` uses `b::c` below it,
     /// and `b::c` uses `a`.
     pub fn circles(&self) -> Vec<Vec<usize>> {
@@ -503,7 +503,7 @@ impl Graph {
     }
 }
 
-/// The files that `from` uses, directly or by way of others, but not by way of `without`.
+/// The files that `from` uses, directly or through others, but not through `without`.
 fn reach(uses: &[Vec<usize>], from: usize, without: Option<usize>) -> Vec<bool> {
     let mut seen = vec![false; uses.len()];
     let mut open = vec![from];

@@ -3,17 +3,17 @@
 //! Goal: a module uses only what lies to its right in the table below, and the physics names nothing of network, clock,
 //! files or platform mathematics. No files use each other in a circle. Method: a small reader of Rust tokens resolves
 //! every path that starts with `crate`, `super`, `self` or one of our crates (imports, re-exports and paths in code
-//! alike) to a module, and looks the pair up. Test modules are left out: they may look anywhere.
+//! alike) to a module, and looks the pair up. Test modules are left out, because they may use anything.
 //!
-//! A parent may use the modules below it, and they may use what it defines: a module is composed of those below it. A
-//! circle is one of other files, such as two modules below one parent. Or it leaves the parent: a parent uses a module
-//! below it, which uses a file elsewhere, which uses the parent.
+//! A parent may use the modules below it, and they may use its definitions, because a module is composed of those below
+//! it. A circle consists of other files, such as two modules below one parent. Or it leaves the parent: a parent uses a
+//! module below it, which uses a file elsewhere, which uses the parent.
 
 use sinew_source::imports::{self, File, Graph, paths, reexports};
 use sinew_source::tokens::{Token, sign, tokens, without_tests, word};
 use std::path::PathBuf;
 
-/// What each top-level part may use.
+/// The parts that each top-level part may use.
 const PARTS: &[(&str, &[&str])] = &[
     ("cli", &["client", "server", "evaluate", "wire", "sim"]),
     ("client", &["wire", "sim"]),
@@ -23,16 +23,16 @@ const PARTS: &[(&str, &[&str])] = &[
     ("sim", &[]),
 ];
 
-/// Files that use a part which is not theirs to use. The list may only shrink.
+/// Files that use a part without permission. The list may only shrink.
 const EXCEPTIONS: &[(&str, &str)] = &[];
 
 /// Files that use each other in a circle. The list may only shrink.
 const IN_CIRCLES: &[&str] = &[];
 
-/// Layers of the physics, from the left to the right; modules of one layer do not use each other. `contact` (the Newton
-/// kernel of motors, limits and friction) lies right of `control`, because the modern controller is solved by the same
-/// kernel. `setup`, `report` and `touch` are plain data: how a figure is set up, and what it says.
-/// `saved` helps the derives of all of them to write a checkpoint.
+/// Layers of the physics, from left to right; modules of one layer do not use each other. `contact` (the Newton kernel
+/// of motors, limits and friction) is to the right of `control`, because the modern controller is solved by the same
+/// kernel. `setup`, `report` and `touch` are plain data: the setup of a figure and its output. `saved` helps the
+/// derives of all of them to write a checkpoint.
 const SIM: &[&[&str]] = &[
     &["rehearsal"],
     &["world"],
@@ -60,7 +60,7 @@ const SIM: &[&[&str]] = &[
 /// Layers of the server, likewise.
 const SERVER: &[&[&str]] = &[&["api"], &["worlds"], &["tick"], &["ingest", "fanout"]];
 
-/// Words that the physics does not say: network, clock, disk, hash iteration.
+/// Words that the physics does not contain: network, clock, disk, hash iteration.
 const FORBIDDEN_IN_SIM: &[&str] = &[
     "tokio",
     "tonic",
@@ -76,7 +76,7 @@ const FORBIDDEN_IN_SIM: &[&str] = &[
     "unsafe",
 ];
 
-/// Paths that the physics does not say.
+/// Paths that the physics does not contain.
 const FORBIDDEN_PATHS_IN_SIM: &[&str] =
     &["std::fs", "std::net", "std::time", "std::io", "std::env"];
 
@@ -112,7 +112,7 @@ fn files() -> Vec<File> {
     imports::files(&root())
 }
 
-/// The layer of `module` (words after the part's own name): the longest name of the table that it begins with.
+/// The layer of `module` (words after the part's own name): the longest name in the table with which it begins.
 fn layer(table: &[&[&str]], module: &[String]) -> Option<(usize, String)> {
     let full = module.join("::");
     let mut best: Option<(usize, String)> = None;
@@ -176,9 +176,9 @@ fn check_layers(part: &str, table: &[&[&str]]) {
             if part == "sim" {
                 wrong.push(format!("{}: not in the table", f.path.display()));
             }
-            continue; // server: config, auth, telemetry and the like are used by any
+            continue; // server: any module may use config, auth, telemetry and the like
         };
-        // A directory's mod.rs presents its submodules, also those of another layer.
+        // A directory's mod.rs re-exports its submodules, also those of another layer.
         let presents = f.path.ends_with("mod.rs") && f.module.len() == 2;
         for p in f
             .paths

@@ -1,4 +1,4 @@
-//! What the source says about itself: sizes, tunable numbers, fields, parameters and duplicates, read with `syn`.
+//! Measures of the source: sizes, tunable numbers, fields, parameters and duplicates, read with `syn`.
 
 pub mod imports;
 pub mod packages;
@@ -11,12 +11,12 @@ use std::path::{Path, PathBuf};
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
 
-/// Most fields of a type of the house.
+/// Most fields of a measured type.
 pub const FIELDS: usize = 12;
 /// Most parameters of a function, without `self`; a tuple counts as its parts.
 pub const PARAMETERS: usize = 7;
 
-/// Modules that plan and follow motions; as they are named now, and as they were before they had modules of their own.
+/// Modules that plan and follow motions, with their present names and with those before they had modules of their own.
 const LOCOMOTION: &[&str] = &[
     "sim/plan",
     "sim/track",
@@ -43,7 +43,7 @@ const LOCOMOTION: &[&str] = &[
     "sim/figure/step/leaving",
     "sim/figure/step/transitions",
 ];
-/// What lies in `sim/motion` and reads, keeps or samples motions, without planning them.
+/// Parts of `sim/motion` that read, keep or sample motions, without planning them.
 const READING: &[&str] = &[
     "sim/motion/bvh",
     "sim/motion/read",
@@ -57,7 +57,7 @@ const READING: &[&str] = &[
     "sim/motion/builtin",
     "sim/motion/target",
 ];
-/// Parts whose functions take no tuples, by their names of now and before.
+/// Parts whose functions take no tuples, by present and earlier names.
 const WITHOUT_TUPLES: &[&str] = &["sim/plan", "sim/figure", "sim/reference", "sim/retarget"];
 /// Parts whose types are held to [`FIELDS`], besides those of locomotion.
 const HOUSE: &[&str] = &[
@@ -78,7 +78,7 @@ pub struct Item {
     pub count: usize,
 }
 
-/// What one file says.
+/// The measures of one file.
 #[derive(Clone, Debug, Default)]
 pub struct Source {
     /// Path below `src`, without `.rs` and `/mod`.
@@ -182,7 +182,7 @@ fn parameters(signature: &syn::Signature) -> usize {
     typed.sum()
 }
 
-/// Parameters of a function that are tuples, or are taken apart as such.
+/// Parameters of a function that are tuples, or are destructured as such.
 fn tuples(signature: &syn::Signature) -> usize {
     fn is_tuple(kind: &syn::Type) -> bool {
         match kind {
@@ -335,7 +335,7 @@ fn read(root: &Path, path: &Path) -> Source {
     reader.out
 }
 
-/// Files below `folder` with this ending, sorted; without what is generated.
+/// Files below `folder` with this ending, sorted; without generated ones.
 fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -369,8 +369,8 @@ pub fn sources(root: &Path) -> Vec<Source> {
         .collect()
 }
 
-/// Names of types that are defined more than once, with how often, the most frequent first. Types of a trait and types
-/// within functions do not count.
+/// Names of types that are defined more than once, with their counts, the most frequent first. Types of a trait and
+/// types within functions do not count.
 pub fn reused_names(root: &Path) -> Vec<(String, usize)> {
     let mut count: BTreeMap<String, usize> = BTreeMap::new();
     for file in files(&root.join("src"), ".rs") {
@@ -398,7 +398,7 @@ pub fn reused_names(root: &Path) -> Vec<(String, usize)> {
     out
 }
 
-/// Modules directly below the one of a figure, without its tests.
+/// Modules directly below that of the figure, without its tests.
 pub fn submodules_of_figure(root: &Path) -> Vec<String> {
     let text = fs::read_to_string(root.join("src/sim/figure/mod.rs")).unwrap_or_default();
     let tokens = tokens::without_tests(&tokens::tokens(&text));
@@ -409,7 +409,7 @@ pub fn submodules_of_figure(root: &Path) -> Vec<String> {
     names.collect()
 }
 
-/// Number of decision records; their index is none.
+/// Number of decision records, without their index.
 pub fn decisions(root: &Path) -> usize {
     let records = files(&root.join("docs/adr"), ".md");
     records

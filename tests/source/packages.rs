@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
-/// A table of a manifest or of a lock file, as far as it is read here: its head and its lines.
+/// A table of a manifest or of a lock file, in the parts that are read here: its head and its lines.
 struct Table {
     head: String,
     values: BTreeMap<String, String>,
@@ -121,16 +121,17 @@ fn links_of(package: &Path) -> usize {
     out + usize::from(has_library && library.is_none_or(|l| l.is_true("test", true)))
 }
 
-/// Crates that the library of the package in `folder` needs on any system, by the lock file; without itself.
+/// Crates that the library of the package in `folder` needs on any system, by the lock file; without the package
+/// itself.
 ///
-/// The lock file does not tell what a crate needs to run from what its build needs, so this is an upper bound.
+/// The lock file does not separate the needs of a crate at run time from those of its build, so this is an upper bound.
 pub fn closure(root: &Path, folder: &str) -> BTreeSet<String> {
     let manifest = tables(&root.join(folder).join("Cargo.toml"));
     let lock = tables(&root.join("Cargo.lock"));
     let mut needs: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for package in lock.iter().filter(|t| t.head == "package") {
         let name = package.values.get("name").map_or("", String::as_str);
-        // An entry is a name, with a version where there are several.
+        // An entry is a name, with a version if there are several.
         let all = package.list("dependencies").into_iter();
         let names = all.map(|d| d.split(' ').next().unwrap_or(d));
         needs.entry(name).or_default().extend(names);

@@ -1,5 +1,5 @@
-//! Regenerates the protobuf code and the descriptor set under `src/wire/gen` and fails if they differ from what is
-//! checked in.
+//! Regenerates the protobuf code and the descriptor set under `src/wire/gen` and fails if they differ from the
+//! checked-in files.
 //!
 //! Building needs no protobuf compiler because the generated files are part of the source. After a change of `proto/`:
 //! `SINEW_REWRITE=1 cargo test --test source proto_bootstrap`.
@@ -20,7 +20,7 @@ fn generated_code_matches_the_protos() {
         .filter(|n| n.ends_with(".proto"))
         .collect();
     files.sort();
-    // What errors are made of, for clients that learn of messages by reflection.
+    // The parts of errors, for clients that learn of messages by reflection.
     files.push("google/rpc/error_details.proto".to_owned());
     let mut compiler = protox::Compiler::new([root.join("proto")]).expect("include path");
     compiler
@@ -29,7 +29,7 @@ fn generated_code_matches_the_protos() {
         .open_files(&files)
         .expect("protos compile");
     let with_comments = compiler.file_descriptor_set();
-    // Options of our own, the roles of calls, are in the encoded set only. Reflection clients do not need the comments,
+    // Our own options, the roles of calls, are only in the encoded set. Reflection clients do not need the comments,
     // which are nine tenths of the bytes.
     let mut lean = protox::Compiler::new([root.join("proto")]).expect("include path");
     lean.include_imports(true)
@@ -53,9 +53,9 @@ fn generated_code_matches_the_protos() {
             ".sinew.v1.WatchWorldResponse",
             "crate::watched::WatchWorldResponse",
         )
-        // Of googleapis only the errors of operations are used in code; annotations are read from descriptors.
+        // Of googleapis the code only uses the errors of operations; annotations are read from descriptors.
         .extern_path(".google.rpc", "tonic_types::pb")
-        // Requests are scanned before they are decoded, by the name of their type.
+        // Requests are scanned before they are decoded, by the names of their types.
         .codec_path("crate::codec::Codec")
         .emit_rerun_if_changed(false)
         .compile_fds_with_config(with_comments, with_names)

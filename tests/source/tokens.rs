@@ -1,9 +1,9 @@
-//! A reader of Rust source, as far as imports need it: words and signs, without comments, strings and tests.
+//! A reader of Rust source, in the detail that imports need: words and signs, without comments, strings and tests.
 
 /// A word, a number or a sign.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Token {
-    /// A name or keyword; a lifetime is a sign and a word.
+    /// A name or keyword; a lifetime is read as a sign and a word.
     Word(String),
     /// A number.
     Number,
@@ -116,7 +116,7 @@ fn after_raw_string(c: &[char], mut i: usize, hashes: usize) -> usize {
     i
 }
 
-/// The word that a token is.
+/// The word of a token, if it is one.
 pub fn word(t: Option<&Token>) -> Option<&str> {
     match t {
         Some(Token::Word(w)) => Some(w),

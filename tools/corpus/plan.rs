@@ -1,4 +1,4 @@
-//! From footholds, a pelvis height and the angles of trunk and arms to a whole motion.
+//! Turns footholds, a pelvis height and the angles of trunk and arms into a whole motion.
 //!
 //! The centre of mass follows the cart-table equation of the linear inverted pendulum with the height of the motion: `λ
 //! (c − p) − z c̈ = L̇`, with `λ = g + z̈`, the planned zero-moment point `p` and the rate of the angular momentum `L`
@@ -32,7 +32,7 @@ pub struct Stance {
     pub yaw: f64,
     /// Pitch at touch-down (toes up positive: heel first) and time until the sole is flat, s after touch-down.
     pub strike: (f64, f64),
-    /// Pitch at lift-off (negative: over the toes) and the time over which it grows, s before lift-off.
+    /// Pitch at lift-off (negative: over the toes) and the time before lift-off over which it grows, s.
     pub off: (f64, f64),
     /// Zero-moment point at touch-down and at lift-off, ahead of the ankle; in long stances it rests in between.
     pub roll: (f64, f64),

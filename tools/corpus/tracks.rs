@@ -1,6 +1,6 @@
-//! Curves over time that motions are authored with, and the noise of recordings. Every operation is exact or
-//! correctly rounded (sum, product, quotient, root) or comes from the project's portable sine, so that the bytes are
-//! equal on every machine.
+//! Curves over time from which motions are authored, and the noise of recordings. Every operation is exact or correctly
+//! rounded (sum, product, quotient, root) or comes from the project's portable sine, so that the bytes are equal on
+//! every machine.
 
 use sinew_physics::math::Vec3;
 

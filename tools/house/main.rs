@@ -11,8 +11,8 @@ use sinew_source::{
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Functions that decide from positions, speeds or forces which foot stands, under their names of now and before. A new
-/// one has to be added here.
+/// Functions that decide from positions, speeds or forces which foot stands, under their present and earlier names. A
+/// new one has to be added here.
 const CLASSIFIERS: &[&str] = &[
     "label_feet",
     "label_runs",
@@ -115,7 +115,7 @@ fn house(root: &Path) -> Vec<Line> {
     out
 }
 
-/// Sizes of the locomotion, and what there should be one of.
+/// Sizes of the locomotion, and the number of things of which there should be only one.
 fn sizes(all: &[Source]) -> Vec<Line> {
     let locomotion: Vec<&Source> = all.iter().filter(|s| s.is_locomotion()).collect();
     let labelling: Vec<&Source> = all

@@ -154,7 +154,7 @@ impl Caller {
         Err(self.denied(role, &format!("worlds/{world}")))
     }
 
-    /// The fault of a missing role; `place`: where it is missing, empty for the server.
+    /// The fault of a missing role; `place`: the world in which it is missing, empty for the server.
     pub fn denied(&self, role: Role, place: &str) -> Fault {
         let place = if place.is_empty() {
             String::new()

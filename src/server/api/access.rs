@@ -45,7 +45,7 @@ pub fn grant_out(world: &str, g: &Grant) -> pb::Grant {
 /// A grant as it was written by [`grant_out`].
 ///
 /// # Errors
-/// What could not be granted today.
+/// A field that could not be granted today.
 pub fn grant_in(g: &pb::Grant) -> Result<Grant, Fault> {
     let (_, id) = access::grant_name("grant.name", &g.name)?;
     let created = access::time("grant.create_time", g.create_time)?;
@@ -75,7 +75,7 @@ impl AccessService for Api {
             let world = &request.get_ref().world;
             if !world.is_empty() {
                 let id = world_name("world", world)?;
-                // Whether there is such a world is told to those who may see it.
+                // Only callers that may see the world learn whether it exists.
                 let rights = match self.worlds.get(id) {
                     Ok(handle) => handle.grants.rights(&caller.identity, id).roles,
                     Err(_) => claims.roles_in(id),

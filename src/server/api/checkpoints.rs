@@ -21,7 +21,7 @@ use std::sync::Arc;
 use std::time::SystemTime;
 use tonic::{Request, Response, Status};
 
-/// A state that was asked for.
+/// The source of a requested state.
 enum StateSource {
     Kept(Arc<KeptCheckpoint>),
     Data(&'static str, bytes::Bytes),
@@ -41,7 +41,7 @@ fn out(kept: &KeptCheckpoint) -> pb::Checkpoint {
 }
 
 impl Api {
-    /// Refuses bytes that no response has room for.
+    /// Refuses bytes that are too many for any response.
     fn check_data(&self, bytes: &[u8]) -> Result<(), Fault> {
         let most = self.config.max_response_bytes;
         if bytes.len() as u64 <= most {
@@ -55,7 +55,7 @@ impl Api {
         })
     }
 
-    /// The bytes for a response, if they are wanted.
+    /// The bytes for a response, if the request wants them.
     fn data(&self, kept: &KeptCheckpoint, wanted: bool) -> Result<Vec<u8>, Fault> {
         if !wanted {
             return Ok(Vec::new());
@@ -74,7 +74,7 @@ impl Api {
         Ok((handle, capture))
     }
 
-    /// The world of a source, made where there is time for it.
+    /// The world of a source. Built on a worker, because that takes long.
     async fn restored(&self, client: &ClientKey, source: StateSource) -> Result<Scene, Fault> {
         let most = self.config.max_clip_bytes;
         let work = move || match source {
@@ -92,7 +92,7 @@ impl Api {
         self.conversions.run(client, move |_| work()).await
     }
 
-    /// A checkpoint, for directors of its world: it holds all that there is of the world.
+    /// A checkpoint, for directors of its world: it contains everything in the world.
     fn kept(&self, caller: &Caller, field: &str, name: &str) -> Result<Arc<KeptCheckpoint>, Fault> {
         let (world, id) = checkpoint_name(field, name)?;
         self.enter_as(caller, Role::Director, world)?;
@@ -119,7 +119,7 @@ impl CheckpointService for Api {
                 let _in_use = in_use;
                 let bytes = checkpoints::encode(&capture)?;
                 if r.return_data {
-                    keeper.check_data(&bytes)?; // what is refused is not kept
+                    keeper.check_data(&bytes)?; // a refused checkpoint is not kept
                 }
                 let new = KeptCheckpoint {
                     world: handle.id.to_string(),
@@ -211,7 +211,7 @@ impl CheckpointService for Api {
             let info = handle
                 .call(origin, move |s| {
                     let info = s.restore(restored, Past::Elsewhere)?;
-                    // What viewers could resume with is of another time.
+                    // Viewers can no longer resume, because the frames held are from another time.
                     cleared.history().clear();
                     Ok(info)
                 })

@@ -40,7 +40,7 @@ fn may(caller: &Caller, clip: &ClipInfo, role: Role) -> bool {
     own || sees || roles.contain(role)
 }
 
-/// A clip that the caller may see; any other is one that there is not.
+/// A clip that the caller may see. All others are reported as missing.
 pub(super) fn seen(api: &Api, caller: &Caller, id: &str) -> Result<ClipInfo, Fault> {
     let info = api.clips.info(id)?;
     if may(caller, &info, Role::Viewer) {
@@ -49,10 +49,10 @@ pub(super) fn seen(api: &Api, caller: &Caller, id: &str) -> Result<ClipInfo, Fau
     Err(Fault::not_found("clip", format!("clips/{id}")))
 }
 
-/// Stages of a conversion, after each of which it asks whether to go on.
+/// Stages of a conversion; after each one it checks whether to continue.
 const STAGES: f64 = 9.0;
 
-/// Stores a clip, or says what would be stored.
+/// Stores a clip, or reports what would be stored.
 pub(super) async fn create(
     api: &Api,
     (caller, client): (&Caller, ClientKey),
@@ -82,7 +82,7 @@ pub(super) async fn create(
         None => 0,
     };
     let convert = move |turn: &Turn| {
-        let _upload = upload; // the work goes on for a moment when its client is gone
+        let _upload = upload; // the work continues for a moment after its client has gone
         let stage = Cell::new(0.0);
         let stop = || {
             progress.tell(stage.replace(stage.get() + 1.0), STAGES);
@@ -99,7 +99,8 @@ pub(super) async fn create(
                 .clips
                 .would_create(&new, &reference, &built, &source, &stop);
         }
-        // Written in the order in which others see it come and go, whether or not its client waits for it.
+        // Written in the order in which others see the clip appear and disappear, whether or not its client waits for
+        // it.
         let mut writing = None;
         let mut write = |info: &ClipInfo| {
             if let (Some(persistence), Some(r)) = (&app.persistence, stored.take()) {
@@ -110,7 +111,7 @@ pub(super) async fn create(
         let clips = &app.clips;
         let info = clips.create(new, &reference, &built, source, &stop, &mut write)?;
         if let Some(Err(fault)) = writing.map(Writing::wait) {
-            // It may be gone already, and another one of its name be there.
+            // The clip may be gone already, and another one may have its name.
             let same = |there: &ClipInfo| match there.created == info.created {
                 true => Ok(()),
                 false => Err(Fault::not_found("clip", format!("clips/{}", info.id))),
@@ -126,7 +127,7 @@ pub(super) async fn create(
     })
 }
 
-/// Rehearses a clip for a figure, and keeps what was found.
+/// Rehearses a clip for a figure, and keeps the result.
 pub(super) async fn rehearse(
     api: &Api,
     (caller, client): (&Caller, ClientKey),
@@ -135,7 +136,7 @@ pub(super) async fn rehearse(
 ) -> Result<pb::RehearseClipResponse, Fault> {
     let id = clip_name("clip", &r.clip)?.to_owned();
     let info = seen(api, caller, &id)?;
-    // Whoever plays the clip gets what was found.
+    // Figures that play the clip from now on play the rehearsal.
     if !may(caller, &info, Role::Owner) {
         return Err(caller.denied(Role::Owner, &format!("clips/{id}")));
     }
@@ -179,7 +180,7 @@ pub(super) async fn rehearse(
                 app.clips.forget_rehearsed(&score.id, &found);
                 return Err(fault);
             }
-            // Deleted meanwhile: another clip of that name is not to have it.
+            // Deleted in the meantime: another clip of that name must not get this rehearsal.
             if !app.clips.holds(&score) {
                 persistence.forget_rehearsal(&score.id, &found).await?;
             }
@@ -306,7 +307,7 @@ impl MotionService for Api {
             let caller = caller(&request)?;
             seen(&api, caller, id)?;
             let mut writing = None;
-            // Built-in clips say themselves that they stay.
+            // Built-in clips refuse deletion themselves.
             api.clips.delete(id, |info| {
                 if !may(caller, info, Role::Owner) {
                     return Err(caller.denied(Role::Owner, &format!("clips/{id}")));

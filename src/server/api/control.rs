@@ -33,7 +33,7 @@ impl ControlService for Api {
                 .grants
                 .rights(&caller.identity, &handle.id)
                 .max_priority;
-            // Without authentication nobody is told apart, and everybody may do everything.
+            // Without authentication all callers look alike, so each may do everything.
             let acquire = Acquire {
                 token: secret()?,
                 priority: control::priority("priority", r.priority, most)?,

@@ -1,4 +1,4 @@
-//! Live desired motion: the stream and its unary twin take the same way into the world.
+//! Live desired motion: the stream and its unary twin enter the world in the same way.
 
 use super::permit::{Ending, Permit};
 use super::{Api, HeldPlace, refusal};
@@ -17,24 +17,24 @@ use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
 use tonic::{Response, Status, Streaming};
 
-/// What a driver is told, as it comes.
+/// Feedback to a driver.
 pub type Feedbacks = ReceiverStream<Result<pb::DriveFiguresResponse, Status>>;
 
-/// Time for the header to come after the stream was opened.
+/// Time that the header may take to arrive after the stream was opened.
 const HEADER_TIME: Duration = Duration::from_secs(10);
 /// Interval of feedback.
 const FEEDBACK_EVERY: Duration = Duration::from_millis(100);
-/// Feedback that is due waits so long at most for a message of the driver to come along with: then no timer has to wake
-/// for it, and the next message does not come while the world is being asked.
+/// Longest time for which feedback that is due waits for the driver's next message: no timer has to wake for it then,
+/// and the next message does not arrive while the world is being asked.
 const FEEDBACK_SLACK: Duration = Duration::from_millis(20);
-/// How long the reason of the end of a stream waits for a driver who does not read.
+/// How long the reason for the end of a stream waits for a driver that does not read.
 const LAST_WORD: Duration = Duration::from_secs(5);
-/// Who pushes without giving a name.
+/// Name of a pusher that gives none.
 const PUSHER: &str = "push";
-/// Feedback that waits for a driver who does not read; more is left out.
+/// Feedback that waits for a driver that does not read; more is left out.
 const FEEDBACK_QUEUE: usize = 16;
 
-/// Commands of a driver come before those that end its drive.
+/// The driver's commands come before those that end its drive.
 fn origin(driver: &DriverId) -> CommandOrigin {
     CommandOrigin {
         client: driver.to_string().into(),
@@ -42,7 +42,7 @@ fn origin(driver: &DriverId) -> CommandOrigin {
     }
 }
 
-/// The drive that a header asks for; its driver may be nameless still.
+/// The drive that a header names; its driver may still be nameless.
 fn id(open: &DriveOpen) -> DriverId {
     DriverId {
         principal: open.who.principal.clone(),
@@ -50,7 +50,7 @@ fn id(open: &DriveOpen) -> DriverId {
     }
 }
 
-/// The world of a header, for a caller who may drive all of its figures.
+/// The world of a header, for a caller that may drive all of its figures.
 fn enter(api: &Api, caller: &Caller, open: &DriveOpen) -> Result<Arc<WorldHandle>, Fault> {
     let figures: Vec<&str> = open.figures.iter().map(String::as_str).collect();
     api.enter_for(caller, &open.world, &figures)
@@ -72,7 +72,7 @@ pub(super) async fn push(
     let raw = r.batch.unwrap_or_default();
     let handle = enter(api, caller, &open)?;
     let known = handle.mailboxes.of(&id(&open), &open.figures);
-    // With other tokens than those it was opened with, the leases are looked at again.
+    // Tokens other than those it was opened with cause the leases to be checked again.
     let known = known.filter(|m| m.tokens() == open.who.tokens);
     if let Some(mailbox) = &known {
         mailbox.admit(motion::postures(&raw), Instant::now())?;
@@ -82,7 +82,7 @@ pub(super) async fn push(
         Some(mailbox) => mailbox,
         None => opened(&handle, open, None).await?,
     };
-    // A drive that ends just now refuses the batch as one that has ended.
+    // A drive that is just ending refuses the batch like one that has ended.
     mailbox.deliver(None, batch, Instant::now())?;
     Ok(pb::PushMotionResponse {
         feedback: Some(motion::feedback_out(&mailbox.feedback())),
@@ -153,7 +153,7 @@ impl Session {
                 message = inbound.message() => match message {
                     Ok(Some(m)) => self.take(m),
                     Ok(None) => break false,
-                    // A message that was refused says why; a connection that broke says nothing of ours.
+                    // A refused message says why. A broken connection has no reason of ours.
                     Err(status) if !status.details().is_empty() => {
                         let _ = self.out.try_send(Err(status));
                         break false;
@@ -174,7 +174,7 @@ impl Session {
             };
             match step {
                 Ok(true) => {}
-                Ok(false) => break true, // nobody reads the feedback: the connection is gone
+                Ok(false) => break true, // the feedback has no reader any more: the connection is gone
                 Err(fault) => {
                     // A reader whose queue is full gets the reason as soon as there is room.
                     let (out, status) = (self.out.clone(), refusal(fault));
@@ -188,13 +188,13 @@ impl Session {
             }
         };
         if !lost {
-            // Everything that was sent has been taken: say so before the figures are given back.
+            // Every message has been taken: acknowledge that before the figures are given back.
             let _ = self.feedback().await;
         }
         self.close(lost);
     }
 
-    /// Checks a batch and leaves it for the next tick. One that came too fast is dropped and counted.
+    /// Checks a batch and leaves it for the next tick. A batch that comes too fast is dropped and counted.
     fn take(&mut self, m: pb::DriveFiguresRequest) -> Result<(), Fault> {
         let Some(Message::Batch(b)) = m.message else {
             return Err(Fault::invalid(
@@ -210,7 +210,7 @@ impl Session {
         Ok(())
     }
 
-    /// Tells the driver; true to go on.
+    /// Sends feedback to the driver; true to continue.
     async fn feedback(&mut self) -> Result<bool, Fault> {
         let (driver, connection) = (self.mailbox.driver().clone(), self.connection);
         let feedback = match self

@@ -96,7 +96,7 @@ impl FigureService for Api {
             let caller = caller(&request)?;
             let who = control::single(caller.principal(), "control_token", &r.control_token)?;
             let roles = handle.grants.rights(&caller.identity, &handle.id).roles;
-            // A director sets the scene, whoever drives in it.
+            // A director sets the scene, even while others drive in it.
             let who = (!roles.contain(Role::Director)).then_some(who);
             let (etag, only) = (f.etag.clone(), r.validate_only);
             let settings = if only {

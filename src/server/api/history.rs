@@ -18,7 +18,7 @@ use sinew_wire::status::Fault;
 use std::sync::Arc;
 use tonic::{Request, Response, Status};
 
-/// How often a state is looked for while others restore the world.
+/// Attempts to find a state while others restore the world.
 const SEEKS: usize = 4;
 
 /// The past of a world, if any is kept.
@@ -30,7 +30,7 @@ pub(super) fn journal(handle: &WorldHandle) -> Result<Arc<Journal>, Fault> {
     })
 }
 
-/// The first tick of a request and the last; what is held, where it does not say.
+/// The first and last tick of a request; the ends of the held past where the request names none.
 fn span(journal: &Journal, first: Option<i64>, last: Option<i64>) -> Result<(u64, u64), Fault> {
     let (oldest, newest) = journal.held().unwrap_or_default();
     let tick = |field, tick: Option<i64>, default| match tick {
@@ -148,7 +148,7 @@ impl HistoryService for Api {
             let (client, origin) = (client(&request), origin(&request));
             let handle = api.world(&request, "name", &request.get_ref().name)?;
             let tick = not_negative("tick", request.get_ref().tick)?;
-            // One after the other: what one looks for would be of a past that another one changes.
+            // One at a time, because another seek would change the past in which this one looks.
             let _alone = handle.seeking.lock().await;
             for _ in 0..SEEKS {
                 let journal = journal(&handle)?;
@@ -157,12 +157,12 @@ impl HistoryService for Api {
                 let cleared = handle.clone();
                 let found = handle
                     .call(origin.clone(), move |s| {
-                        // A state of a past that is no longer that of the world is no place to put it.
+                        // The world has another past now, so this state no longer belongs to it.
                         if journal.begun_anew() != begun_anew {
                             return Ok(None);
                         }
                         let info = s.restore(scene, Past::OwnPast)?;
-                        // What viewers could resume with is of another time.
+                        // Viewers can no longer resume, because the frames held are from another time.
                         cleared.history().go_back(tick);
                         Ok(Some(info))
                     })

@@ -1,5 +1,5 @@
-//! The past of a world as frames, for viewers who join late: it is done again beside the world, some ticks at a time
-//! and no faster than the viewer reads, until what is held as frames goes on from there.
+//! The past of a world as frames, for viewers that join late. It is simulated again beside the world, some ticks at a
+//! time and no faster than the viewer reads, until it reaches the frames that are still held.
 
 use super::history::journal;
 use crate::app::App;
@@ -20,7 +20,7 @@ pub(super) struct LateFrames {
     client: ClientKey,
     handle: Arc<WorldHandle>,
     epoch: i32,
-    /// The next tick that is wanted.
+    /// The next tick to send.
     next: u64,
     /// The last version of a roster.
     version: i32,
@@ -31,7 +31,7 @@ impl LateFrames {
     /// Frames after `tick`.
     ///
     /// # Errors
-    /// The next one is not held any more, or is not computed yet.
+    /// The next one is no longer held, or not computed yet.
     pub fn after(
         app: &Arc<App>,
         client: ClientKey,
@@ -52,13 +52,13 @@ impl LateFrames {
         })
     }
 
-    /// The next frame; `None` once the frames that are held go on from there.
+    /// The next frame; `None` once the held frames continue from there.
     ///
     /// # Errors
-    /// What is wanted is not held any more; it cannot be done again.
+    /// A tick that is needed is no longer held, or it cannot be simulated again.
     pub async fn take_next(&mut self) -> Result<Option<Arc<Snapshot>>, Fault> {
         loop {
-            // A world that was put elsewhere meanwhile shows that in its next frame.
+            // If the world was restored elsewhere in the meantime, its next frame shows that.
             let gone = self.handle.latest().epoch != self.epoch;
             if gone || self.handle.history().after(self.next as i64 - 1).is_ok() {
                 return Ok(None);
@@ -85,7 +85,7 @@ impl LateFrames {
         }
     }
 
-    /// What is held of the past from here on.
+    /// The held past from here on.
     fn begin(&mut self) -> Result<ReplayWork, Fault> {
         let journal = journal(&self.handle)?;
         let (_, newest) = journal.held().unwrap_or_default();

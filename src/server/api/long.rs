@@ -1,4 +1,4 @@
-//! Streams of long work: how far it is, and in the end what came of it. The work is given up when the stream ends.
+//! Streams of long work: its progress, and at the end its result. The work is given up when the stream ends.
 
 use super::permit::Permit;
 use super::{refusal, stopped};
@@ -14,7 +14,7 @@ use tokio::sync::{mpsc, watch};
 use tokio_stream::wrappers::ReceiverStream;
 use tonic::Status;
 
-/// What a client is told, as it comes.
+/// Messages to a client.
 pub(super) type Messages<M> = ReceiverStream<Result<M, Status>>;
 
 /// Messages that wait for a client that reads slowly.
@@ -26,16 +26,17 @@ pub(super) const PART: (usize, Duration) = (64 * 1024, Duration::from_millis(100
 /// How long work waits for a client that does not read before it is given up: usually, and while others wait for its
 /// place.
 const PATIENCE: [Duration; 2] = [Duration::from_secs(30), Duration::from_secs(1)];
-/// How often it looks whether the client has read.
+/// How often it checks whether the client has read.
 const LOOK: Duration = Duration::from_millis(5);
 
-/// Bytes of a frame in memory, near enough: one that shows little takes many times as much as on the wire.
+/// Approximate bytes of a frame in memory. A frame that shows little takes many times more memory than bytes on the
+/// wire.
 pub(super) fn memory(frame: &pb::WorldFrame) -> usize {
     let figures = frame.figures.len() * size_of::<pb::FigureFrame>();
     size_of::<pb::WorldFrame>() + figures + frame.encoded_len()
 }
 
-/// Where messages of work go.
+/// The channel for messages of work.
 pub(super) type MessageSender<M> = mpsc::Sender<Result<M, Status>>;
 
 /// Sends a message of work that has a turn, when the client has room for it.
@@ -73,13 +74,13 @@ pub(super) fn hand_over<M>(out: &MessageSender<M>, message: M, turn: &Turn) -> R
 
 /// A stream of long work.
 pub(super) struct LongStream<P, L> {
-    /// Whose it is.
+    /// The caller that opened it.
     pub caller: Caller,
-    /// Ends it with the caller's role in a world.
+    /// Ends the stream together with the caller's role in a world.
     pub permit: Option<Permit>,
-    /// How far the work is.
+    /// Progress of the work.
     pub told: watch::Receiver<Option<f64>>,
-    /// Makes a message of that; `None` if the work itself sends such messages.
+    /// Makes a message of the progress; `None` if the work itself sends such messages.
     pub progress: Option<P>,
     /// Makes the last message.
     pub last: L,
@@ -142,7 +143,7 @@ impl<P, L> LongStream<P, L> {
                         }
                         let share = *self.told.borrow_and_update();
                         if let (Some(message), Some(share)) = (&self.progress, share) {
-                            // Who reads slowly is told less often.
+                            // A slow reader gets fewer messages.
                             let _ = out.try_send(Ok(message(share)));
                         }
                     }
@@ -154,7 +155,7 @@ impl<P, L> LongStream<P, L> {
             };
             drop(work);
             let last = done.map(self.last).map_err(refusal);
-            // Who is gone, or does not read, does without.
+            // A client that is gone, or does not read, gets no last message.
             let _ = out.send_timeout(last, LAST_WORD).await;
         });
         ReceiverStream::new(messages)

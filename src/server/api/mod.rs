@@ -65,7 +65,7 @@ pub const SERVICE_NAMES: [&str; 16] = [
     pb::operation_service_server::SERVICE_NAME,
 ];
 
-/// Grants of a world that a caller makes: who has said who it is owns it.
+/// First grants of a world that a caller creates: an authenticated caller owns it.
 fn first_grants(caller: &Caller) -> Vec<Grant> {
     let known = !caller.identity.is_anonymous();
     let owner = known.then(|| Grant::owner(caller.principal().clone()));
@@ -84,8 +84,8 @@ impl std::ops::Deref for Api {
 }
 
 impl Api {
-    /// Answers a request that is done once, however often it comes under the same `request_id`. Once it has begun it is
-    /// done to its end, also if its client does not wait for it: what is half done would differ from what is stored.
+    /// Answers a request that is done once, however often it arrives under the same `request_id`. Once begun, it is
+    /// completed even if its client does not wait: a half-done request would differ from what is stored.
     async fn once<Q, R, W>(
         &self,
         request: Request<Q>,
@@ -101,7 +101,8 @@ impl Api {
         self.once_if_awaited(request, work).await
     }
 
-    /// The same for what takes long before it changes anything: without a `request_id` it is given up with its client.
+    /// The same for a request that takes long before it changes anything. Without a `request_id` it is given up when
+    /// its client goes.
     async fn once_if_awaited<Q, R, W>(
         &self,
         request: Request<Q>,
@@ -135,7 +136,7 @@ impl Api {
 /// Adds every service to the routes.
 pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
     let api = Api(app.clone());
-    // What each call takes is checked before (`edge::requests`).
+    // The sizes of requests were checked before, in `edge::requests`.
     let request = largest_request(&app.config);
     let response = app.config.max_response_bytes as usize * 2;
     macro_rules! add {
@@ -166,30 +167,30 @@ pub fn add_services(routes: &mut RoutesBuilder, app: &Arc<App>) {
     }
 }
 
-/// Whose share a request takes.
+/// The client whose share a request takes.
 fn client<T>(request: &Request<T>) -> ClientKey {
     caller(request).map_or_else(|_| "".into(), |c| c.client.clone())
 }
 
-/// The bytes that a request has come with.
+/// The accounted bytes of a request.
 fn upload<T>(request: &Request<T>) -> Upload {
     let upload = request.extensions().get::<Upload>();
     upload.cloned().unwrap_or_default()
 }
 
-/// Work that may go on without its client: until it ends, its request is in memory.
+/// Work that may continue without its client: its request stays in memory until the work ends.
 async fn holding<T>(upload: Upload, work: impl Future<Output = T>) -> T {
     let _upload = upload;
     work.await
 }
 
-/// Bytes that converting a file takes meanwhile. They are found where there is time for it: its head may be long.
+/// Bytes that converting a file takes. Computed on a worker, because the head of a file may be long.
 async fn memory(file: Bytes, rate_hz: Option<f64>) -> u64 {
     let found = tokio::task::spawn_blocking(move || reference::memory(&file, rate_hz));
     found.await.unwrap_or(0)
 }
 
-/// The sender of a request, as commands of its world are ordered by.
+/// The sender of a request, by which commands of its world are ordered.
 fn origin<T>(request: &Request<T>) -> CommandOrigin {
     CommandOrigin {
         client: caller(request).map_or_else(|_| "".into(), |c| c.order.clone()),
@@ -197,7 +198,7 @@ fn origin<T>(request: &Request<T>) -> CommandOrigin {
     }
 }
 
-/// A result as gRPC wants it; refusals are counted by reason.
+/// A result in the form that gRPC wants; refusals are counted by reason.
 fn answer<T>(result: Result<T, Fault>) -> Result<Response<T>, Status> {
     result.map(Response::new).map_err(refusal)
 }

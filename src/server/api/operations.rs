@@ -12,7 +12,7 @@ use sinew_wire::status::{Fault, rpc_status};
 use std::time::Duration;
 use tonic::{Request, Response, Status};
 
-/// Longest wait of one call, and the wait of one that does not say.
+/// Longest wait of one call, and the wait of a call that names none.
 const LONGEST_WAIT: Duration = Duration::from_secs(60);
 
 /// The field `operation` of every answer that has one.
@@ -70,7 +70,7 @@ impl Api {
         (out, found)
     }
 
-    /// An answer with an operation and its result, which all who ask for it share.
+    /// An answer with an operation and its result, whose bytes all callers share.
     fn operation_answer<T: Default>(&self, o: &Operation<Encoded>) -> Response<T> {
         let (operation, result) = self.operation_out(o);
         encoded(Encoded::of(&operation).then(result).field(OPERATION_FIELD))
@@ -133,7 +133,7 @@ impl OperationService for Api {
                 },
                 size,
             )?;
-            // What has ended already says so when it is asked for.
+            // An operation that has ended reports that on the next look.
             let operation = pb::Operation {
                 state: pb::OperationState::Queued.into(),
                 name: OPERATION.name([&started.id]),

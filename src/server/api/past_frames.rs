@@ -1,4 +1,4 @@
-//! Frames of the past of a world: it is simulated again, and shown as it goes.
+//! Frames of the past of a world: it is simulated again, and its frames are sent as they are computed.
 
 use super::long;
 use crate::progress::WorkProgress;
@@ -13,22 +13,22 @@ use sinew_wire::types::{RosterEntry, ViewSpec};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A part of the past that is to be shown.
+/// The part of the past to show.
 pub(super) struct PastPart {
     /// Last part of the name of the world.
     pub world: Arc<str>,
-    /// What leads to it.
+    /// The segments that lead to it.
     pub past: Vec<Arc<JournalSegment>>,
     /// First tick and last.
     pub ticks: (u64, u64),
-    /// What is shown.
+    /// The view.
     pub view: ViewSpec,
 }
 
 /// Sends the frames of a part of the past, and returns those that are left at its end.
 ///
 /// # Errors
-/// A state is not the one that was recorded; nobody takes the frames any more.
+/// A state differs from the recorded one; the frames have no reader any more.
 pub(super) fn read(
     part: &PastPart,
     out: long::MessageSender<pb::ReadHistoryResponse>,
@@ -113,7 +113,7 @@ impl PastFrameStream<'_> {
         Ok(())
     }
 
-    /// Sends what there is, when the client has room for it.
+    /// Sends the collected frames when the client has room for them.
     fn send(&mut self) -> Result<(), Fault> {
         self.bytes = 0;
         let ready = std::mem::take(&mut self.ready);

@@ -1,4 +1,5 @@
-//! How long a stream may go on: as long as its caller has the role that it was opened with, and its proof of identity.
+//! How long a stream may continue: as long as its caller keeps the role with which it was opened, and its proof of
+//! identity is valid.
 
 use crate::access::caller::Caller;
 use crate::app::{App, stopped};
@@ -17,7 +18,7 @@ const DAY: Duration = Duration::from_secs(86_400);
 /// Completes with the reason when a stream has to end.
 pub(super) type Ending = Pin<Box<dyn Future<Output = Fault> + Send>>;
 
-/// The right of a stream to go on.
+/// The right of a stream to continue.
 pub(super) struct Permit {
     app: Arc<App>,
     handle: Arc<WorldHandle>,
@@ -28,7 +29,7 @@ pub(super) struct Permit {
 }
 
 impl Permit {
-    /// For a caller who has just been let in.
+    /// For a caller that has just been admitted.
     pub(super) fn new(
         app: &Arc<App>,
         handle: &Arc<WorldHandle>,
@@ -52,14 +53,15 @@ impl Permit {
         let figures: Vec<&str> = self.figures.iter().map(String::as_str).collect();
         let entered = self.app.enter_for(&self.caller, &self.handle.id, &figures);
         match entered {
-            // That its world is gone a stream learns elsewhere.
+            // The stream learns elsewhere that its world is gone.
             Err(fault @ Fault::Denied { .. }) => Err(fault),
             _ => Ok(()),
         }
     }
 
-    /// Completes with the reason when the stream has to end: the server stops, the world is gone, the right ends. It is
-    /// kept from one message to the next, so that waiting for one neither looks at the right anew nor sets a timer.
+    /// Completes with the reason when the stream has to end: the server stops, the world is gone, or the right ends.
+    /// Kept from one message to the next, so that waiting for a message neither checks the right again nor sets a
+    /// timer.
     pub(super) fn ending(mut self, mut stopping: watch::Receiver<bool>) -> Ending {
         let mut closed = self.handle.closed.clone();
         Box::pin(async move {

@@ -7,15 +7,15 @@ use sinew_wire::pb::{self, perturbation_service_server::PerturbationService};
 use std::sync::Arc;
 use tonic::{Request, Response, Status};
 
-/// What orders a batch among those that meet it in a tick: its principal, then the name that its sender chose. So no
-/// name pushes in before other principals. Without principals the name counts, or the connection.
+/// The key that orders a batch among others in the same tick: its principal, then the name that its sender chose. So no
+/// choice of name gets ahead of other principals. Without principals the name counts, or the connection.
 fn order(caller: &Caller, client: &str) -> Arc<str> {
     if client.is_empty() {
         caller.order.clone()
     } else if caller.identity.is_anonymous() {
         client.into()
     } else {
-        // A space is below every character of a principal.
+        // A space sorts below every character of a principal.
         format!("{} {client}", caller.principal()).into()
     }
 }
@@ -104,7 +104,7 @@ mod tests {
             all.each_ref().map(|a| &**a),
             ["user:ann", "user:ann zzz", "user:anna", "user:anna !"]
         );
-        // The connection, wherever it comes from, says nothing of a principal.
+        // The connection, wherever it comes from, does not stand for a principal.
         assert_eq!(
             order(&from("user:ann", "1"), "x"),
             order(&from("user:ann", "2"), "x")

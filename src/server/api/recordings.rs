@@ -17,7 +17,7 @@ use tonic::{Request, Response, Status};
 
 /// Bytes of one piece of a file, at most.
 const PIECE: usize = 1 << 20;
-/// Pieces that wait for a client who does not read.
+/// Pieces that wait for a client that does not read.
 const PIECES: usize = 2;
 
 fn out(recording: &KeptRecording) -> pb::Recording {
@@ -42,7 +42,7 @@ fn out(recording: &KeptRecording) -> pb::Recording {
 }
 
 impl Api {
-    /// A recording, for those who may make this call in its world.
+    /// A recording, for callers that may make this call in its world.
     fn recording<T>(&self, request: &Request<T>, name: &str) -> Result<Arc<KeptRecording>, Fault> {
         let [world, id] = RECORDING.ids("name", name)?;
         let handle = self.world(request, "name", &format!("worlds/{world}"))?;
@@ -168,7 +168,7 @@ impl RecordingService for Api {
                 let recorded = recording.now();
                 let (mut waiting, mut refused) = (Vec::new(), None);
                 let mut give = |piece: Vec<u8>, ticks: u64| {
-                    // Small pieces are put together; a client that is gone takes none.
+                    // Small pieces are joined; a client that is gone takes none.
                     waiting.extend(piece);
                     let whole = ticks > recorded.ticks.1 - recorded.ticks.0;
                     let mut taken = !to.is_closed();
@@ -179,7 +179,7 @@ impl RecordingService for Api {
                             data,
                             done_tick_count: ticks as i64,
                         };
-                        // One that does not read does not hold the worker for ever.
+                        // A client that does not read must not hold the worker for ever.
                         refused = long::hand_over(&to, message, turn).err();
                         taken = refused.is_none();
                     }
@@ -199,7 +199,7 @@ impl RecordingService for Api {
                 fault = permit.ended() => Err(fault),
             };
             if let Err(fault) = done {
-                // Nobody may be there to hear it, or to read it.
+                // The client may be gone, or may not read.
                 let _ = send
                     .send_timeout(Err(refusal(fault)), long::LAST_WORD)
                     .await;

@@ -23,7 +23,7 @@ use tonic::{Request, Response, Status};
 
 type SimulationSender = long::MessageSender<pb::StreamSimulateClipResponse>;
 
-/// What came of a simulation.
+/// The result of a simulation.
 pub(super) struct SimulationResult {
     /// Without frames.
     answer: pb::SimulateClipResponse,
@@ -38,7 +38,7 @@ impl SimulationResult {
     }
 }
 
-/// The motion of a simulation, prepared where files become clips.
+/// The motion of a simulation, prepared by the workers that convert files.
 async fn motion(
     api: &Api,
     client: &ClientKey,
@@ -137,7 +137,7 @@ impl<'a> FramePartStream<'a> {
         }
     }
 
-    /// Sends what there is, when the client has room for it.
+    /// Sends the collected frames when the client has room for them.
     fn send(&mut self, share: f64) -> Result<(), Fault> {
         use pb::stream_simulate_clip_response::Message;
         let message = pb::StreamSimulateClipResponse {

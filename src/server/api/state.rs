@@ -68,7 +68,7 @@ impl StateService for Api {
                 .resume_tick
                 .map(|tick| (tick, handle.history().after(tick)));
             let late = match &resumed {
-                // What is not held as a frame is done again, as far back as the past goes.
+                // A tick that is not held as a frame is simulated again, as far back as the past reaches.
                 Some((tick, Err(expired))) => {
                     if *tick < -1 || handle.journal.is_none() {
                         return Err(expired.clone());

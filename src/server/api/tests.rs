@@ -1,4 +1,5 @@
-//! Worlds and clips that come and go: what others see of them and what is on disk agree, whoever goes away meanwhile.
+//! Worlds and clips that are created and deleted: the view of other clients agrees with the disk, even if a client goes
+//! away in between.
 
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
@@ -80,11 +81,11 @@ async fn what_has_begun_with_a_world_is_stored_also_if_its_client_goes_away() {
     while free().is_err() {
         tokio::task::yield_now().await;
     }
-    // What is done to one that is not there is not stored, and that is said.
+    // A change to a world that does not exist is not stored, and its caller learns that.
     let late = persistence.changed(&gone).await;
     assert_eq!(late.unwrap_err().reason(), "WORLD_ENDED");
 
-    // One that is deleted before it is written does not come back.
+    // A world that is deleted before it is written does not come back.
     let both = begun(&app, "both", "user:ann").unwrap();
     assert!(app.written(&both).now_or_never().is_none());
     app.delete(&both, "ann").await.unwrap();
@@ -107,14 +108,14 @@ async fn a_name_is_taken_until_all_that_belongs_to_it_is_forgotten() {
     assert_eq!(taken.reason(), "ALREADY_EXISTS");
     app.forget_world(leaving).await.unwrap();
     assert!(app.checkpoints.of_world("w").is_empty());
-    // One that was being taken meanwhile is not kept.
+    // A checkpoint that was being taken at that time is not kept.
     let late = app.checkpoints.keep(kept("ann"), there(&first));
     assert_eq!(late.unwrap_err().reason(), "WORLD_ENDED");
     assert!(app.checkpoints.of_world("w").is_empty());
 
     let second = made(&app, "w", "second").await;
     app.checkpoints.keep(kept("bob"), there(&second)).unwrap();
-    // Who still has the first one does nothing to the second.
+    // A client that still holds the first world does not affect the second.
     assert!(app.stored(&first).await.is_err());
     assert!(app.delete(&first, "ann").await.is_err());
     assert_eq!(app.checkpoints.of_world("w").len(), 1);
@@ -159,7 +160,7 @@ async fn the_share_of_a_client_outlives_the_server() {
         app.written(&world).await.unwrap();
     }
     close(app).await;
-    // All come back, also where fewer may be created.
+    // All of them come back, even if fewer may be created now.
     let app = dir
         .open(&[("max_worlds", "8"), ("max_client_share", "0.125")])
         .await;
@@ -167,7 +168,7 @@ async fn the_share_of_a_client_outlives_the_server() {
     let refused = begun(&app, "d", "user:ann").unwrap_err();
     assert_eq!(refused.reason(), "LIMIT_REACHED");
     begun(&app, "d", "user:bob").unwrap();
-    // Another connection may have the port of one that was there before.
+    // Another connection may have the port of an earlier one.
     begun(&app, "e", "127.0.0.1:50000").unwrap();
 }
 

@@ -21,14 +21,14 @@ use tokio::sync::{broadcast, watch};
 use tokio_stream::Stream;
 use tonic::Status;
 
-/// Frames as they come.
+/// Frames in order.
 pub type FrameStream = Pin<Box<dyn Stream<Item = Result<WatchWorldResponse, Status>> + Send>>;
-/// Events as they come.
+/// Events in order.
 pub type Events = Pin<Box<dyn Stream<Item = Result<pb::WatchEventsResponse, Status>> + Send>>;
 
 /// Ticks before the latest.
 pub(super) enum PastStart {
-    /// Frames that are not held any more.
+    /// Frames that are no longer held.
     Late(Box<LateFrames>),
     /// Frames that are held.
     Held(Resuming),
@@ -39,7 +39,7 @@ struct Viewer {
     channel: Arc<Channel>, // keeps its encoder running
     view: ViewSpec,
     frames: watch::Receiver<Option<EncodedFrame>>,
-    /// Ticks before the latest that are to be sent first.
+    /// Ticks before the latest, to be sent first.
     past: Option<PastStart>,
     /// At most a roster and a frame.
     ready: VecDeque<Bytes>,
@@ -59,7 +59,7 @@ impl Drop for Viewer {
     }
 }
 
-/// Frames of a view: first those of the past, then as they come.
+/// Frames of a view: first those of the past, then live ones.
 pub(super) fn frames(
     handle: Arc<WorldHandle>,
     (view, channel): (&ViewSpec, Arc<Channel>),
@@ -68,7 +68,7 @@ pub(super) fn frames(
     place: HeldPlace,
 ) -> FrameStream {
     let mut frames = channel.subscribe();
-    frames.mark_changed(); // what is there already is the first to send
+    frames.mark_changed(); // the frame that is there already is sent first
     handle.viewers.fetch_add(1, Ordering::Relaxed);
     let viewer = Viewer {
         handle,
@@ -108,10 +108,10 @@ impl Viewer {
         self.last = Some(snapshot.tick);
     }
 
-    /// The frames that are held behind the last one that was done again.
+    /// The held frames after the last one that was simulated again.
     fn held_on(&self) -> PastStart {
         let last = self.last.map_or(-1, |l| l as i64);
-        // What has gone meanwhile is missed, as by any viewer that is too slow.
+        // Frames dropped in the meantime are missed, as by any viewer that is too slow.
         let after = self.handle.history().after(last).unwrap_or_default();
         held(&self.handle, &self.view, after)
     }

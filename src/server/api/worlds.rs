@@ -140,7 +140,7 @@ impl WorldService for Api {
             let caller = caller(&request)?;
             let r = request.get_ref();
             let name = world_name("name", &r.name)?;
-            // One that is in quarantine is only stored: its grants are, too, and only claims count.
+            // A world in quarantine exists only on disk, and so do its grants, so only claims count.
             let quarantined = api
                 .persistence
                 .as_ref()

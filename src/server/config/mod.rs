@@ -25,7 +25,7 @@ pub enum ConfigError {
     Toml {
         /// Its path.
         path: String,
-        /// Where and why.
+        /// Place and problem.
         error: toml::de::Error,
     },
     /// There is no such setting.
@@ -63,7 +63,7 @@ pub enum ConfigError {
          tls_cert and tls_key, or, behind a proxy that does TLS, give --insecure-bind-any"
     )]
     NotEncrypted(SocketAddr),
-    /// Settings that belong together are not all there.
+    /// Some of the settings that belong together are missing.
     #[error("{0} needs {1}")]
     Incomplete(&'static str, &'static str),
 }

@@ -98,7 +98,7 @@ impl LocalStore {
         &self.last_end
     }
 
-    /// Where worlds note that they are being stepped.
+    /// The notes of worlds that are being stepped.
     pub fn marks(&self) -> Arc<Marks> {
         self.marks.clone()
     }

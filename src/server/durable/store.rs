@@ -225,7 +225,7 @@ pub enum StoreError {
         "{path}: written in format {found} by a later version of sinew; this one reads format {known}"
     )]
     NewerFormat {
-        /// Where.
+        /// The file or directory.
         path: PathBuf,
         /// Format found.
         found: u32,

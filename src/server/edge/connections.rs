@@ -74,7 +74,7 @@ impl Why {
 /// One connection, as the rest of the server sees it.
 #[derive(Debug)]
 pub(crate) struct Peer {
-    /// Where it comes from.
+    /// The address of the client.
     pub address: SocketAddr,
     /// Whether it is beyond the limits.
     pub reserved: bool,

@@ -47,10 +47,10 @@ struct Response {
     open: Arc<Open>,
 }
 
-/// Nothing of a response waits.
+/// Marks a response of which nothing waits.
 const NOTHING: u64 = u64::MAX;
 
-/// A response that is known as long as this lives.
+/// A response that is tracked as long as this lives.
 struct ResponseEntry {
     unread: Arc<Unread>,
     number: u64,
@@ -78,7 +78,7 @@ struct WaitingPart {
 }
 
 impl WaitingPart {
-    /// One waits.
+    /// Notes that a part waits.
     fn waits(&mut self, bytes: u64) {
         self.taken();
         self.bytes = bytes;
@@ -86,7 +86,7 @@ impl WaitingPart {
         self.entry.touch();
     }
 
-    /// It is on its way.
+    /// Notes that the part is on its way.
     fn taken(&mut self) {
         let bytes = std::mem::take(&mut self.bytes);
         self.entry.unread.bytes.fetch_sub(bytes, Ordering::Relaxed);

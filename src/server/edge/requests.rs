@@ -83,7 +83,7 @@ struct Sized {
     streams: bool,
     begun: bool,
     prefix: [u8; PREFIX],
-    /// Bytes of the prefix that are there.
+    /// Bytes of the prefix that have arrived.
     read: usize,
     /// Bytes of the message still to come.
     left: usize,
@@ -124,7 +124,7 @@ impl Sized {
         Ok(())
     }
 
-    /// The prefix of a message is there.
+    /// Handles the complete prefix of a message.
     fn message(&mut self) -> Result<(), Fault> {
         let [compressed, length @ ..] = self.prefix;
         let length = u32::from_be_bytes(length) as usize;
@@ -173,7 +173,7 @@ impl Sized {
         }
     }
 
-    /// Whether a large message is not there in time.
+    /// Whether a large message has missed its deadline.
     fn is_late(&mut self, cx: &mut Context<'_>) -> bool {
         self.deadline
             .as_mut()

@@ -20,7 +20,7 @@ pub(crate) struct Edge {
     pub(super) unread: Arc<Unread>,
     pub(super) requests: Arc<Semaphore>,
     pub(super) max_requests: u64,
-    /// The server ends: what comes now is refused.
+    /// Whether the server is ending: new requests are refused.
     pub(super) ending: AtomicBool,
     pub(super) max_requests_of_one: u64,
     /// How long a request may take before its response begins.

@@ -18,8 +18,8 @@ pub(super) struct Uploads {
     pub large: Limit,
 }
 
-/// The part of `max_pending_bytes` that a request takes. Work that holds the request holds this, too: beside the call
-/// itself it may wait for its turn in an operation, or go on when its client is gone.
+/// The part of `max_pending_bytes` that a request takes. Work that keeps the request also keeps this: it may outlast
+/// the call, because it waits for its turn in an operation or continues after its client has gone.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Upload(Arc<Mutex<Option<OwnedSemaphorePermit>>>);
 
@@ -29,7 +29,7 @@ impl Upload {
     }
 }
 
-/// Largest message of a call, and the setting that says so.
+/// Largest message of a call, and the setting that limits it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limit {
     /// The setting.

@@ -117,7 +117,7 @@ impl Hub {
         Resuming { ticks: held }
     }
 
-    /// A viewer has caught up, or is gone.
+    /// Notes that a viewer has caught up, or is gone.
     pub fn resumed(&self) {
         let mut past = self.past();
         past.viewers -= 1;

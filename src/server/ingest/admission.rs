@@ -1,14 +1,14 @@
-//! How much one driver may send.
+//! Limits how much one driver may send.
 //!
 //! The cost of a batch grows with the desired postures in it, so the allowance counts those and not batches. It is
-//! asked before a batch is converted.
+//! checked before a batch is converted.
 
 use std::time::{Duration, Instant};
 
 /// Frames per second that a driver may send for each of its figures in the long run: the fastest rate that a drive can
 /// name.
 pub const FRAMES_PER_SECOND: f64 = 1000.0;
-/// Frames per figure that may come at once, after a pause of the network: as many as a jitter buffer holds.
+/// Frames per figure that may arrive at once, after a pause of the network: as many as a jitter buffer holds.
 pub const FRAME_BURST: f64 = super::jitter_buffer::CAPACITY as f64;
 
 /// Token bucket of one driver. A token is the desired posture of one figure in one frame.
@@ -21,7 +21,7 @@ pub struct Admission {
 }
 
 impl Admission {
-    /// A full bucket of a driver of so many figures.
+    /// A full bucket for a driver with this number of figures.
     pub fn new(figures: usize, now: Instant) -> Self {
         let burst = FRAME_BURST * figures as f64;
         Self {
@@ -32,10 +32,10 @@ impl Admission {
         }
     }
 
-    /// Takes the worth of a batch with `postures` desired postures; a batch without any counts as one.
+    /// Takes the tokens for a batch with `postures` desired postures; a batch without any counts as one.
     ///
     /// # Errors
-    /// It came too fast; then the time after which it may come.
+    /// It came too fast. The fault has the time after which it may come.
     pub fn admit(&mut self, postures: usize, now: Instant) -> Result<(), Duration> {
         let passed = now.saturating_duration_since(self.last).as_secs_f64();
         self.last = now;

@@ -1,12 +1,12 @@
 //! Desired motion of one figure between its arrival and its use.
 //!
 //! Frames carry the time at which they were captured. The buffer plays them at that pace, a playout delay behind their
-//! arrival, so that the jitter of the network does not become jitter of the motion. Asked for an instant it answers
-//! with a frame, between two frames, beyond the newest (fading out), with the last posture, or with quiet standing;
-//! each case is counted.
+//! arrival, so that the jitter of the network does not become jitter of the motion. For a given instant it answers with
+//! a frame, an interpolation between two frames, an extrapolation beyond the newest (fading out), the last posture, or
+//! quiet standing; each case is counted.
 //!
-//! Which source time is due is a matter of [`Playout`]. A stream whose clock starts again, or that is too far behind,
-//! restarts.
+//! [`Playout`] decides which source time is due. A stream restarts if its clock starts again, or if it is too far
+//! behind.
 
 pub use super::playout::Now;
 use super::playout::{Playout, PlayoutDue as Pace, is_time};
@@ -29,15 +29,15 @@ pub const CAPACITY: usize = 512;
 const BLEND: f64 = 0.3;
 /// Time in which a figure relaxes into quiet standing, s.
 const RELAX: f64 = 2.0;
-/// Frames in a row that are older than what was there, yet in order among themselves, after which the driver's clock is
-/// taken to have started again, and the time over which they come, s.
+/// Frames in a row that are older than the newest one, yet in order among themselves, after which the driver's clock is
+/// taken to have started again, and the time over which they arrive, s.
 const RESTART_FRAMES: u32 = 3;
 const RESTART_TIME: f64 = 0.25;
-/// Source time that passes between two frames while no such time passes here: the driver's clock was set, s.
+/// Source time between two frames, with no such time passing here, that shows that the driver's clock was set, s.
 const CLOCK_LEAP: f64 = 10.0;
 /// Times closer than this are the same, s.
 const SAME: f64 = 1e-6;
-/// Reach to either side of the slope that stands in for a velocity that was not sent, s.
+/// Reach to either side of the slope that replaces a velocity that was not sent, s.
 const SLOPE: f64 = 0.04;
 /// Jump of a joint or the pelvis beyond which the motion is blended, rad or m.
 const JUMP: f64 = 0.02;
@@ -56,22 +56,22 @@ pub struct BufferedFrame {
     pub velocity: Option<Box<[f64; NV]>>,
     /// Planted feet, if the driver named them.
     pub planted: Option<[bool; 2]>,
-    /// Planted feet as they are guessed when the frame comes into use: that takes kinematics, and most frames of a
-    /// driver who sends too many are never used.
+    /// Planted feet guessed when the frame comes into use: guessing takes kinematics, and most frames of a driver that
+    /// sends too many are never used.
     pub guess: Cell<Option<[bool; 2]>>,
     /// When it came.
     #[serde(skip, default = "Instant::now")]
     pub arrival: Instant,
 }
 
-/// The motion that acts now.
+/// The motion that is in use now.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Applied {
     sequence: i64,
     source_ns: i64,
     #[serde(skip, default = "Instant::now")]
     arrival: Instant,
-    /// A frame of the world has shown it.
+    /// Whether a published frame of the world has shown it.
     shown: bool,
 }
 
@@ -89,11 +89,11 @@ impl Applied {
 /// Counters of one buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
-    /// Ticks by answer: present, interpolated, extrapolated, held, relaxed.
+    /// Ticks by the kind of answer: present, interpolated, extrapolated, held, relaxed.
     pub ticks: [u64; 5],
-    /// Frames too late to be interpolated to.
+    /// Frames that came too late to be interpolated to.
     pub late: u64,
-    /// Frames not newer than what was there.
+    /// Frames not newer than the newest one held.
     pub stale: u64,
     /// Frames dropped for want of room.
     pub overflow: u64,
@@ -106,7 +106,7 @@ pub struct Counts {
 pub enum Resync {
     /// Sequence or source time started again.
     Clock,
-    /// It was too far behind, because its world leaves ticks out.
+    /// It was too far behind, because its world skips ticks.
     Behind,
 }
 
@@ -120,27 +120,27 @@ impl Resync {
     }
 }
 
-/// New beginnings of a stream.
+/// Restarts of a stream.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Anew {
-    /// Frames that may be one.
+    /// Frames that may be the beginning of a restart.
     restart: Option<Restart>,
-    /// There was one that a window does not know of yet.
+    /// There was a restart that a window does not know of yet.
     broken: bool,
-    /// There was one that nobody was told of yet.
+    /// There was a restart that has not been reported yet.
     notice: Option<Resync>,
 }
 
-/// The samples that a window was given.
+/// The samples given to a window.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Grid {
     /// Newest time, playout s.
     head: Option<f64>,
     /// The next sample of the grid.
     next: i64,
-    /// It goes on from another stream: what was due before now was that one's.
+    /// Whether it continues from another stream, which supplied everything due before now.
     joins: bool,
-    /// Frames that it holds, with their playout times.
+    /// Frames that the window holds, with their playout times.
     held: VecDeque<(f64, Applied)>,
 }
 
@@ -166,7 +166,7 @@ pub struct JitterBuffer {
     applied: Option<Applied>,
     /// The target at the end of the last tick.
     last: Target,
-    /// Difference to a jump of the desired motion, and when it began to fade (world s).
+    /// Difference that bridges a jump of the desired motion, and when it began to fade (world s).
     #[serde(with = "crate::ingest::saved::timed_array")]
     blend: Option<(Box<[f64; NV]>, f64)>,
     /// Time over which it fades, s.
@@ -183,16 +183,16 @@ pub struct JitterBuffer {
 pub enum DueSample<'a> {
     /// Posture, and planted feet if the driver named them.
     Sample(&'a Posture, Option<[bool; 2]>),
-    /// Nothing has come for too long to guess.
+    /// No frame has arrived for too long, so guessing is impossible.
     Silence,
 }
 
-/// A window's time runs at most so much faster or slower than the world's while delays change; it jumps where they
-/// change by more than this, s.
+/// Largest relative difference between the speed of a window's time and that of the world's while delays change; if
+/// they change by more than the following time, s, the window's time jumps.
 const SLEW: f64 = 0.1;
 const LEAP: f64 = 0.5;
 
-/// How a frame follows what was there.
+/// How a frame relates to those before it.
 #[derive(Clone, Copy, PartialEq)]
 enum Order {
     Next,
@@ -200,17 +200,17 @@ enum Order {
     Stale,
 }
 
-/// Where an instant lies among the frames.
+/// The position of an instant among the frames.
 #[derive(Clone, Copy)]
 struct FrameSpan {
     supply: Supply,
     /// Frame at or before it.
     frame: usize,
-    /// Time since that one, s.
+    /// Time since that frame, s.
     since: f64,
 }
 
-/// Velocities of two frames in a row: the curves of a tick that is as long as a frame meet in one.
+/// Velocities of two neighbouring frames, cached: if a tick is as long as a frame, its two curves share a frame.
 #[derive(Default)]
 struct Velocities([Option<(usize, [f64; NV])>; 2]);
 
@@ -226,12 +226,12 @@ impl Velocities {
 
 /// The desired motion at one instant.
 struct MotionAnswer {
-    /// Everything but the planted feet.
+    /// Everything except the planted feet.
     target: Target,
     supply: Supply,
     /// Frame at or before that instant.
     frame: usize,
-    /// Frame whose planted feet count; `None`: both are.
+    /// Frame whose planted feet count; `None`: both feet are planted.
     feet: Option<usize>,
 }
 
@@ -248,8 +248,8 @@ fn on_curve(base: &Posture, x: &[f64; NV], v: [f64; NV], a: [f64; NV]) -> Target
 }
 
 impl JitterBuffer {
-    /// An empty buffer for ticks of `tick` seconds of a figure with this body. `now` is what is asked of the figure at
-    /// present, `stand` its quiet standing posture.
+    /// An empty buffer for ticks of `tick` seconds of a figure with this body. `now` is the present desired motion of
+    /// the figure, `stand` its quiet standing posture.
     pub fn new(
         settings: DriveSettings,
         tick: f64,
@@ -275,8 +275,8 @@ impl JitterBuffer {
         }
     }
 
-    /// Takes up after it was read. False: it cannot have been written for a figure with this body in a world with ticks
-    /// of `tick` seconds.
+    /// Completes a buffer that was read. Returns whether a checkpoint could hold it, for a figure with this body in a
+    /// world with ticks of `tick` seconds.
     pub fn complete(&mut self, body: &Arc<Body>, tick: f64) -> bool {
         let is_unit = |p: &Posture| {
             let turns = p.ball.iter().chain([&p.root_rotation]);
@@ -319,7 +319,7 @@ impl JitterBuffer {
         is_whole
     }
 
-    /// Newest desired posture, for frames that leave the pelvis where it is.
+    /// Newest desired posture, for frames that leave the pelvis unchanged.
     pub fn newest_posture(&self) -> &Posture {
         self.frames
             .back()
@@ -341,19 +341,19 @@ impl JitterBuffer {
         self.supply
     }
 
-    /// Sequence and source time (ns) that act now.
+    /// Sequence and source time (ns) of the frame in use.
     pub fn applied(&self) -> Option<(i64, i64)> {
         self.applied.map(|a| (a.sequence, a.source_ns))
     }
 
-    /// When the frame came that acts now, once for each: the world has published what it does.
+    /// Arrival time of the frame in use, once for each frame: the world has published its effect.
     pub fn take_shown(&mut self) -> Option<Instant> {
         let applied = self.applied.as_mut().filter(|a| !a.shown)?;
         applied.shown = true;
         Some(applied.arrival)
     }
 
-    /// Notes which frame acts now.
+    /// Notes which frame is in use.
     fn apply(&mut self, new: Applied) {
         let same = |a: Applied| (a.sequence, a.source_ns) == (new.sequence, new.source_ns);
         if !self.applied.is_some_and(same) {
@@ -371,17 +371,17 @@ impl JitterBuffer {
         self.pace.delay(&self.settings)
     }
 
-    /// World time that the clock had left out by the last tick, s; `None`: nothing was played yet.
+    /// World time that the clock had skipped by the last tick, s; `None`: nothing was played yet.
     pub fn lost(&self) -> Option<f64> {
         self.pace.lost()
     }
 
-    /// How long its driver may be away, s.
+    /// How long its driver may be absent, s.
     pub fn grace(&self) -> f64 {
         self.settings.grace
     }
 
-    /// How far the stream is behind because its world leaves ticks out, s; contained in the delay.
+    /// How far the stream is behind because its world skips ticks, s; contained in the delay.
     pub fn behind(&self) -> f64 {
         self.pace.behind()
     }
@@ -396,7 +396,7 @@ impl JitterBuffer {
         std::mem::take(&mut self.anew.broken)
     }
 
-    /// Motion that is held but not used yet, s.
+    /// Duration of the motion that is held but not used yet, s.
     pub fn buffered(&self) -> f64 {
         match (self.frames.back(), self.pace.played.is_finite()) {
             (Some(f), true) => (self.seconds(f) - self.pace.played).max(0.0),
@@ -412,8 +412,8 @@ impl JitterBuffer {
     }
 
     /// Takes a frame that arrived at scheduled time `now`. Frames whose sequence or source time does not grow are
-    /// dropped and counted, until it is clear that the driver's clock has started again. True if this frame is the
-    /// first of a new beginning.
+    /// dropped and counted, until it is clear that the driver's clock has started again. Returns whether this frame is
+    /// the first one after a restart.
     pub fn push(&mut self, frame: BufferedFrame, now: f64) -> bool {
         let order = self.order(&frame, now);
         match order {
@@ -426,7 +426,8 @@ impl JitterBuffer {
         }
         self.anew.restart = None;
         if self.frames.len() == CAPACITY {
-            // Fed faster than it is played: what is oldest of the unplayed matters least for where the motion is going.
+            // The buffer is fed faster than it is played: the oldest unplayed frame matters least for where the motion
+            // is heading.
             self.frames.pop_front();
             self.counts.overflow += 1;
         }
@@ -454,7 +455,7 @@ impl JitterBuffer {
         }
     }
 
-    /// Whether a frame that is older than what was there shows that the driver's clock has started again.
+    /// Whether a frame older than the newest one shows that the driver's clock has started again.
     fn restarts(&mut self, frame: &BufferedFrame, now: f64) -> bool {
         let (sequence, source_ns) = (frame.sequence, frame.source_ns);
         let (since, frames) = match self.anew.restart {
@@ -585,7 +586,7 @@ impl JitterBuffer {
         self.at_with(p, &mut Velocities::default())
     }
 
-    /// The same, with the velocities that are known already.
+    /// The same, reusing velocities that are known already.
     fn at_with(&self, p: f64, velocities: &mut Velocities) -> MotionAnswer {
         let FrameSpan {
             supply,
@@ -619,8 +620,8 @@ impl JitterBuffer {
                 let c2 = 3.0 * d[k] - 2.0 * m0 - m1;
                 x[k] = u * (m0 + u * (c2 + u * c3));
                 v[k] = (m0 + u * (2.0 * c2 + 3.0 * u * c3)) / h;
-                // Slopes that stand in for velocities are a little off, equally at both ends. The curve would turn that
-                // into accelerations six times as far off per frame time; their difference does not.
+                // Slopes that replace velocities are slightly wrong, equally at both ends. The curve would turn that
+                // into accelerations six times as wrong per frame time; their difference does not.
                 a[k] = if measured {
                     (2.0 * c2 + 6.0 * u * c3) / (h * h)
                 } else {
@@ -678,7 +679,7 @@ impl JitterBuffer {
         answer
     }
 
-    /// Quiet standing where the held posture has its pelvis.
+    /// Quiet standing at the place of the held posture's pelvis.
     fn standing(&self, held: &Posture) -> Posture {
         use sinew_physics::math::{Quat, Vec3};
         let mut p = self.stand;
@@ -688,8 +689,8 @@ impl JitterBuffer {
         p
     }
 
-    /// The desired motion over the tick that begins `at`. `None` while nothing was pushed or the first frame is still
-    /// to come: what was asked of the figure before then goes on.
+    /// The desired motion over the tick that begins at `at`. `None` while nothing was pushed or the first frame is
+    /// still to come: until then the previous desired motion continues.
     pub fn sample(&mut self, at: Now) -> Option<Box<TargetPair>> {
         let Some(p) = self.playout(at) else {
             return self.wait();
@@ -713,7 +714,7 @@ impl JitterBuffer {
         let next = self.target(p + self.tick, &mut velocities).target;
         let mut pair = Box::new(TargetPair { now, next });
         let TargetPair { now, next } = &mut *pair;
-        // A jump, at the start or after a gap, is spread over time; one that is expected is known.
+        // A jump, at the start or after a gap, is spread over time. A jump expected from the last velocity is not one.
         if self.blend.is_none() && !(began && self.settings.reset) {
             let jump = now.posture.difference(&self.last.posture);
             let beyond =
@@ -752,7 +753,7 @@ impl JitterBuffer {
         Some(pair)
     }
 
-    /// The target before the first frame: none, or the last posture of a stream that restarts.
+    /// The target before the first frame: none, or the last posture if the stream is restarting.
     fn wait(&mut self) -> Option<Box<TargetPair>> {
         self.applied?;
         self.supply = Supply::Held;
@@ -765,7 +766,7 @@ impl JitterBuffer {
         }))
     }
 
-    /// Whether there is motion that was not handed to a window yet: a driver that repeats what it sent before does not
+    /// Whether there is motion that was not handed to a window yet. A driver that repeats the same posture does not
     /// move.
     pub fn has_news(&self) -> bool {
         let (Some(newest), Some(head)) = (self.frames.back(), self.grid.head) else {
@@ -774,9 +775,9 @@ impl JitterBuffer {
         self.seconds(newest) > head && !is_same(&self.at(head).target.posture, &newest.posture)
     }
 
-    /// Hands the samples of a grid of `rate` per second to a window that lies `window` seconds behind them, as far as
-    /// they are due in the tick that begins `now`. Returns the playout time of the newest sample that is due then, s,
-    /// and how many samples of the grid are over; `None` while there is no motion.
+    /// Hands the samples of a grid of `rate` per second, up to those due in the tick that begins `now`, to a window
+    /// that lies `window` seconds behind them. Returns the playout time of the newest sample that is due then, s, and
+    /// the number of samples of the grid that are past; `None` while there is no motion.
     pub fn feed(
         &mut self,
         now: Now,
@@ -807,7 +808,7 @@ impl JitterBuffer {
         };
         self.counts.ticks[k] += 1;
         let last = ((p + self.tick) * rate + SAME).floor() as i64;
-        // Time that leaps, or a silence, is not made up for sample by sample.
+        // A leap in time, or a silence, is not made up for sample by sample.
         if std::mem::take(&mut self.grid.joins) {
             self.grid.next = last;
         }
@@ -818,7 +819,7 @@ impl JitterBuffer {
             match answer.supply {
                 Supply::Present | Supply::Interpolated | Supply::Extrapolated => {
                     let frame = &self.frames[answer.frame];
-                    // A window finds out for itself what the driver does not say.
+                    // A window finds planted feet itself if the driver does not name them.
                     let planted = frame.planted.and(answer.feet).map(|i| self.planted(i));
                     give(DueSample::Sample(&answer.target.posture, planted));
                     let known =
@@ -839,7 +840,7 @@ impl JitterBuffer {
         }
         self.grid.next = last + 1;
         self.pace.played = p;
-        // The motion that acts now arrived a window ago.
+        // The motion in use now arrived a window ago.
         while let Some(&(at, entry)) = self.grid.held.front()
             && at <= p - window + SAME
         {
@@ -855,12 +856,12 @@ impl JitterBuffer {
     /// Playout time of the tick that begins `now`, s, if there is motion for it.
     pub fn due(&mut self, now: Now) -> Option<f64> {
         let p = self.playout(now)?;
-        // Two frames at least, so that it is known how it moves, and none that would have to be guessed.
+        // At least two frames, so that its velocity is known, and none that would have to be guessed.
         let newest = self.seconds(self.frames.back()?);
         (p >= 0.0 && self.frames.len() >= 2 && newest >= p + self.tick).then_some(p)
     }
 
-    /// Begins from what is asked of the figure now, and goes over to its own motion in `blend` seconds.
+    /// Begins from the present desired motion of the figure, and changes to its own motion within `blend` seconds.
     pub fn begin_from(&mut self, target: Target, blend: f64) {
         self.last = target;
         self.blend_time = blend.max(self.tick);

@@ -1,8 +1,8 @@
-//! Where the desired motion of one drive waits for the next tick.
+//! The mailbox in which the desired motion of one drive waits for the next tick.
 //!
 //! Motion from the network is checked, converted and left here at once, without waiting for the world. The world's
-//! thread takes all of it at the start of a tick. The allowance of the driver bounds what can wait, and drives share no
-//! queue, so a driver who floods his mailbox harms no one else.
+//! thread takes all of it at the start of a tick. The allowance of the driver bounds how much can wait, and drives
+//! share no queue, so a driver that floods its mailbox harms no other.
 
 use super::admission::{Admission, FRAME_BURST, FRAMES_PER_SECOND};
 use sinew_wire::status::Fault;
@@ -11,14 +11,14 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
-/// Attempts of the world's thread to look into a mailbox that a sender has open. It never waits for one: what it does
-/// not get now it gets in the next tick.
+/// Attempts of the world's thread to open a mailbox while a sender has it open. It never waits for a sender: anything
+/// that it misses now it gets in the next tick.
 const ATTEMPTS: usize = 100;
 
 /// A batch that waits.
 #[derive(Debug)]
 pub struct Delivery {
-    /// When it came.
+    /// Arrival time.
     pub arrival: Instant,
     /// Its content.
     pub samples: Vec<MotionSample>,
@@ -29,16 +29,16 @@ pub struct Delivery {
 pub struct MailboxContent {
     /// Batches in the order in which they came.
     pub deliveries: Vec<Delivery>,
-    /// The driver pushed since the last time.
+    /// Whether the driver pushed since the last time.
     pub pushed: bool,
 }
 
-/// Which drive: nobody else can have one of the same name.
+/// The identity of a drive: no other drive can have the same.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct DriverId {
     /// Its owner.
     pub principal: Arc<str>,
-    /// As the driver calls itself.
+    /// The name that the driver chose.
     pub name: Arc<str>,
 }
 
@@ -52,7 +52,7 @@ impl std::fmt::Display for DriverId {
 struct MailboxInner {
     /// The stream that may send; `None` for pushes.
     stream: Option<u64>,
-    /// Why nothing is taken any more.
+    /// Why no more motion is accepted.
     closed: Option<Fault>,
     allowance: Admission,
     waiting: MailboxContent,
@@ -60,11 +60,11 @@ struct MailboxInner {
     postures: usize,
     received: i64,
     refused: u64,
-    /// Tokens of leases that it was opened with.
+    /// Tokens of the leases with which it was opened.
     tokens: Vec<String>,
     /// Figures that were taken from the driver, by their place in its header.
     taken_away: Vec<bool>,
-    /// The feedback to the driver that needs no question to the world.
+    /// Feedback to the driver that can be given without asking the world.
     feedback: Arc<Feedback>,
 }
 
@@ -103,7 +103,7 @@ impl Mailbox {
         }
     }
 
-    /// Who drives.
+    /// The driver.
     pub fn driver(&self) -> &DriverId {
         &self.id
     }
@@ -114,11 +114,11 @@ impl Mailbox {
     }
 
     fn inside(&self) -> MutexGuard<'_, MailboxInner> {
-        // Nothing is left half done by a panic.
+        // No change is left half done by a panic.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// As [`Mailbox::inside`], without waiting for who is in it.
+    /// As [`Mailbox::inside`], without waiting for another holder.
     fn glance(&self) -> Option<MutexGuard<'_, MailboxInner>> {
         for _ in 0..ATTEMPTS {
             match self.inside.try_lock() {
@@ -133,7 +133,7 @@ impl Mailbox {
     /// Asks for the allowance of a batch with `postures` desired postures, before it is converted.
     ///
     /// # Errors
-    /// It came too fast, or too much waits; it is counted.
+    /// The batch came too fast, or too much is waiting. It is counted.
     pub fn admit(&self, postures: usize, now: Instant) -> Result<(), Fault> {
         let mut inside = self.inside();
         let room = (FRAME_BURST as usize) * self.figures.len();
@@ -152,7 +152,7 @@ impl Mailbox {
         })
     }
 
-    /// Leaves a batch, by a stream or by a push.
+    /// Leaves a batch, from a stream or a push.
     ///
     /// # Errors
     /// The drive has ended, or another stream has it.
@@ -169,7 +169,7 @@ impl Mailbox {
         if stream.is_some() && stream != inside.stream {
             return Err(self.fenced());
         }
-        // Frames for a figure that was taken away are fenced one by one.
+        // Frames for a figure that was taken away are refused one by one.
         let mut asked = samples.iter().flat_map(|s| &s.figures);
         if let Some(f) = asked.find(|f| inside.taken_away[f.slot]) {
             return Err(Fault::Aborted {
@@ -197,17 +197,17 @@ impl Mailbox {
         fenced(&self.id.name)
     }
 
-    /// Tokens of leases that the drive was opened with.
+    /// Tokens of the leases with which the drive was opened.
     pub fn tokens(&self) -> Vec<String> {
         self.inside().tokens.clone()
     }
 
-    /// Notes them.
+    /// Replaces them.
     pub fn keep_tokens(&self, tokens: &[String]) {
         self.inside().tokens = tokens.to_vec();
     }
 
-    /// Takes no more motion for a figure, by its place in the header.
+    /// Accepts no more motion for a figure, given by its place in the header.
     pub fn fence(&self, slot: usize) {
         self.inside().taken_away[slot] = true;
     }
@@ -217,18 +217,18 @@ impl Mailbox {
         self.inside().closed.clone()
     }
 
-    /// Takes what waits, without waiting for a sender. For the world's thread.
+    /// Takes the waiting motion, without waiting for a sender. For the world's thread.
     pub fn take(&self) -> MailboxContent {
         self.glance()
             .map_or_else(MailboxContent::default, |mut i| i.empty())
     }
 
-    /// Lets another stream send from now on; `None`: none.
+    /// Lets another stream send from now on; `None`: no stream.
     pub fn hand_to(&self, stream: Option<u64>) {
         self.inside().stream = stream;
     }
 
-    /// Takes nothing any more; senders learn why. The first reason stands.
+    /// Accepts no more motion; senders are told why. The first reason stands.
     pub fn close(&self, why: Fault) {
         let mut inside = self.inside();
         inside.empty();
@@ -241,7 +241,7 @@ impl Mailbox {
         (inside.received, inside.refused)
     }
 
-    /// The driver's sequence started again and has come to `sequence`.
+    /// The driver's sequence has started again and is at `sequence` now.
     pub fn begin_anew(&self, sequence: i64) {
         self.inside().received = sequence;
     }
@@ -274,7 +274,7 @@ impl MailboxInner {
     }
 }
 
-/// The fault of a driver who has no drive any more.
+/// The fault of a driver that no longer has a drive.
 pub fn fenced(driver: &str) -> Fault {
     Fault::Aborted {
         reason: "CONTROL_FENCED",
@@ -291,7 +291,7 @@ impl Mailboxes {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The mailbox of a driver who drives exactly these figures.
+    /// The mailbox of a driver, if it drives exactly these figures.
     pub fn of(&self, driver: &DriverId, figures: &[String]) -> Option<Arc<Mailbox>> {
         let found = self.held().get(driver).cloned()?;
         (found.figures() == figures).then_some(found)
@@ -302,7 +302,7 @@ impl Mailboxes {
         self.held().insert(mailbox.driver().clone(), mailbox);
     }
 
-    /// Takes nothing any more for any driver.
+    /// Accepts no more motion from any driver.
     pub fn close_all(&self, why: &Fault) {
         for mailbox in self.held().values() {
             mailbox.close(why.clone());

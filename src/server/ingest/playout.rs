@@ -1,25 +1,25 @@
-//! The pace of a stream: which of its source time is played in a tick.
+//! The pace of a stream: the part of its source time that is played in a tick.
 //!
-//! Arrivals are stamped by *scheduled time*: where world time would be if the clock had left out no tick. It passes as
-//! the driver's own clock does while the world's clock runs, and stands still with it. Motion is played in world time:
-//! in a world that leaves ticks out it falls behind and is never too fast for the body, and it catches up slowly.
+//! Arrivals are stamped with *scheduled time*: the world time if the clock had skipped no tick. It passes like the
+//! driver's own clock while the world's clock runs, and stands still with it. Motion is played in world time: in a
+//! world that skips ticks it falls behind, is never too fast for the body, and catches up slowly.
 
 use serde::{Deserialize, Serialize};
 use sinew_wire::types::{Delay, DriveSettings};
 use std::collections::VecDeque;
 
-/// Arrivals that the jitter is measured over.
+/// Arrivals over which the jitter is measured.
 const WINDOW: usize = 256;
-/// As many of them, at most, are the p99 or more.
+/// Most of these that can be at or above the p99.
 const SLOWEST: usize = WINDOW - (WINDOW - 1) * 99 / 100;
-/// Share of time by which an adaptive delay shrinks: one hundredth is not seen.
+/// Share of time by which an adaptive delay shrinks: one hundredth is not visible.
 pub(super) const SHRINK: f64 = 0.01;
 /// Share of time by which a stream that fell behind with its world catches up: two hundredths do not tax the balance.
 pub(super) const CATCH_UP: f64 = 0.02;
-/// Farthest that a stream is behind its world's schedule, s: at 240 Hz the buffer is full then.
+/// Largest distance of a stream behind its world's schedule, s: at 240 Hz the buffer is full then.
 pub(super) const MOST_BEHIND: f64 = 2.0;
 
-/// Largest time that is reckoned with, s.
+/// Largest time used in calculations, s.
 const LARGEST_TIME: f64 = 1e12;
 
 /// An instant of a world.
@@ -27,16 +27,16 @@ const LARGEST_TIME: f64 = 1e12;
 pub struct Now {
     /// World time, s.
     pub time: f64,
-    /// World time that the clock has left out so far, s: with it, this is scheduled time.
+    /// World time that the clock has skipped until now, s: world time plus this is scheduled time.
     pub lost: f64,
 }
 
-/// The motion that is played in a tick.
+/// The motion to play in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum PlayoutDue {
-    /// Nothing: no frame has come.
+    /// None: no frame has arrived.
     Nothing,
-    /// Nothing any more: the stream is too far behind.
+    /// None any more: the stream is too far behind.
     TooFarBehind,
     /// Playout time, s since the first frame.
     At(f64),
@@ -51,12 +51,12 @@ pub(super) struct Playout {
     transit: VecDeque<f64>,
     /// Scheduled time of the last arrival.
     arrived: f64,
-    /// p99 of the jitter; `None` while frames have come since it was measured.
+    /// p99 of the jitter; `None` if frames have arrived since it was measured.
     jitter: Option<f64>,
     /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
     delay: Option<f64>,
-    /// Time that the world had lost at the last tick, s, and how far the stream is behind, s: for that, or as it took
-    /// another one over; negative: ahead.
+    /// World time skipped by the last tick, s, and how far the stream is behind, s, because of that or because it took
+    /// over another one; negative: ahead.
     lost: Option<f64>,
     behind: f64,
     /// Playout time of the last answer, s since the first frame.
@@ -78,13 +78,13 @@ impl Default for Playout {
     }
 }
 
-/// True for a time, or a difference of times, that a stream can get to, s.
+/// Whether a stream can get to this time, or difference of times, s.
 pub(super) fn is_time(seconds: f64) -> bool {
     seconds.abs() <= LARGEST_TIME
 }
 
 impl Playout {
-    /// Whether it can have come about.
+    /// Whether this value is one that a checkpoint could hold.
     pub(super) fn is_valid(&self) -> bool {
         let known = [self.arrived, self.behind];
         let optional = [self.origin.map(|o| o.1), self.jitter, self.delay, self.lost];
@@ -106,7 +106,7 @@ impl Playout {
         now - self.arrived
     }
 
-    /// Notes a frame that arrived at scheduled time `now`; its seconds.
+    /// Notes a frame that arrived at scheduled time `now`; returns its seconds.
     pub(super) fn arrive(&mut self, source_ns: i64, now: f64) -> f64 {
         self.arrived = now;
         let (_, first) = *self.origin.get_or_insert((source_ns, now));
@@ -137,7 +137,7 @@ impl Playout {
         if count == 0 {
             return 0.0;
         }
-        // So few are above the percentile that they are found in one look at all, without sorting.
+        // Few values are above the percentile, so one pass finds them without sorting.
         let rank = (count - 1) * 99 / 100;
         let mut slowest = [f64::NEG_INFINITY; SLOWEST];
         let slowest = &mut slowest[..count - rank];
@@ -161,24 +161,25 @@ impl Playout {
         delay + self.behind
     }
 
-    /// Time that the world had lost at the last tick, s.
+    /// World time skipped by the last tick, s.
     pub(super) fn lost(&self) -> Option<f64> {
         self.lost
     }
 
-    /// How far the stream is behind because its world leaves ticks out, or as it took up another one, s; contained in
+    /// How far the stream is behind because its world skips ticks, or because it took over another one, s; contained in
     /// the delay.
     pub(super) fn behind(&self) -> f64 {
         self.behind.max(0.0)
     }
 
-    /// Plays what is at `later` (s) from where it would, and calls that `renamed` seconds more than it is called now.
+    /// Plays the motion `later` (s) after the place where it would play, and names its time `renamed` seconds more than
+    /// now.
     pub(super) fn shift(&mut self, later: f64, renamed: f64, settings: &DriveSettings) {
         self.behind -= later + renamed;
         if let Some((first, _)) = &mut self.origin {
             *first = first.saturating_sub((renamed * 1e9).round() as i64);
         }
-        // Times of arrival count from the first frame.
+        // Arrival times count from the first frame.
         self.transit.iter_mut().for_each(|t| *t -= renamed);
         if let (Delay::Adaptive { .. }, Some(delay)) = (settings.delay, &mut self.delay) {
             *delay -= renamed;
@@ -186,7 +187,7 @@ impl Playout {
         }
     }
 
-    /// The motion in the tick of `tick` seconds that begins `now`; moves the adaptive delay on.
+    /// The motion in the tick of `tick` seconds that begins `now`; updates the adaptive delay.
     pub(super) fn advance(&mut self, now: Now, tick: f64, settings: &DriveSettings) -> PlayoutDue {
         let Some((_, first)) = self.origin else {
             return PlayoutDue::Nothing;
@@ -203,7 +204,7 @@ impl Playout {
             Delay::Fixed(d) => d,
             Delay::Adaptive { most } => {
                 let frame = 1.0 / settings.rate_hz;
-                // Interpolation needs the next frame to be there as well.
+                // Interpolation also needs the next frame.
                 let wanted = self.fastest() + (jitter + frame + tick).min(most);
                 match self.delay {
                     None => wanted,
@@ -238,7 +239,7 @@ mod tests {
         let mut playout = Playout::default();
         assert_eq!(playout.measured(), 0.0);
         for i in 0..4 * WINDOW as i64 {
-            // Steps of 1 ms, so that some are alike, and of any size after that.
+            // Steps of 1 ms, so that some are equal, and of any size after that.
             let late = if i < 2 * WINDOW as i64 {
                 (random() % 8.0) * 1e-3
             } else {

@@ -1,4 +1,4 @@
-//! Derives of live motion that is written into a checkpoint.
+//! Serde helpers for live motion that is written into a checkpoint.
 
 /// An array that may be missing, in a box: `#[serde(with = "crate::ingest::saved::optional_array")]`.
 pub mod optional_array {
@@ -11,7 +11,7 @@ pub mod optional_array {
     /// Writes it.
     ///
     /// # Errors
-    /// Those of the serializer.
+    /// Same as those of the serializer.
     pub fn serialize<S: Serializer>(
         array: &Option<Box<[f64; NV]>>,
         to: S,
@@ -22,7 +22,7 @@ pub mod optional_array {
     /// Reads it.
     ///
     /// # Errors
-    /// Those of the deserializer.
+    /// Same as those of the deserializer.
     pub fn deserialize<'de, D: Deserializer<'de>>(
         from: D,
     ) -> Result<Option<Box<[f64; NV]>>, D::Error> {
@@ -39,7 +39,7 @@ pub mod timed_array {
     /// Writes it.
     ///
     /// # Errors
-    /// Those of the serializer.
+    /// Same as those of the serializer.
     pub fn serialize<S: Serializer>(
         array: &Option<(Box<[f64; NV]>, f64)>,
         to: S,
@@ -51,7 +51,7 @@ pub mod timed_array {
     /// Reads it.
     ///
     /// # Errors
-    /// Those of the deserializer.
+    /// Same as those of the deserializer.
     pub fn deserialize<'de, D: Deserializer<'de>>(
         from: D,
     ) -> Result<Option<(Box<[f64; NV]>, f64)>, D::Error> {

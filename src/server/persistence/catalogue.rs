@@ -1,4 +1,4 @@
-//! Which stored world has which name.
+//! The stored world of each name.
 
 use crate::durable::recovery::Recovered;
 use crate::durable::store::{WorldKey, WorldRecord};
@@ -11,14 +11,14 @@ pub(super) struct Catalogue(Mutex<CatalogueNames>);
 
 #[derive(Default)]
 struct CatalogueNames {
-    /// Of several of one name the latest.
+    /// The latest of those with one name.
     latest: BTreeMap<String, WorldRecord>,
-    /// Worlds that stay out because a later one has their name. They are deleted with that.
+    /// Worlds that stay out because a later one has their name. They are deleted together with it.
     older: BTreeMap<String, Vec<WorldKey>>,
 }
 
 impl Catalogue {
-    /// Of what a start has found.
+    /// The catalogue of a recovered directory.
     pub fn of(recovered: &Recovered) -> Self {
         let mut all: Vec<_> = recovered.worlds.iter().map(|(w, _)| w).collect();
         all.extend(&recovered.quarantined);
@@ -75,12 +75,12 @@ impl Catalogue {
         keys
     }
 
-    /// Notes a world as it was written.
+    /// Records a world as it was written.
     pub fn put(&self, world: WorldRecord) {
         self.names().latest.insert(world.name.clone(), world);
     }
 
-    /// Forgets a world and those that it has kept out. A later world may have its name by then: it stays.
+    /// Forgets a world and those that it has kept out. If a later world has its name by then, that one stays.
     pub fn remove(&self, name: &str, key: WorldKey) {
         let mut names = self.names();
         if names.latest.get(name).is_some_and(|w| w.key == key) {

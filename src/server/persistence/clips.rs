@@ -1,4 +1,4 @@
-//! Clips and their rehearsals: written down, and brought back.
+//! Clips and their rehearsals: written to disk, and brought back.
 
 use super::described::DescribedClip;
 use super::{Persistence, Writing, storage};
@@ -15,8 +15,8 @@ use sinew_wire::types::{ClipInfo, FollowSettings};
 use std::sync::Arc;
 
 impl Persistence {
-    /// Begins to write a clip down: the request that made it and what it became. What becomes of its name afterwards is
-    /// written afterwards.
+    /// Begins to write a clip to disk: the request that created it and the resulting clip. Later changes under its name
+    /// are written later.
     ///
     /// # Errors
     /// It cannot be written now.
@@ -35,13 +35,13 @@ impl Persistence {
             content: Bytes::new(),
         };
         let written = self.keeper.hand_in(move |store| {
-            record.content = request.encode_to_vec().into(); // large: nobody holds a lock here
+            record.content = request.encode_to_vec().into(); // large, so no lock is held here
             store.put_clip(&record)
         });
         written.map(Writing).map_err(storage)
     }
 
-    /// Begins to forget a clip; likewise.
+    /// Begins to forget a clip. Later changes under its name are written later.
     ///
     /// # Errors
     /// It cannot be written now.
@@ -51,7 +51,7 @@ impl Persistence {
         done.map(Writing).map_err(storage)
     }
 
-    /// Writes a rehearsal of a clip down, in the place of others.
+    /// Writes a rehearsal of a clip to disk, replacing others.
     ///
     /// # Errors
     /// It could not be written.
@@ -89,7 +89,7 @@ impl Persistence {
     }
 }
 
-/// Brings clips back, and begins to work out what is not stored of them. How many there are.
+/// Brings clips back, and begins to compute the parts of them that are not stored. Returns their number.
 pub(super) fn restore(app: &Arc<App>, all: &[ClipRecord]) -> usize {
     let mut count = 0;
     for clip in all {
@@ -124,7 +124,7 @@ fn restore_one(app: &App, clip: &ClipRecord) -> Result<(), Fault> {
     app.clips.restore(new, &shown, &reference, source)
 }
 
-/// Works out again what is not stored of a clip: how its file was understood, and what will come of it.
+/// Computes the parts of a clip that are not stored: how its file was understood, and the forecast.
 fn complete(app: &Arc<App>, name: String) {
     let app = app.clone();
     tokio::spawn(async move {
@@ -144,7 +144,7 @@ fn complete(app: &Arc<App>, name: String) {
     });
 }
 
-/// Brings rehearsals back, the oldest first. Those that cannot be used are named.
+/// Brings rehearsals back, the oldest first. Unusable ones are reported.
 pub(super) fn restore_rehearsals(app: &App, all: &[RehearsalRecord]) {
     let left_out = |clip: &str, why: Fault| {
         tracing::error!(clip, %why, "a rehearsal is not brought back: the clip has to be rehearsed again");

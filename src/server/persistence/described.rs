@@ -1,4 +1,4 @@
-//! How worlds and clips are described on disk: everything but the states of worlds and the content of clips.
+//! The form of worlds and clips on disk: everything except the states of worlds and the content of clips.
 
 use crate::api::access;
 use crate::recordings::{Recordings, StoredRecording};
@@ -25,18 +25,18 @@ pub(super) struct StoredWorld {
     pub recordings: Vec<StoredRecording>,
     #[prost(message, repeated, tag = "6")]
     pub controls: Vec<StoredControl>,
-    /// The client whose share of the worlds it counts for; empty: none that can come back.
+    /// The client that the world counts for in the shares; empty: a client that cannot come back.
     #[prost(string, tag = "7")]
     pub owner: String,
 }
 
 impl StoredWorld {
-    /// A world as it is now, without what changes in each tick.
+    /// A world as it is now, without the values that change in each tick.
     pub fn now(handle: &WorldHandle, recordings: &Recordings) -> Self {
         let described = handle.described();
         let figures = described.figures.iter().map(|f| {
             pb::Figure {
-                profile: None, // the name of the body says it
+                profile: None, // the name of the body implies it
                 status: None,
                 constraints: Vec::new(),
                 ..figure::figure_out(f)
@@ -67,7 +67,7 @@ impl StoredWorld {
         }
     }
 
-    /// Whether two descriptions, as bytes, differ in what no state has.
+    /// Whether two descriptions, as bytes, differ in something that no state contains.
     pub fn differ(a: &[u8], b: &[u8]) -> bool {
         a != b && Self::at_rest(a) != Self::at_rest(b)
     }
@@ -104,7 +104,7 @@ pub(super) struct StoredControl {
     figure: String,
     #[prost(int64, tag = "2")]
     epoch: i64,
-    /// Who has the lease; empty: nobody.
+    /// The holder of the lease; empty: none.
     #[prost(string, tag = "3")]
     holder: String,
     /// SHA-256 of its token.
@@ -147,7 +147,7 @@ impl StoredControl {
 pub(super) struct DescribedClip {
     #[prost(message, optional, tag = "1")]
     pub clip: Option<pb::Clip>,
-    /// Principal whose it is.
+    /// The principal that owns it.
     #[prost(string, optional, tag = "2")]
     pub owner: Option<String>,
 }

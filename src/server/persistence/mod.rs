@@ -1,12 +1,12 @@
-//! Worlds and clips of this server in its data directory: what there was is brought back, what is created, changed or
-//! deleted is written down before the client learns that it is done.
+//! Worlds and clips of this server in its data directory. Existing ones are brought back at a start. Whatever is
+//! created, changed or deleted is on disk before the client gets its answer.
 //!
 //! A world is brought back from its last state on disk, which is at most some seconds old, and from its settings,
 //! figures and obstacles, which are always those of the last answer.
 //!
-//! [`described`] is the form in which worlds and clips are described on disk, [`catalogue`] which stored world has
-//! which name. [`worlds`] and [`clips`] write down that they come, change and go, [`states`] the states of worlds.
-//! [`restore`] is what happens at a start; it gets the past of a world from [`past`].
+//! [`described`] is the form of worlds and clips on disk, [`catalogue`] the stored world of each name. [`worlds`] and
+//! [`clips`] write their creation, changes and deletion to disk, [`states`] the states of worlds. [`restore`] runs at a
+//! start; it gets the past of a world from [`past`].
 
 mod catalogue;
 mod clips;
@@ -36,19 +36,19 @@ use std::time::{Duration, Instant};
 pub struct Persistence {
     keeper: Arc<Keeper>,
     marks: Arc<Marks>,
-    /// The server before this one did not end in good order.
+    /// Whether the server before this one ended abnormally.
     crashed: bool,
     durability: Durability,
     catalogue: Catalogue,
-    /// The contents that are to be restored.
+    /// The contents to restore.
     recovered: Mutex<Option<Recovered>>,
-    /// Parts of the past that are kept, of which the log has the content.
+    /// Recordings, whose content is in the log.
     recordings: Arc<Recordings>,
     /// Held while the description of a world is written.
     writing: tokio::sync::Mutex<()>,
 }
 
-/// Something that is being written, in its place in the order of all.
+/// A write in progress, at its place in the order of all.
 pub struct Writing(HandedIn<()>);
 
 impl Writing {
@@ -76,7 +76,7 @@ fn storage(error: StoreError) -> Fault {
     }
 }
 
-/// Who asks worlds on behalf of the server.
+/// The origin of commands that the server itself sends to worlds.
 fn origin() -> CommandOrigin {
     CommandOrigin {
         client: "".into(),
@@ -88,7 +88,7 @@ impl Persistence {
     /// Opens the data directory; `None` without one. Blocks.
     ///
     /// # Errors
-    /// It cannot be used: another server has it, it cannot be written to, or a later version has written it.
+    /// It cannot be used: another server uses it, it cannot be written to, or a later version has written it.
     pub fn open(config: &Config, recordings: &Arc<Recordings>) -> Result<Option<Self>, StoreError> {
         if config.data_dir.is_empty() {
             return Ok(None);
@@ -124,7 +124,7 @@ impl Persistence {
         }))
     }
 
-    /// Refuses what a world in quarantine cannot do.
+    /// Refuses an action that a world in quarantine does not allow.
     ///
     /// # Errors
     /// The world of that name is in quarantine.
@@ -140,7 +140,7 @@ impl Persistence {
         })
     }
 
-    /// Does something with the store, after everything that was handed in before, and waits for it.
+    /// Runs `f` on the store, after everything that was handed in before, and waits for it.
     ///
     /// # Errors
     /// Those of `f`; too many requests wait; the store has ended.
@@ -151,15 +151,15 @@ impl Persistence {
         self.keeper.call(f).await.map_err(storage)
     }
 
-    /// Writes what is left and ends.
+    /// Writes the remaining data and ends.
     pub async fn close(&self) {
         let keeper = self.keeper.clone();
-        // An error: it panicked, which was reported where it happened.
+        // An error means that the thread panicked, which was reported where it happened.
         let _ = tokio::task::spawn_blocking(move || keeper.close()).await;
     }
 }
 
-/// Names what does not come back.
+/// Logs everything that is not brought back.
 fn tell(recovered: &Recovered) {
     for why in &recovered.damaged {
         tracing::error!(why, "a part of the data directory is damaged");

@@ -1,4 +1,4 @@
-//! The past of a world as the log has it: its last state, and the parts that recordings keep.
+//! The past of a world in the log: its last state, and the parts that recordings keep.
 
 use super::Persistence;
 use crate::checkpoints;
@@ -12,7 +12,7 @@ use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The log, up to the first entry that cannot be read: its tick, and why.
+/// The log up to the first entry that cannot be read: its tick, and the reason.
 fn read_entries(entries: &[store::LoggedTick]) -> (Vec<JournalItem>, Option<(u64, String)>) {
     let mut out = Vec::with_capacity(entries.len());
     for entry in entries {
@@ -35,8 +35,8 @@ struct Replayed {
     compared: u64,
 }
 
-/// Does again what was logged behind a state as far as tick `until`. `reached` is the last tick that was done, also if
-/// this panics.
+/// Replays the entries logged after a state, up to tick `until`. `reached` is set to the last tick that was done, even
+/// if this panics.
 ///
 /// # Errors
 /// The state cannot be used.
@@ -59,8 +59,8 @@ fn replay(
     })
 }
 
-/// The last state of a world that is whole: its checkpoint, and what was recorded behind it. `None`: there is none, or
-/// this program cannot go on from it.
+/// The last intact state of a world: its checkpoint, and the entries recorded after it. `None`: there is none, or this
+/// program cannot continue from it.
 pub(super) async fn last_state(record: &WorldRecord, history: &StoredHistory) -> Option<Scene> {
     let (tick, bytes) = history.checkpoint.clone()?;
     let world = &*record.name;
@@ -107,7 +107,7 @@ pub(super) async fn last_state(record: &WorldRecord, history: &StoredHistory) ->
 }
 
 impl Persistence {
-    /// Brings a recording back, with what the log has of it.
+    /// Brings back a recording, with the part of it that the log still has.
     pub(super) async fn bring_recording_back(
         &self,
         handle: &Arc<WorldHandle>,
@@ -130,8 +130,8 @@ impl Persistence {
         self.recordings.bring_back(journal, at, stored, kept);
     }
 
-    /// The part of the log of a world's past from tick `first` to tick `until`, at most `most` bytes of it: a part of
-    /// each server that has written it.
+    /// The part of the log of a world's past from tick `first` to tick `until`, at most `most` bytes of it: one part
+    /// for each server that has written it.
     async fn recorded(
         &self,
         key: WorldKey,

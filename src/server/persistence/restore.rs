@@ -1,4 +1,4 @@
-//! A start: everything is brought back that can be.
+//! A start: brings back everything that can be brought back.
 
 use super::described::{StoredControl, StoredWorld};
 use super::{Persistence, clips, origin, past};
@@ -13,11 +13,11 @@ use sinew_wire::types::WorldUpdate;
 use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 
-/// How long worlds note each step after an end that was not orderly.
+/// How long worlds note each step after an abnormal end.
 const NOTE_STEPS: Duration = Duration::from_secs(3);
 
 impl Persistence {
-    /// Brings everything back that can be.
+    /// Brings back everything that can be brought back.
     pub async fn restore(self: &Arc<Self>, app: &Arc<App>) {
         let recovered = self
             .recovered
@@ -38,13 +38,13 @@ impl Persistence {
         tracing::info!(worlds, clips, seconds, "brought back");
     }
 
-    /// How many were brought back.
+    /// Returns how many were brought back.
     async fn restore_worlds(
         self: &Arc<Self>,
         app: &Arc<App>,
         all: &[(WorldRecord, StoredHistory)],
     ) -> usize {
-        // Each waits for ticks of its own; together they wait once.
+        // Each waits for its own ticks; together they wait once.
         let worlds = all.iter().map(|(record, history)| async move {
             let restored = self.restore_world(app, record, history).await;
             restored.map_err(|why| (record, why))
@@ -82,7 +82,7 @@ impl Persistence {
         let grants = grants.collect::<Result<Vec<_>, _>>()?;
         let pace = settings.pace.clone();
         let owner = match described.owner.as_str() {
-            // It belongs to nobody who is connected.
+            // It belongs to no connected client.
             "" => format!("stored {}", record.name),
             owner => owner.to_owned(),
         };
@@ -105,16 +105,16 @@ impl Persistence {
         let done = self.complete_world(app, (&handle, key), described, update);
         let done = done.await;
         if done.is_err() {
-            // A partly restored world is not left for others to find, and stays on disk as it was.
+            // A partly restored world must not be left for others to find. It stays unchanged on disk.
             let same = |there: &Arc<WorldHandle>| Arc::ptr_eq(there, &handle);
             let by = "it came back in part";
-            let _ = app.worlds.delete_if(&record.name, by, same).await; // the error is told already
+            let _ = app.worlds.delete_if(&record.name, by, same).await; // the error was reported already
         }
         done
     }
 
-    /// Does in a world that was brought back what its last state does not know of. `update`: its pace, if it is in such
-    /// a state.
+    /// Applies changes that are later than the last state of a world that was brought back. `update`: its pace, if it
+    /// was brought back in such a state.
     async fn complete_world(
         self: &Arc<Self>,
         app: &Arc<App>,
@@ -131,7 +131,7 @@ impl Persistence {
             let until = Instant::now() + NOTE_STEPS;
             handle.send(origin(), move |s| s.note_steps(mark, until))?;
         }
-        // Creations and deletions since the state was written are repeated.
+        // Repeats creations and deletions since the state was written.
         let there = handle
             .call(origin(), |s| {
                 let figures = s.figures().into_iter().map(|f| f.id);
@@ -161,7 +161,7 @@ impl Persistence {
     }
 }
 
-/// Last parts of the names of what is in a world.
+/// Last parts of the names of everything in a world.
 struct Inhabitants {
     figures: Vec<String>,
     obstacles: Vec<String>,
@@ -182,12 +182,12 @@ impl Inhabitants {
     }
 }
 
-/// Those of the first that are not among the second.
+/// Those in the first list that are not in the second.
 fn without<'a>(all: &'a [String], these: &'a [String]) -> impl Iterator<Item = String> + 'a {
     all.iter().filter(move |id| !these.contains(id)).cloned()
 }
 
-/// Removes from a world what was deleted after its state was written.
+/// Removes from a world everything that was deleted after its state was written.
 async fn remove_others(
     handle: &WorldHandle,
     there: &Inhabitants,
@@ -204,7 +204,7 @@ async fn remove_others(
     Ok(())
 }
 
-/// Creates in a world what was created after its state was written.
+/// Creates in a world everything that was created after its state was written.
 async fn create_missing(
     app: &App,
     handle: &WorldHandle,

@@ -1,4 +1,4 @@
-//! The states of worlds go to the disk while they run.
+//! Writes the states of worlds to disk while they run.
 
 use super::{Persistence, origin};
 use crate::app::App;
@@ -10,14 +10,14 @@ use sinew_wire::status::Fault;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// How often a world is looked at for changes that it does not announce.
+/// Interval at which a world is checked for changes that it does not announce.
 const LOOK_EVERY: Duration = Duration::from_secs(1);
 
 /// Tick and hash of a state.
 type StateId = (u64, u64);
 
-/// Hands the latest checkpoint of a world to the disk, unless it is the one that was written before. Returns which one
-/// is on its way.
+/// Hands the latest checkpoint of a world to the disk, unless it is the one that was written before. Returns which
+/// state is being written.
 ///
 /// # Errors
 /// It cannot be encoded.
@@ -28,7 +28,7 @@ pub(super) async fn write(
     let Some(journal) = &handle.journal else {
         return Ok(before);
     };
-    // A world that is rewound before then has another one.
+    // If the world is rewound in the meantime, there is another checkpoint to write.
     while let Some(capture) = journal.to_write(before) {
         let encoded = Arc::clone(&capture);
         let bytes = tokio::task::spawn_blocking(move || checkpoints::encode(&encoded));
@@ -60,7 +60,7 @@ impl Persistence {
         futures_util::future::join_all(all).await;
     }
 
-    /// Writes states of a world down, and changes that nobody waits for, until it ends.
+    /// Writes states of a world, and changes that no client waits for, until the world ends.
     pub(super) fn follow(self: &Arc<Self>, handle: &Arc<WorldHandle>) {
         let mut changes = handle.outlet.described.subscribe();
         let mut closed = handle.closed.clone();

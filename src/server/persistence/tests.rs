@@ -1,4 +1,4 @@
-//! What is stored under a name stays under it, and what cannot be read keeps nothing else away.
+//! Data stored under a name stay under it, and unreadable data keep nothing else away.
 
 #![allow(clippy::unwrap_used)] // a panic here is the failure message
 
@@ -10,7 +10,7 @@ use crate::worlds::WorldHandle;
 use sinew_wire::convert::world::settings;
 use sinew_wire::pb;
 
-/// A world that was created, and whether that could be written.
+/// A world that was created, and whether it could be written.
 async fn created(app: &App, id: Option<&str>) -> (Arc<WorldHandle>, Result<(), Fault>) {
     let settings = settings(Some(pb::World::default())).unwrap();
     let owner = ("user:ann".into(), Vec::new());
@@ -20,7 +20,7 @@ async fn created(app: &App, id: Option<&str>) -> (Arc<WorldHandle>, Result<(), F
     (handle, written)
 }
 
-/// Puts a stored world into quarantine, as a start does. Its number.
+/// Puts a stored world into quarantine, as a start does. Returns its number.
 fn quarantine(dir: &Temporary, name: &str) -> WorldKey {
     let mut store = LocalStore::open(&dir.0).unwrap();
     let mut worlds = store.worlds().unwrap().whole.into_iter();
@@ -43,18 +43,18 @@ async fn no_world_takes_the_name_of_one_in_quarantine() {
     let key = quarantine(&dir, &name);
 
     let app = dir.open(&[]).await;
-    // Whoever lets the server choose a name gets another one.
+    // A client that lets the server choose a name gets another one.
     let (second, written) = created(&app, None).await;
     written.unwrap();
     assert_ne!(*second.id, *name);
-    // Whoever comes past the check of its service is refused here.
+    // A request that got past the check of its service is refused here.
     let (third, written) = created(&app, Some(&name)).await;
     assert_eq!(written.unwrap_err().reason(), "WORLD_QUARANTINED");
     let persistence = app.persistence.clone().unwrap();
     persistence.deleted(&third).await.unwrap();
     app.worlds.delete(&name, "ann").await.unwrap();
     assert_eq!(persistence.catalogue.get(&name).unwrap().key, key);
-    // Once it is forgotten its name is free.
+    // Once the world is forgotten, its name is free.
     persistence.deleted_in_quarantine(&name).await.unwrap();
     let (_, written) = created(&app, Some(&name)).await;
     written.unwrap();

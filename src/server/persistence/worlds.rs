@@ -1,4 +1,4 @@
-//! Worlds that come, change and go are written down.
+//! Writes the creation, changes and deletion of worlds to disk.
 
 use super::described::StoredWorld;
 use super::{Persistence, states, storage};
@@ -9,10 +9,10 @@ use sinew_wire::status::Fault;
 use std::sync::Arc;
 
 impl Persistence {
-    /// Writes a new world down. Changes and deletions wait for that.
+    /// Writes a new world to disk. Its changes and its deletion wait for that.
     ///
     /// # Errors
-    /// It could not be written; a world in quarantine has its name.
+    /// It could not be written, or a world in quarantine has its name.
     pub async fn created(self: &Arc<Self>, handle: &Arc<WorldHandle>) -> Result<(), Fault> {
         let written = self.write_new(handle).await;
         let place = written
@@ -28,9 +28,9 @@ impl Persistence {
         Ok(())
     }
 
-    /// Writes down that there is a new world; its number.
+    /// Writes the existence of a new world to disk. Returns its number.
     async fn write_new(&self, handle: &WorldHandle) -> Result<WorldKey, Fault> {
-        // It would be taken for an older world of this name at the next start, and be deleted with this one.
+        // At the next start it would be taken for an older world of this name, and be deleted with this one.
         self.check(&handle.id)?;
         let mut record = WorldRecord {
             key: WorldKey(0),
@@ -54,18 +54,18 @@ impl Persistence {
         StoredWorld::now(handle, &self.recordings).encode_to_vec()
     }
 
-    /// Writes down what has changed of a world.
+    /// Writes the changes of a world to disk.
     ///
     /// # Errors
-    /// It could not be written; it is tried again. The world has ended.
+    /// It could not be written, and will be tried again; or the world has ended.
     pub async fn changed(&self, handle: &WorldHandle) -> Result<(), Fault> {
         let Persisted::At(key) = handle.place().await? else {
             return Ok(()); // it is not to be stored
         };
-        // One after the other, so that what is described last is written last.
+        // One at a time, so that the last description is written last.
         let _turn = self.writing.lock().await;
         let settings = self.description(handle);
-        // There may be another one of its name. One whose deletion has failed is not there either.
+        // Another world may have its name. A world whose deletion has failed does not exist either.
         let record = self.catalogue.running(&handle.id, key);
         let record = record.ok_or_else(|| handle.ended())?;
         if !StoredWorld::differ(&record.settings, &settings) {
@@ -77,17 +77,17 @@ impl Persistence {
         };
         let written = changed.clone();
         self.on_disk(move |store| store.put_world(&written)).await?;
-        self.catalogue.put(changed); // its turn: nobody else has removed it
+        self.catalogue.put(changed); // its turn: no other task has removed it
         Ok(())
     }
 
     /// Forgets a world that has ended.
     ///
     /// # Errors
-    /// It could not be done. Its name is taken by a world in quarantine then, which can be deleted again.
+    /// It could not be done. A world in quarantine keeps the name then, and can be deleted again.
     pub async fn deleted(&self, handle: &WorldHandle) -> Result<(), Fault> {
         let mut stored = handle.stored.subscribe();
-        // One that is being created is written first.
+        // A world that is being created is written first.
         let place = stored
             .wait_for(|s| *s != Persisted::Coming)
             .await
@@ -111,9 +111,9 @@ impl Persistence {
 
     /// Forgets the world of this number, and those that it has kept out.
     async fn forget(&self, name: &str, key: WorldKey) -> Result<(), Fault> {
-        // A change of it that is being written would bring it back.
+        // A change that is being written would bring it back.
         let _turn = self.writing.lock().await;
-        // It goes last: while it is there, the others stay out.
+        // It goes last: as long as it exists, the others stay out.
         let keys = self.catalogue.with_older(name, key);
         let delete = move |store: &mut dyn CheckpointStore| {
             keys.iter().try_for_each(|key| store.delete_world(*key))

@@ -10,11 +10,11 @@ use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// Interval at which times are counted into buckets; until then each takes 16 bytes. A world without figures that is
-/// stepped by hand does a million and a half ticks a second, of one time each: 6 MB within this time. The times of
-/// stages are kept of worlds that run against the clock only, which cannot be that fast.
+/// stepped by hand does a million and a half ticks a second, with one time each: 6 MB within this interval. Times of
+/// stages are kept only for worlds that run against the clock, which cannot be that fast.
 const UPKEEP_EVERY: Duration = Duration::from_millis(250);
 
-/// From an empty world to one that is far too late, s.
+/// From an empty world to a tick that is far too late, s.
 const TICK_BUCKETS_S: &[f64] = &[
     0.000_01, 0.000_1, 0.000_5, 0.001, 0.002, 0.004, 0.008, 0.016, 0.033, 0.066, 0.25, 1.0,
 ];
@@ -22,13 +22,13 @@ const TICK_BUCKETS_S: &[f64] = &[
 const STAGE_BUCKETS_S: &[f64] = &[
     0.000_001, 0.000_003, 0.000_01, 0.000_03, 0.000_1, 0.000_3, 0.001, 0.003, 0.01, 0.03, 0.1, 1.0,
 ];
-/// Fine around a millisecond, which is the goal, s.
+/// Finest around a millisecond, which is the goal, s.
 const LATENESS_BUCKETS_S: &[f64] = &[
     0.000_01, 0.000_02, 0.000_05, 0.000_07, 0.000_1, 0.000_15, 0.000_2, 0.000_3, 0.000_4, 0.000_5,
     0.000_7, 0.000_85, 0.001, 0.001_25, 0.001_5, 0.002, 0.003, 0.004, 0.005, 0.007, 0.01, 0.015,
     0.025, 0.05, 0.1, 0.25, 1.0,
 ];
-/// From a tenth of a tick to a stream that is played with a long delay, s.
+/// From a tenth of a tick to a stream played with a long delay, s.
 const INPUT_BUCKETS_S: &[f64] = &[
     0.001, 0.002, 0.004, 0.006, 0.008, 0.01, 0.013, 0.017, 0.02, 0.025, 0.033, 0.05, 0.075, 0.1,
     0.15, 0.2, 0.3, 0.5, 0.75, 1.0, 2.0, 5.0,
@@ -79,7 +79,7 @@ pub struct MetricInfo {
     pub kind: MetricKind,
     /// Its label and the label's values; without values, series appear as needed, each from an enumeration.
     pub label: Option<(&'static str, &'static [&'static str])>,
-    /// Words of the manual, and of the page itself.
+    /// Text of the manual, and of the page itself.
     pub help: &'static str,
 }
 
@@ -105,7 +105,7 @@ const fn by(
 
 use MetricKind::{Counter, Gauge, Histogram as Times};
 
-/// All metrics but those of the process (`process_…`).
+/// All metrics except those of the process (`process_…`).
 pub const METRICS: &[MetricInfo] = &[
     metric("sinew_ticks_total", Counter, "ticks computed by all worlds"),
     metric(
@@ -346,7 +346,7 @@ pub fn metrics() -> Option<PrometheusHandle> {
         .clone()
 }
 
-/// Describes a metric and makes its series, as far as their labels are known beforehand.
+/// Describes a metric and creates its series, if their labels are known in advance.
 fn begin(m: &MetricInfo) {
     use metrics::{describe_counter, describe_gauge, describe_histogram};
     let start = |labels: Vec<metrics::Label>| match m.kind {
@@ -394,9 +394,9 @@ pub(crate) struct TickMeters {
     pub input_to_frame: Histogram,
     /// Ticks.
     pub ticks: metrics::Counter,
-    /// Those that were not done by the next deadline.
+    /// Ticks that were not done by the next deadline.
     pub overrun: metrics::Counter,
-    /// Deadlines that were left out.
+    /// Skipped deadlines.
     pub skipped: metrics::Counter,
     /// Commands that a tick had no time for.
     pub deferred: metrics::Counter,

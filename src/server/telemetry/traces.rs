@@ -41,8 +41,8 @@ struct Traces {
 
 static TRACES: OnceLock<Traces> = OnceLock::new();
 
-/// Of calls a share by their trace, so that all parts of one trace decide alike; of the rest everything, because the
-/// code that makes those spans has already chosen.
+/// Samples calls by their trace, so that all parts of one trace are treated alike. All other spans are kept, because
+/// the code that makes them has already chosen.
 #[derive(Clone, Debug)]
 struct Sampling(Sampler);
 
@@ -82,7 +82,7 @@ impl Sender {
 /// runtime, which carries the connection.
 ///
 /// # Errors
-/// The address cannot be one.
+/// The address is not valid.
 pub fn start(config: &Config) -> Result<Option<Sender>, ExporterBuildError> {
     if config.otlp_endpoint.is_empty() {
         return Ok(None);
@@ -161,7 +161,8 @@ impl CallSpan {
     }
 }
 
-/// Makes the spans of a tick that ends now, of a few: those of its stages, `names` and `times`, one after the other.
+/// Makes the spans of a tick that ends now, for a few ticks only. Those of its stages, with `names` and `times`, follow
+/// one another.
 pub(crate) fn tick(names: &[&'static str], times: &[Duration]) {
     let Some(traces) = TRACES.get().filter(|t| t.ticks > 0) else {
         return;

@@ -1,9 +1,9 @@
 //! The cost of the ticks of all worlds, and its limit.
 //!
-//! Each world keeps an account of the processor time of its ticks. What would bring a world or the machine over the
-//! budget is refused before it is done: a new figure, a new world, a faster clock. Costs that grow later (a fall, a
-//! crowd that touches) cannot be refused; then worlds that need more than an equal share rest between their ticks, so
-//! that all together take no more than the budget.
+//! Each world keeps an account of the processor time of its ticks. Anything that would bring a world or the machine
+//! over the budget is refused beforehand: a new figure, a new world, a faster clock. Costs that grow later (a fall, a
+//! crowd that touches) cannot be refused. Worlds that need more than an equal share then rest between their ticks, so
+//! that all together stay within the budget.
 
 use sinew_wire::status::Fault;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -12,14 +12,14 @@ use std::time::Duration;
 
 /// Processor time of a tick without figures, s. Measured: 5 to 15 µs.
 const EMPTY_TICK: f64 = 10e-6;
-/// Processor time of one figure in a tick and in each substep of it, s, until it is measured: a figure that stands
-/// takes 90 µs with two substeps.
+/// Processor time of one figure in a tick and in each of its substeps, s, until it is measured: a standing figure takes
+/// 90 µs with two substeps.
 const FIGURE_TICK: f64 = 50e-6;
 /// See [`FIGURE_TICK`].
 const FIGURE_SUBSTEP: f64 = 20e-6;
 /// Weight of the latest tick in the mean.
 const RECENT: f64 = 1.0 / 32.0;
-/// Least time between two looks at all accounts, as a multiple of a tick.
+/// Least time between two checks of all accounts, as a multiple of a tick.
 const LOOK: u32 = 16;
 
 /// A number that one thread writes and others read.
@@ -50,12 +50,12 @@ pub struct Account {
 }
 
 impl Account {
-    /// Processors that the world needs; more than 1 is more than it can have.
+    /// Processors that the world needs. More than 1 is more than it can have.
     pub fn need(&self) -> f64 {
         self.cost.get() * self.pace.get()
     }
 
-    /// Notes a tick: its processor time and that of the physics in it, for so many figures.
+    /// Notes a tick: its processor time and that of its physics, for this number of figures.
     pub fn record(&self, tick: Duration, physics: Duration, figures: usize) {
         self.cost.approach(tick.as_secs_f64());
         if figures > 0 {
@@ -99,7 +99,7 @@ impl Budget {
         self.share
     }
 
-    /// An account for a new world, whose clock will run at `pace` ticks per second (0: it stands still).
+    /// An account for a new world whose clock will run at `pace` ticks per second; 0: it stands still.
     ///
     /// # Errors
     /// There is no room in the budget.
@@ -123,7 +123,7 @@ impl Budget {
         self.change(account, account.cost.get(), pace)
     }
 
-    /// Checks what [`Self::set_pace`] would do.
+    /// Checks the change that [`Self::set_pace`] would make.
     ///
     /// # Errors
     /// It would be faster and there is no room in the budget.
@@ -141,7 +141,7 @@ impl Budget {
         self.change(account, cost, account.pace.get())
     }
 
-    /// Takes one figure off an account: what it costs will be measured soon.
+    /// Removes one figure from an account; the remaining cost will be measured soon.
     pub fn remove_figure(&self, account: &Account) {
         let cost = account.cost.get() - account.figure.get();
         account.cost.set(cost.max(EMPTY_TICK));
@@ -156,7 +156,7 @@ impl Budget {
         Ok(())
     }
 
-    /// Whether a world may need so much.
+    /// Whether a world may need this amount.
     fn admit(&self, accounts: &[Weak<Account>], account: &Account, need: f64) -> Result<(), Fault> {
         let others: Vec<Arc<Account>> = accounts
             .iter()
@@ -181,11 +181,11 @@ impl Budget {
         })
     }
 
-    /// Largest share of a processor that a world may use at present; 1 unless all running worlds together need more
-    /// than the budget and this one more than an equal part of it.
+    /// Largest share of a processor that a world may use at present. It is 1 unless all running worlds together need
+    /// more than the budget and this one more than an equal part of it.
     pub fn allowance(&self, account: &Account) -> f64 {
         let Ok(accounts) = self.accounts.try_lock() else {
-            return 1.0; // the world's thread does not wait; the next look will tell
+            return 1.0; // the world's thread must not wait; the next check will tell
         };
         let needs: Vec<f64> = accounts
             .iter()
@@ -198,11 +198,12 @@ impl Budget {
 }
 
 fn total(accounts: &[Arc<Account>]) -> f64 {
-    // A world does not take from others the budget that it cannot have.
+    // A world does not take away from others the budget that it cannot use.
     accounts.iter().map(|a| a.need().min(1.0)).sum()
 }
 
-/// Share that one of `needs`, `own`, may have of `capacity` if all get what they need or an equal part of the rest.
+/// Share of `capacity` for the world that needs `own`, one of `needs`, if each gets what it needs or an equal part of
+/// the rest.
 fn fair(needs: &[f64], capacity: f64, own: f64) -> f64 {
     if needs.len() < 2 || needs.iter().sum::<f64>() <= capacity {
         return 1.0;
@@ -220,20 +221,21 @@ fn fair(needs: &[f64], capacity: f64, own: f64) -> f64 {
     1.0
 }
 
-/// Meter of one world. A round of it is on one thread, the next one maybe on another.
+/// Meter of one world. Successive rounds may run on different threads.
 pub struct Meter {
     account: Arc<Account>,
     budget: Arc<Budget>,
-    /// When this round began, of the thread that runs it. Reading that clock is a call of the system: twice a round.
+    /// Start of this round on the processor clock of its thread. Reading that clock is a system call, so it is read
+    /// twice a round.
     begun: Duration,
-    /// Since the last tick.
+    /// Processor time since the last tick.
     spent: Duration,
     allowance: f64,
     ticks: u32,
 }
 
 impl Meter {
-    /// A meter of a world with that account.
+    /// A meter of the world with that account.
     pub fn new(account: Arc<Account>, budget: Arc<Budget>) -> Self {
         Self {
             account,
@@ -245,12 +247,12 @@ impl Meter {
         }
     }
 
-    /// A round begins on this thread.
+    /// Begins a round on this thread.
     pub fn begin(&mut self) {
         self.begun = processor_time();
     }
 
-    /// It ends. Returns the processor time that it took.
+    /// Ends a round. Returns its processor time.
     pub fn end(&mut self) -> Duration {
         let took = processor_time().saturating_sub(self.begun);
         self.spent += took;
@@ -262,8 +264,7 @@ impl Meter {
         Duration::try_from_secs_f64(self.account.cost.get()).unwrap_or_default()
     }
 
-    /// Notes that the round that has ended did a tick, whose physics took `physics`. Returns how long the world has to
-    /// rest.
+    /// Notes that the last round did a tick, whose physics took `physics`. Returns how long the world has to rest.
     pub fn tick(&mut self, physics: Duration, figures: usize) -> Duration {
         let busy = std::mem::take(&mut self.spent);
         self.account.record(busy, physics.min(busy), figures);
@@ -275,14 +276,14 @@ impl Meter {
     }
 }
 
-/// Processor time of this thread: what competes for the processor does not count.
+/// Processor time of this thread: time in which others use the processor does not count.
 #[cfg(target_os = "linux")]
 fn processor_time() -> Duration {
     let t = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
     Duration::try_from(t).unwrap_or_default()
 }
 
-/// Time on a clock that does not go backward, where threads have no clock of their own.
+/// A monotonic clock, for systems on which threads have no clock of their own.
 #[cfg(not(target_os = "linux"))]
 fn processor_time() -> Duration {
     static START: std::sync::OnceLock<std::time::Instant> = std::sync::OnceLock::new();
@@ -362,13 +363,13 @@ mod tests {
         let a = b.open(60.0, 2).unwrap();
         let mut meter = Meter::new(a.clone(), b);
         meter.begin();
-        // It waits for a message that does not come.
+        // It waits for a message that never comes.
         let (_held, never) = std::sync::mpsc::sync_channel::<()>(1);
         let _ = never.recv_timeout(Duration::from_millis(200));
         meter.end();
         assert_eq!(meter.tick(Duration::ZERO, 0), Duration::ZERO);
         assert!(!cfg!(target_os = "linux") || a.cost.get() < 2e-3);
-        // What others do on the thread between two rounds is not counted, and what the round does is.
+        // Work of others on the thread between two rounds is not counted; work of the round is.
         let work = |time| {
             let begun = processor_time();
             while processor_time() - begun < time {

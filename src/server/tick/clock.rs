@@ -1,4 +1,4 @@
-//! When ticks are due: absolute deadlines, and what happens to those that were missed.
+//! The due times of ticks: absolute deadlines, and the handling of missed ones.
 
 use sinew_wire::types::Overrun;
 use std::time::{Duration, Instant};
@@ -9,15 +9,15 @@ pub struct TickClock {
     period: Duration,
     policy: Overrun,
     deadline: Instant,
-    /// Where its deadlines lie among those of other worlds: a start, and a part of the period after it.
+    /// Place of its deadlines among those of other worlds: a start, and a part of the period after it.
     phase: Option<(Instant, f64)>,
     /// Ticks done in a row after a missed deadline.
     caught_up: u32,
-    /// Deadlines left out so far.
+    /// Deadlines skipped until now.
     pub skipped: u64,
     /// Ticks that were not done by the next deadline.
     pub overruns: u64,
-    /// Time that was left out or that passed while the clock was held up, in ticks.
+    /// Time skipped or passed while the clock was held up, in ticks.
     lost: f64,
 }
 
@@ -37,7 +37,7 @@ impl TickClock {
         }
     }
 
-    /// The same counts with another pace; the next tick is due within one period from `now`, at its phase.
+    /// Keeps the counts and sets another pace; the next tick is due within one period from `now`, at its phase.
     pub fn restart(&mut self, rate_hz: f64, speed: f64, policy: Overrun, now: Instant) {
         let (skipped, overruns, lost) = (self.skipped, self.overruns, self.lost);
         let phase = self.phase;
@@ -52,8 +52,8 @@ impl TickClock {
         }
     }
 
-    /// Lets deadlines lie `part` of a period after multiples of it from `start`: so worlds that begin together do not
-    /// tick together. The next tick is due within one period from `now`.
+    /// Places deadlines `part` of a period after multiples of it from `start`, so that worlds that begin together do
+    /// not tick together. The next tick is due within one period from `now`.
     pub fn stagger(&mut self, start: Instant, part: f64, now: Instant) {
         self.phase = Some((start, part));
         let period = self.period.as_nanos().max(1);
@@ -72,7 +72,7 @@ impl TickClock {
         self.period
     }
 
-    /// Ticks by which world time is behind a clock that never left one out.
+    /// Ticks by which world time is behind a clock that never skipped one.
     pub fn lost(&self) -> f64 {
         self.lost
     }
@@ -89,7 +89,7 @@ impl TickClock {
         self.deadline
     }
 
-    /// Lets the next tick begin no sooner than `instant`; what that leaves out is lost as in a long tick.
+    /// Delays the next tick until at least `instant`; skipped time is lost as in a long tick.
     pub fn rest(&mut self, instant: Instant) {
         if self.deadline >= instant {
             return;
@@ -127,7 +127,7 @@ impl TickClock {
             }
             Overrun::CatchUp(_) | Overrun::Skip => {
                 let missed = (now - next).as_nanos() / self.period.as_nanos().max(1);
-                // The slot that has begun is left out as well: its deadline has passed.
+                // The slot that has begun is skipped as well, because its deadline has passed.
                 let slots = u32::try_from(missed + 1).unwrap_or(u32::MAX);
                 self.skipped += u64::from(slots);
                 self.lost += f64::from(slots);
@@ -216,7 +216,7 @@ mod tests {
             (catch_up.deadline(), catch_up.skipped),
             (start + MS * 30, 0)
         );
-        catch_up.advance(late + MS * 2); // two were caught up: the rest is left out
+        catch_up.advance(late + MS * 2); // two were caught up: the rest is skipped
         assert_eq!(
             (catch_up.deadline(), catch_up.skipped),
             (start + MS * 50, 1)

@@ -4,34 +4,34 @@ use super::hosted_world::HostedWorld;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Who asks and in which order: commands that meet in one tick are carried out by (client, sequence), so that a replay
-/// is exact.
+/// The sender of a command and its order: commands in the same tick run by (client, sequence), so that a replay is
+/// exact.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct CommandOrigin {
-    /// Who asks.
+    /// The client that sends it.
     pub client: Arc<str>,
-    /// Number of the request at that client.
+    /// Number of the request from that client.
     pub sequence: i64,
 }
 
-/// A change of a world or a question to it, carried out by its thread at the start of a tick.
+/// A change of a world or a question to it, executed by its thread at the start of a tick.
 pub struct WorldCommand {
-    /// Who asks.
+    /// The sender.
     pub origin: CommandOrigin,
     /// The change.
     pub action: Box<dyn FnOnce(&mut HostedWorld) + Send>,
 }
 
-/// Why a command was not taken.
+/// Why a command was not accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// As many wait as may.
+    /// The queue is full.
     Full,
-    /// The world has ended, or its tick does not.
+    /// The world has ended, or its tick does not end.
     Closed,
 }
 
-/// Commands that wait for a world. It takes memory only while some do.
+/// Commands that wait for a world. It takes memory only while some are waiting.
 #[derive(Debug)]
 pub struct CommandQueue {
     waiting: Mutex<QueuedCommands>,
@@ -67,7 +67,7 @@ impl CommandQueue {
     /// Adds a command.
     ///
     /// # Errors
-    /// There is no room, or nobody takes it any more.
+    /// There is no room, or the world has ended.
     pub fn push(&self, command: WorldCommand) -> Result<(), Refusal> {
         let mut waiting = self.waiting();
         if waiting.closed {
@@ -80,7 +80,7 @@ impl CommandQueue {
         Ok(())
     }
 
-    /// Takes none any more. Those that wait are dropped, which tells who waits for an answer.
+    /// Accepts no more commands. Waiting ones are dropped, which also tells callers that wait for an answer.
     pub fn close(&self) {
         let mut waiting = self.waiting();
         waiting.closed = true;
@@ -90,14 +90,14 @@ impl CommandQueue {
     }
 }
 
-/// Commands on their way into ticks. Those that a tick has no time for are the first of the next one.
+/// Commands on their way into ticks. Those that a tick has no time for come first in the next one.
 pub struct Inbox {
     queue: Arc<CommandQueue>,
     ready: VecDeque<WorldCommand>,
 }
 
 impl Inbox {
-    /// Commands of `queue`; at most as many again as that holds are ready for a tick.
+    /// Commands of `queue`; at most as many again as it holds are ready for a tick.
     pub fn new(queue: Arc<CommandQueue>) -> Self {
         Self {
             queue,
@@ -105,7 +105,7 @@ impl Inbox {
         }
     }
 
-    /// Takes what has come. False when there will be no more.
+    /// Takes the commands that have arrived. Returns whether more may come.
     pub fn fetch(&mut self) -> bool {
         let mut waiting = self.queue.waiting();
         let room = self.queue.most - self.ready.len();
@@ -116,7 +116,7 @@ impl Inbox {
         }
         let more = !waiting.closed;
         drop(waiting);
-        // Stable: those of one client and sequence stay in the order of arrival.
+        // The sort is stable: commands of one client and sequence stay in the order of arrival.
         fresh.sort_by(|a, b| a.origin.cmp(&b.origin));
         self.ready.extend(fresh);
         more || !self.ready.is_empty()

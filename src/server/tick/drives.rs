@@ -1,4 +1,4 @@
-//! Who drives which figure live: at most one driver per figure, kept for a grace time when the driver is gone.
+//! The live drivers of figures: at most one driver per figure, kept for a grace time after it has gone.
 
 use super::scene::{PlayerKey, PlayoutWindow, Scene};
 use crate::ingest::jitter_buffer::{BufferedFrame, Counts};
@@ -21,7 +21,7 @@ pub struct DrivenFigure {
 /// One driver with its figures.
 #[derive(Debug)]
 pub struct DriverSession {
-    /// Who drives.
+    /// The driver.
     pub id: DriverId,
     /// The stream that may send; `None` for pushes.
     pub connection: Option<u64>,
@@ -31,12 +31,12 @@ pub struct DriverSession {
     pub slots: Vec<DrivenFigure>,
     /// When the figures are given up; `None` while a stream is open.
     pub expires: Option<Instant>,
-    /// Where its motion waits for the next tick.
+    /// The mailbox in which its motion waits for the next tick.
     pub mailbox: Arc<Mailbox>,
 }
 
 impl DriverSession {
-    /// A drive without motion yet.
+    /// A drive without motion.
     pub fn new(
         id: DriverId,
         connection: Option<u64>,
@@ -58,7 +58,7 @@ impl DriverSession {
         drive
     }
 
-    /// Notes that the driver is there: by a stream or by a push.
+    /// Notes that the driver is present, by a stream or a push.
     pub fn touch(&mut self, connection: Option<u64>, now: Instant) {
         if connection.is_some() || self.connection.is_none() {
             self.connection = connection;
@@ -90,7 +90,7 @@ impl DriverSession {
             .any(|s| s.figure == figure && s.player.is_some())
     }
 
-    /// The fault that others get who want one of its figures.
+    /// The fault for others that want one of its figures.
     pub fn controlled(&self, figure: &str, now: Instant) -> Fault {
         let mut facts = vec![("controller", self.id.name.to_string())];
         if let Some(at) = self.expires {
@@ -104,8 +104,8 @@ impl DriverSession {
         }
     }
 
-    /// Takes what came since the last tick, in order of sequence: calls that meet in one tick overtake each other on
-    /// their way. `scheduled` tells the scheduled time of an arrival.
+    /// Takes the motion that arrived since the last tick, in order of sequence: calls in the same tick overtake each
+    /// other on their way. `scheduled` returns the scheduled time of an arrival.
     pub fn collect(&mut self, scene: &mut Scene, scheduled: impl Fn(Instant) -> f64, now: Instant) {
         let taken = self.mailbox.take();
         if taken.pushed {
@@ -196,7 +196,8 @@ impl DriverSession {
     }
 }
 
-/// Counts what a frame has led to that a buffer has dropped. Not the buffer itself: what is done again is not counted.
+/// Counts the frames that a buffer has dropped because of a new one. The buffer does not count them itself, because it
+/// also runs in replays, which must not count.
 fn count_dropped(before: Counts, after: Option<Counts>) {
     let after = after.unwrap_or(before);
     for (reason, dropped) in [

@@ -1,4 +1,4 @@
-//! Frames of the last ticks, held for late readers, and what happened that is worth a mark on a time line.
+//! Frames of the last ticks, held for late readers, and events worth a mark on a time line.
 
 use sinew_wire::status::Fault;
 use sinew_wire::types::{EventKind, Snapshot, WorldEvent};
@@ -8,7 +8,8 @@ use std::sync::Arc;
 /// Events of one world that are held.
 const MARKS: usize = 512;
 
-/// True for what people look for in the past of a world. The rest comes many times a second, or is of the connection.
+/// Whether people look for this event in the past of a world. Other events come many times a second, or concern a
+/// connection.
 fn is_mark(e: &WorldEvent) -> bool {
     !matches!(
         e.kind,
@@ -71,13 +72,13 @@ impl FrameHistory {
         }
     }
 
-    /// Forgets all: the world has another past now.
+    /// Forgets everything, because the world has another past now.
     pub fn clear(&mut self) {
         self.held.clear();
         self.marks.clear();
     }
 
-    /// The world goes back to a tick of its past: what came later is forgotten, and frames can no longer be resumed.
+    /// The world goes back to a tick of its past: everything later is forgotten, and frames can no longer be resumed.
     pub fn go_back(&mut self, tick: u64) {
         self.held.clear();
         self.marks.retain(|e| e.tick <= tick);
@@ -92,10 +93,10 @@ impl FrameHistory {
         }
     }
 
-    /// The held frame of one tick.
+    /// The held frame of a tick.
     ///
     /// # Errors
-    /// It is not held any more, or not computed yet.
+    /// It is no longer held, or not computed yet.
     pub fn at(&self, tick: i64) -> Result<Arc<Snapshot>, Fault> {
         let found = self.held.binary_search_by_key(&tick, |s| s.tick as i64);
         found
@@ -103,14 +104,14 @@ impl FrameHistory {
             .map_err(|_| self.expired(tick))
     }
 
-    /// The held frames after one tick.
+    /// The held frames after a tick.
     ///
     /// # Errors
-    /// The next one is not held any more, or `tick` is not computed yet.
+    /// The next one is no longer held, or `tick` is not computed yet.
     pub fn after(&self, tick: i64) -> Result<Vec<Arc<Snapshot>>, Fault> {
         let newest = self.held.back().map_or(-1, |s| s.tick as i64);
         let oldest = self.held.front().map_or(0, |s| s.tick as i64);
-        // Resuming after the newest is fine (nothing was missed); beyond it, or with a gap, is not.
+        // Resuming after the newest is fine, because nothing was missed. Resuming beyond it, or with a gap, is not.
         if tick > newest || tick.saturating_add(1) < oldest {
             return Err(self.expired(tick.saturating_add(1)));
         }
@@ -145,7 +146,7 @@ mod tests {
         let first = MARKS as u64;
         let ticks = |marks: Vec<WorldEvent>| marks.iter().map(|e| e.tick).collect::<Vec<_>>();
         assert_eq!(ticks(history.marks(0, first + 1)), [first, first + 1]);
-        // The world goes back: what came later has not happened.
+        // The world goes back: later ticks have not happened.
         history.go_back(first + 2);
         let left = ticks(history.marks(0, u64::MAX));
         assert_eq!(left, [first, first + 1, first + 2]);

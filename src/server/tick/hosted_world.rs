@@ -1,5 +1,5 @@
-//! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by whatever
-//! thread runs it; others send [`Command`](super::command::Command)s that call these methods between ticks.
+//! One world with everything that belongs to its clock: figures by name, drivers, held frames. Owned by the thread that
+//! runs it; others send [`Command`](super::command::Command)s that call these methods between ticks.
 
 pub mod bounds;
 mod checkpoint;
@@ -37,7 +37,7 @@ use std::time::{Instant, SystemTime};
 pub struct WorldLimits {
     /// Figures.
     pub figures: u64,
-    /// Window of live motion for drivers that do not say, s; 0: none.
+    /// Window of live motion for drivers that name none, s; 0: none.
     pub window: f64,
 }
 
@@ -45,9 +45,9 @@ pub struct WorldLimits {
 pub struct StepRequest {
     /// Ticks left.
     pub left: u32,
-    /// Called with the last snapshot, or with what came in between.
+    /// Called with the last snapshot, or with the reason why the steps were interrupted.
     pub done: Box<dyn FnOnce(Result<Arc<Snapshot>, Fault>) + Send>,
-    /// Whether no client waits any more.
+    /// Whether the client no longer waits.
     pub abandoned: Box<dyn Fn() -> bool + Send>,
 }
 
@@ -65,16 +65,17 @@ pub struct HostedWorld {
     budget: Arc<Budget>,
     account: Arc<Account>,
     scene: Scene,
-    /// The clips that events have told of.
+    /// The clips that events have announced.
     told: BTreeMap<FigureKey, PlayingClip>,
-    /// Where its past is kept.
+    /// The journal of its past.
     journal: Option<Arc<Journal>>,
     roster: Arc<[RosterEntry]>,
     roster_version: i32,
     drives: Vec<DriverSession>,
-    /// Players of live motion without a driver, and until which tick: it came with the state that the world began with.
+    /// Players of live motion without a driver, and the tick until which they stay: they came with the state that the
+    /// world began with.
     undriven: BTreeMap<PlayerKey, u64>,
-    /// World time that clocks of before had left out, s: live motion is reckoned by it.
+    /// World time that earlier clocks had skipped, s: live motion counts with it.
     lost_before: f64,
     leases: Leases,
     /// The perturbations of perturbers with bounds.
@@ -89,11 +90,11 @@ pub struct HostedWorld {
     pub(super) paused: bool,
     pub(super) failed: Option<String>,
     replies: Vec<Box<dyn FnOnce() + Send>>,
-    /// The view changed without a tick.
+    /// Whether the view changed without a tick.
     pub(super) changed: bool,
-    /// Why the world ends after this round.
+    /// Reason why the world ends after this round.
     pub(super) closing: Option<Fault>,
-    /// Where it notes that it is being stepped, and until when.
+    /// The place where it notes each step, and the time until which it does so.
     step_notes: Option<(WorldMark, Instant)>,
 }
 
@@ -101,7 +102,7 @@ impl HostedWorld {
     /// A world without figures.
     ///
     /// # Errors
-    /// Settings that the physics refuses; there is no room for its ticks.
+    /// The physics refuses the settings, or there is no room for its ticks.
     pub fn new(
         id: Arc<str>,
         settings: WorldSettings,
@@ -164,23 +165,23 @@ impl HostedWorld {
         self.scene.members().len()
     }
 
-    /// Its clock stands still for good: it takes nothing of the budget.
+    /// Its clock stands still for good, so it needs nothing of the budget.
     pub(super) fn needs_nothing(&self) {
-        // Less than before is never refused.
+        // A lower need is never refused.
         let _ = self.budget.set_pace(&self.account, 0.0);
     }
 
-    /// Its account, and the budget that has it.
+    /// Its account, and the budget that contains it.
     pub(super) fn books(&self) -> (Arc<Account>, Arc<Budget>) {
         (Arc::clone(&self.account), Arc::clone(&self.budget))
     }
 
-    /// Lets its deadlines lie at a part of the period, counted from `start`.
+    /// Places its deadlines at a part of the period, counted from `start`.
     pub(super) fn stagger(&mut self, start: Instant, part: f64) {
         self.clock.stagger(start, part, Instant::now());
     }
 
-    /// Something of it runs out by wall clock, or may come without a command, also while its clock stands still.
+    /// Whether something in it can expire by wall clock or arrive without a command, even while its clock stands still.
     pub(super) fn needs_looks(&self) -> bool {
         !self.drives.is_empty() || self.leases.are_held()
     }
@@ -190,7 +191,7 @@ impl HostedWorld {
         Meter::new(Arc::clone(&self.account), Arc::clone(&self.budget))
     }
 
-    /// Where drivers leave their motion.
+    /// The mailboxes in which drivers leave their motion.
     pub fn mailboxes(&self) -> Arc<Mailboxes> {
         Arc::clone(&self.mailboxes)
     }
@@ -219,7 +220,7 @@ impl HostedWorld {
         self.failure().map_or(Ok(()), Err)
     }
 
-    /// The answer to clients of a world that has failed.
+    /// The answer to clients of a failed world.
     pub(super) fn failure(&self) -> Option<Fault> {
         self.failed.as_ref().map(|why| Fault::Precondition {
             reason: "WORLD_FAILED",
@@ -278,7 +279,7 @@ impl HostedWorld {
         Ok(self.info())
     }
 
-    /// Starts the clock; steps that someone waits for are given up.
+    /// Starts the clock; pending steps are given up.
     ///
     /// # Errors
     /// The world has failed, or there is no room for its ticks.
@@ -319,8 +320,8 @@ impl HostedWorld {
         }
     }
 
-    /// World and figures as they are described to clients, if anything of it may have changed since the last call: by a
-    /// command, or as clips follow each other and constraints run out.
+    /// World and figures as described to clients, if anything in the description may have changed since the last call:
+    /// by a command, or because clips follow each other and constraints expire.
     pub(super) fn describe(&mut self) -> Option<Arc<Described>> {
         let passing = self.scene.members().iter().any(|m| {
             let f = self.scene.figure(m.key);
@@ -339,12 +340,12 @@ impl HostedWorld {
         }))
     }
 
-    /// The description of the world for clients has to be made again.
+    /// Marks the description of the world for clients as outdated.
     pub(super) fn touch(&mut self) {
         self.described = false;
     }
 
-    /// Answers a command once what it did can be seen by viewers, so that a client sees its own changes.
+    /// Answers a command once viewers can see its effect, so that a client sees its own changes.
     pub fn reply(&mut self, answer: impl FnOnce() + Send + 'static) {
         self.replies.push(Box::new(answer));
     }
@@ -355,8 +356,8 @@ impl HostedWorld {
         }
     }
 
-    /// Ends the world after this round of commands; who waits for steps learns why. `by`: who deleted it, for those who
-    /// watch its events.
+    /// Ends the world after this round of commands; clients that wait for steps are told why. `by`: the caller that
+    /// deleted it, for viewers of its events.
     pub fn close(&mut self, why: Fault, by: Option<String>) {
         if let Some(by) = by {
             self.world_event(EventKind::Deleted(by));
@@ -373,7 +374,7 @@ impl HostedWorld {
         self.journal = Some(journal);
     }
 
-    /// Hands what has changed the world since the last call to its journal.
+    /// Hands the changes of the world since the last call to its journal.
     pub(super) fn flush(&mut self) {
         let record = self.scene.take_record();
         if let (Some(journal), Some(record)) = (&self.journal, record) {
@@ -381,8 +382,8 @@ impl HostedWorld {
         }
     }
 
-    /// Notes what this round has come to: changes, a tick if there was one, a checkpoint if it is time for one. A world
-    /// that has failed keeps the past up to there. Returns the hash of the state after the tick if it was noted.
+    /// Notes the results of this round: changes, a tick if there was one, and a checkpoint if one is due. A failed
+    /// world keeps its past up to the failure. Returns the hash of the state after the tick if it was noted.
     pub(super) fn note(&mut self, stepped: bool, now: Instant) -> Option<u64> {
         if self.failed.is_some() {
             self.scene.discard_record();
@@ -411,7 +412,8 @@ impl HostedWorld {
 
     /// One tick of the physics.
     pub(super) fn step_world(&mut self) {
-        // Steps that somebody waits for have no deadline: they are the same whatever the threads that plan do.
+        // Steps requested by a client have no deadline, so they plan in the tick: their result must not depend on the
+        // speed of the planning threads.
         let planning = if self.paused {
             Planning::InTick
         } else {
@@ -452,8 +454,7 @@ impl HostedWorld {
         self.events = events;
     }
 
-    /// Hands what figures want to have planned to the threads that plan. A world that is stepped by hand plans in its
-    /// ticks.
+    /// Hands the plans that figures need to the planning threads. A world that is stepped by hand plans in its ticks.
     pub(super) fn offer_plans(&self) {
         if !self.paused {
             self.planners.offer(self.scene.world().plan_requests());
@@ -479,7 +480,7 @@ impl HostedWorld {
         std::mem::take(&mut self.events)
     }
 
-    /// The view of the world now. `hash`: of its state, if that is known.
+    /// The view of the world now. `hash`: of its state, if known.
     pub fn snapshot(&mut self, hash: Option<u64>) -> Arc<Snapshot> {
         let figures = self.scene.figures();
         let obstacles = self.obstacles();

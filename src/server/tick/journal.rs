@@ -1,9 +1,9 @@
-//! The last minutes of a world: checkpoints, and behind each what changed the world and the hash of each tick.
+//! The last minutes of a world: checkpoints, each followed by the changes of the world and the hash of each tick.
 //!
-//! The world's thread appends; who seeks, forks, replays or records copies pointers. With a data directory the same
-//! entries go to the thread that writes (`durable`), in the same order. A checkpoint is encoded elsewhere and comes to
-//! it later than it was taken; later appends are handed in once more behind it, so that the disk always
-//! has a checkpoint with all that followed.
+//! The world's thread appends; readers that seek, fork, replay or record copy pointers. With a data directory the same
+//! entries go to the writing thread (`durable`), in the same order. A checkpoint is encoded elsewhere and gets there
+//! later than it was taken. Entries after it are then handed in once more, so that the disk always has a checkpoint
+//! with everything that followed.
 
 use super::scene::{RoundRecord, SavedScene, Scene};
 use crate::durable::keeper::{KeeperTicket, Recorder};
@@ -20,11 +20,11 @@ use tokio::sync::Notify;
 
 /// Time between two checkpoints.
 pub const CHECKPOINT_EVERY: Duration = Duration::from_secs(5);
-/// About what an entry takes besides its bytes.
+/// Approximate bytes of an entry besides its content.
 const ENTRY_BYTES: usize = size_of::<JournalItem>();
-/// Bytes of entries, at least, that are worth a checkpoint of their own.
+/// Least bytes of entries that are worth a checkpoint of their own.
 const LEAST_SEGMENT: u64 = 1 << 20;
-/// About what one frame of a clip takes, bytes.
+/// Approximate bytes of one frame of a clip.
 const CLIP_FRAME_BYTES: usize = 1200;
 
 /// A note about a world.
@@ -36,7 +36,7 @@ pub enum JournalItem {
     Hash(u64, u64),
 }
 
-/// Bytes that the past of all worlds of a server takes together.
+/// Total bytes of the past of all worlds of a server.
 #[derive(Debug)]
 pub struct Total {
     most: u64,
@@ -44,7 +44,7 @@ pub struct Total {
 }
 
 impl Total {
-    /// At most so many, but for what each world needs at least.
+    /// At most `most`, except for the minimum that each world needs.
     pub fn new(most: u64) -> Self {
         Self {
             most,
@@ -69,16 +69,17 @@ impl Room {
     }
 }
 
-/// A checkpoint and what followed, up to the next one.
+/// A checkpoint and the entries up to the next one.
 #[derive(Clone, Debug)]
 pub struct JournalSegment {
     /// The state at its beginning.
     pub start: Arc<Capture>,
-    /// When that was.
+    /// Time of that state.
     pub begun: Instant,
-    /// The world was put into that state: it is not where the segment before it ends, though the physics may be.
+    /// Whether the world was put into that state: it then differs from the end of the segment before, even if the
+    /// physics is the same.
     pub restored: bool,
-    /// The notes that followed.
+    /// The entries that followed.
     pub entries: Vec<JournalItem>,
     bytes: usize,
 }
@@ -94,10 +95,10 @@ impl JournalSegment {
         }
     }
 
-    /// A part of the past that was on disk, up to tick `until`: a state, and what followed.
+    /// A part of the past that was on disk, up to tick `until`: a state, and the entries that followed.
     pub fn of_disk(mut start: Scene, entries: Vec<JournalItem>, until: u64) -> Arc<Self> {
         let mut out = Self::new(Arc::new(start.capture()), Instant::now());
-        // Who drove the world then went on in their own way.
+        // The players of live motion at that time were not continued.
         out.restored = true;
         for entry in entries {
             if matches!(entry, JournalItem::Hash(tick, _) if tick > until) {
@@ -108,7 +109,7 @@ impl JournalSegment {
         out.sealed()
     }
 
-    /// Nothing more is appended: gives back what a vector takes beyond its entries, up to as much again.
+    /// Ends the appending, and frees the spare capacity of the vector, which may be as large as its content.
     fn sealed(mut self) -> Arc<Self> {
         self.entries.shrink_to_fit();
         Arc::new(self)
@@ -141,8 +142,8 @@ impl JournalSegment {
 
     /// The scene at its beginning.
     ///
-    /// # Errors
-    /// None for a checkpoint of this program.
+    /// The checkpoint cannot be restored; impossible for one made by this program.
+    /// The bytes are not a checkpoint; impossible for one of this program.
     pub fn scene(&self) -> Result<Scene, Fault> {
         scene_of(&self.start)
     }
@@ -159,8 +160,8 @@ fn size(entry: &JournalItem) -> usize {
 
 /// The scene of a capture.
 ///
-/// # Errors
-/// None for one of this program.
+/// The capture cannot be restored; impossible for one made by this program.
+/// The bytes are not a checkpoint; impossible for one of this program.
 pub fn scene_of(capture: &Capture) -> Result<Scene, Fault> {
     let failed = |e: &dyn std::fmt::Display| Fault::Internal(format!("a checkpoint: {e}"));
     let (world, saved) = capture
@@ -174,15 +175,15 @@ pub fn scene_of(capture: &Capture) -> Result<Scene, Fault> {
 pub enum PinEnd {
     /// It was told to end.
     Stopped,
-    /// It has as many bytes as it may.
+    /// It has reached its size limit.
     Full,
     /// The world has another past now.
     Restored,
-    /// Later notes are not on disk any more.
+    /// Later entries are no longer on disk.
     Lost,
 }
 
-/// A part of the past that is kept as long as this is.
+/// A part of the past that is kept as long as this value exists.
 #[derive(Debug)]
 pub struct Pin {
     most_bytes: u64,
@@ -203,17 +204,17 @@ impl Pin {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Tick that it begins with.
+    /// The tick with which it begins.
     pub fn first_tick(&self) -> u64 {
         self.first
     }
 
-    /// Why it has ended; `None`: it goes on.
+    /// Reason for its end; `None`: it continues.
     pub fn end(&self) -> Option<PinEnd> {
         self.inside().end
     }
 
-    /// Keeps one more segment: whether it has not ended.
+    /// Keeps one more segment. Returns whether it has not ended.
     fn keep(&self, segment: &Arc<JournalSegment>, end: Option<PinEnd>) -> bool {
         let mut inside = self.inside();
         if inside.end.is_some() {
@@ -229,20 +230,20 @@ impl Pin {
 
 #[derive(Debug)]
 struct JournalInner {
-    /// From the oldest on.
+    /// From oldest to newest.
     sealed: VecDeque<Arc<JournalSegment>>,
-    /// The segment that is appended to.
+    /// The segment to which entries are appended.
     current: Option<JournalSegment>,
     recorder: Option<Recorder>,
-    /// Nothing is handed to the recorder until a checkpoint is: the world has another past now.
+    /// Whether nothing is handed to the recorder before a checkpoint, because the world has another past now.
     holds: bool,
     /// The last entry that was handed in.
     ticket: Option<KeeperTicket>,
-    /// Parts that are kept longer.
+    /// Parts of the past that are kept longer.
     pins: Vec<Weak<Pin>>,
     /// Bytes of it that are counted in the total.
     counted: u64,
-    /// How often the world went on from another state.
+    /// Number of times that the world continued from another state.
     begun_anew: u64,
 }
 
@@ -252,7 +253,7 @@ pub struct Journal {
     room: Room,
     total: Arc<Total>,
     inside: Mutex<JournalInner>,
-    /// Tells that a checkpoint was handed to the recorder.
+    /// Notified when a checkpoint was handed to the recorder.
     written: Notify,
 }
 
@@ -295,7 +296,7 @@ impl Journal {
 
     // ── the world's thread ──
 
-    /// Appends what changed the world.
+    /// Appends a change of the world.
     pub fn append(&self, record: RoundRecord) {
         self.inside().append(JournalItem::Record(record));
     }
@@ -318,11 +319,11 @@ impl Journal {
         }
     }
 
-    /// Begins a new segment with a checkpoint. What is too old is forgotten.
+    /// Begins a new segment with a checkpoint. Expired segments are forgotten.
     pub fn begin(&self, capture: Capture, now: Instant) {
         let mut inside = self.inside();
         let mut next = JournalSegment::new(Arc::new(capture), now);
-        // As many as before will come: so they are not moved as the vector grows.
+        // About as many entries as before will come, so they are not moved as the vector grows.
         let count = inside.current.as_ref().map_or(0, |c| c.entries.len());
         next.entries.reserve_exact(count);
         if let Some(before) = inside.current.replace(next) {
@@ -333,13 +334,13 @@ impl Journal {
         inside.cut(&self.room, now, &self.total);
     }
 
-    /// How often the world went on from another state than that of its last tick.
+    /// Number of times that the world continued from a state other than that of its last tick.
     pub fn begun_anew(&self) -> u64 {
         self.inside().begun_anew
     }
 
-    /// The world goes on from `capture`, and not from what it was. With `goes_back` what is held up to there is its
-    /// past still; `seq` is the last record of that.
+    /// The world continues from `capture` instead of its present state. With `goes_back`, the entries up to that state
+    /// remain its past.
     pub fn begin_anew(&self, capture: Capture, goes_back: bool, now: Instant) {
         let mut inside = self.inside();
         inside.begun_anew += 1;
@@ -370,14 +371,14 @@ impl Journal {
 
     // ── the disk ──
 
-    /// From now on everything goes to this recorder, too, from a checkpoint on.
+    /// From the next checkpoint on, everything also goes to this recorder.
     pub fn write_to(&self, recorder: Recorder) {
         let mut inside = self.inside();
         inside.holds = true;
         inside.recorder = Some(recorder);
     }
 
-    /// The latest checkpoint; `None` if `written` is it, and the recorder does not need it once more.
+    /// The latest checkpoint; `None` if it is `written` and the recorder does not need it once more.
     pub fn to_write(&self, written: Option<(u64, u64)>) -> Option<Arc<Capture>> {
         let inside = self.inside();
         let (start, recorder) = (&inside.current.as_ref()?.start, inside.recorder.as_ref()?);
@@ -386,8 +387,8 @@ impl Journal {
         needed.then(|| Arc::clone(start))
     }
 
-    /// Hands in an encoded checkpoint, and once more the notes after it: whether the world still has that past, and
-    /// is not further than that.
+    /// Hands in an encoded checkpoint, and once more the entries after it. Returns false if the world has another past
+    /// now, or a later checkpoint.
     pub fn write(&self, capture: &Arc<Capture>, bytes: Bytes) -> bool {
         let mut inside = self.inside();
         let inside = &mut *inside;
@@ -408,7 +409,7 @@ impl Journal {
         true
     }
 
-    /// Waits until what has happened so far is on disk, in a world of which nothing that was answered may be lost.
+    /// Waits until everything until now is on disk, in a world with the guarantee that no answered request is lost.
     ///
     /// # Errors
     /// It could not be written.
@@ -425,7 +426,7 @@ impl Journal {
             };
             match ticket {
                 Some(ticket) => return recorder.durable(ticket).await,
-                // The checkpoint that it all follows comes first.
+                // The checkpoint before these entries comes first.
                 None => drop(tokio::time::timeout(CHECKPOINT_EVERY, written).await),
             }
         }
@@ -433,7 +434,7 @@ impl Journal {
 
     // ── the past ──
 
-    /// The first tick that is held and the last; `None`: nothing is.
+    /// The first and last tick that are held; `None`: nothing is.
     pub fn held(&self) -> Option<(u64, u64)> {
         self.inside().held(&self.room)
     }
@@ -441,7 +442,7 @@ impl Journal {
     /// The segments that lead from the last checkpoint at or before `from` to `until`.
     ///
     /// # Errors
-    /// `from` is not held any more, or `until` is not reached yet.
+    /// `from` is no longer held, or `until` is not reached yet.
     pub fn past(&self, from: u64, until: u64) -> Result<Vec<Arc<JournalSegment>>, Fault> {
         self.inside().past(&self.room, from, until)
     }
@@ -457,7 +458,7 @@ impl Journal {
         let (_, newest) = inside.held(&self.room).ok_or_else(|| expired(0, None))?;
         let first = first.unwrap_or(newest);
         let mut past = inside.past(&self.room, first, first.max(newest))?;
-        // The segment that is appended to is kept when it is whole.
+        // The current segment is kept once it is complete.
         past.pop();
         let pin = Arc::new(Pin {
             most_bytes,
@@ -472,7 +473,7 @@ impl Journal {
         Ok(pin)
     }
 
-    /// A pin that was there before: with what is left of it, and going on if it has not ended.
+    /// A pin from before: with the remaining part of it, and continuing if it has not ended.
     pub fn pin_again(
         &self,
         kept: Vec<Arc<JournalSegment>>,
@@ -500,7 +501,7 @@ impl Journal {
         }
     }
 
-    /// The segments that a pin keeps up to now, its last tick, and its bytes.
+    /// The segments that a pin keeps until now, its last tick, and its bytes.
     pub fn pinned(&self, pin: &Pin) -> (Vec<Arc<JournalSegment>>, u64, u64) {
         let inside = self.inside();
         let pinned = pin.inside();
@@ -544,7 +545,7 @@ impl JournalInner {
         Ok(all.drain(first..last.max(first + 1)).collect())
     }
 
-    /// Lets those that keep the past keep this, too.
+    /// Lets all pins keep this segment.
     fn pin(&mut self, segment: &Arc<JournalSegment>, end: Option<PinEnd>) {
         let keeps = |pin: &Weak<Pin>| pin.upgrade().is_some_and(|p| p.keep(segment, end));
         self.pins.retain(keeps);
@@ -573,7 +574,7 @@ impl JournalInner {
         let before = std::mem::replace(&mut self.counted, bytes + current);
         total.used.fetch_add(self.counted, Ordering::Relaxed);
         total.used.fetch_sub(before, Ordering::Relaxed);
-        // A segment is as old as its end.
+        // The age of a segment is that of its end.
         while let Some(first) = self.sealed.front()
             && (bytes > room.bytes
                 || now - first.begun > room.age + CHECKPOINT_EVERY
@@ -607,7 +608,7 @@ fn size_of_definition(definition: &Definition) -> usize {
     clip.map_or(0, |c| c.len() * CLIP_FRAME_BYTES)
 }
 
-/// A record as it is handed to the disk.
+/// A record in the form for the disk.
 #[cfg(test)]
 pub(super) fn on_disk(record: &RoundRecord) -> Bytes {
     if record.definitions.is_empty() {
@@ -617,9 +618,9 @@ pub(super) fn on_disk(record: &RoundRecord) -> Bytes {
     }
 }
 
-/// A record and behind it the clips that it refers to, after a zero, which no record begins with, and its length.
+/// A record, followed by the clips to which it refers, after a zero, with which no record begins, and its length.
 fn with_clips(record: &RoundRecord) -> Bytes {
-    // A value that cannot be written cannot be read, which is found on reading.
+    // A value that cannot be written cannot be read either, which is found on reading.
     let definitions = write_definitions(&record.definitions).unwrap_or_default();
     let mut out = Vec::with_capacity(record.bytes.len() + definitions.len() + 5);
     out.push(0);
@@ -629,7 +630,7 @@ fn with_clips(record: &RoundRecord) -> Bytes {
     out.into()
 }
 
-/// A record as it was handed to the disk.
+/// A record from the form for the disk.
 ///
 /// # Errors
 /// It cannot have been written.

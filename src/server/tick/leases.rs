@@ -1,7 +1,7 @@
-//! Leases: who controls a figure by a secret token.
+//! Leases: control of a figure by a secret token.
 //!
-//! At most one lease per figure. Its token is new whenever it goes to another holder, and the epoch counts that. Who
-//! drives a figure that has no lease has it as long as the drive lasts, by name and without a token (`drives`).
+//! At most one lease per figure. It gets a new token with each new holder, and the epoch counts that. A driver of a
+//! figure without a lease has it as long as the drive lasts, by name and without a token (`drives`).
 
 use sha2::{Digest, Sha256};
 use sinew_wire::status::Fault;
@@ -13,11 +13,11 @@ use std::time::{Duration, Instant};
 /// An offer of a lease.
 #[derive(Clone, Debug)]
 pub struct Offer {
-    /// To whom; `None`: who has the token of the offer.
+    /// The principal that may accept it; `None`: any with the token of the offer.
     pub to: Option<Arc<str>>,
     /// The hash of its token.
     pub token: TokenHash,
-    /// How long the figure goes over, s.
+    /// Time over which the figure changes to the new motion, s.
     pub blend: f64,
     /// When it ends.
     pub expires: Instant,
@@ -31,11 +31,11 @@ pub fn token_hash(token: &str) -> TokenHash {
 /// The lease of one figure.
 #[derive(Clone, Debug)]
 pub struct Lease {
-    /// Who has it.
+    /// The holder.
     pub holder: Arc<str>,
     /// The hash of its secret: it cannot be recovered from memory or disk.
     token: TokenHash,
-    /// A higher one takes its place.
+    /// A lease of higher priority replaces it.
     pub priority: i32,
     /// How long it is kept unused.
     pub grace: Duration,
@@ -43,7 +43,7 @@ pub struct Lease {
     pub expires: Option<Instant>,
     /// Whether it is offered.
     pub offer: Option<Offer>,
-    /// The figure goes over to the motion of this holder in so many seconds, once that is there.
+    /// Time over which the figure changes to the motion of this holder, s, once that motion has arrived.
     pub takeover: Option<f64>,
 }
 
@@ -54,14 +54,14 @@ pub struct Leases {
     epochs: BTreeMap<String, i64>,
 }
 
-/// Whether a secret is the one of which this is known, in a time that does not tell how much of it is.
+/// Whether a secret has this hash, in a time that does not reveal how much of it is right.
 fn same(token: &str, known: &TokenHash) -> bool {
     let hash = token_hash(token);
     hash.iter().zip(known).fold(0, |d, (a, b)| d | (a ^ b)) == 0
 }
 
 impl Offer {
-    /// Whether one of these tokens is its own.
+    /// Whether one of these tokens is valid for it.
     pub fn is_known_to(&self, tokens: &[String]) -> bool {
         tokens.iter().any(|t| same(t, &self.token))
     }
@@ -94,7 +94,7 @@ impl Lease {
         Self::again(kept, now)
     }
 
-    /// A lease of before, unused until its holder comes back.
+    /// A lease from before a restart, unused until its holder comes back.
     pub fn again(kept: KeptLease, now: Instant) -> Self {
         let KeptLease {
             holder,
@@ -113,7 +113,7 @@ impl Lease {
         }
     }
 
-    /// As it outlives the server.
+    /// The form in which it outlives the server.
     pub fn kept(&self) -> KeptLease {
         KeptLease {
             holder: Arc::clone(&self.holder),
@@ -150,23 +150,23 @@ impl Leases {
         !self.by_figure.is_empty()
     }
 
-    /// How often the control of a figure has changed hands.
+    /// The number of times that the control of a figure has changed hands.
     pub fn epoch(&self, figure: &str) -> i64 {
         self.epochs.get(figure).copied().unwrap_or(0)
     }
 
-    /// Counts that it does.
+    /// Counts one more change of hands.
     pub fn count(&mut self, figure: &str) {
         *self.epochs.entry(figure.to_owned()).or_default() += 1;
     }
 
-    /// Gives a figure a lease, in place of the one it has.
+    /// Gives a figure a lease, replacing the present one.
     pub fn put(&mut self, figure: &str, lease: Lease) {
         self.count(figure);
         self.by_figure.insert(figure.to_owned(), lease);
     }
 
-    /// Brings back what is known of a figure from before the server was started.
+    /// Brings back the known control of a figure from before a restart of the server.
     pub fn bring_back(&mut self, figure: &str, epoch: i64, lease: Option<Lease>) {
         self.epochs.insert(figure.to_owned(), epoch);
         if let Some(lease) = lease {
@@ -179,18 +179,18 @@ impl Leases {
         self.by_figure.remove(figure)
     }
 
-    /// Forgets a figure that is no more.
+    /// Forgets a figure that no longer exists.
     pub fn forget(&mut self, figure: &str) {
         self.by_figure.remove(figure);
         self.epochs.remove(figure);
     }
 
-    /// Whether one of them ends unless it is used.
+    /// Whether one of them ends if it is not used.
     pub fn end_by_themselves(&self) -> bool {
         self.by_figure.values().any(|l| l.expires.is_some())
     }
 
-    /// A lease whose time is over.
+    /// A figure with an expired lease.
     pub fn expired(&self, now: Instant) -> Option<String> {
         let over = |l: &Lease| l.expires.is_some_and(|at| at <= now);
         self.by_figure
@@ -199,7 +199,7 @@ impl Leases {
             .map(|(figure, _)| figure.clone())
     }
 
-    /// Checks that someone may control a figure, as far as leases say.
+    /// Checks that leases let a caller control a figure.
     ///
     /// # Errors
     /// A token is not the valid one, or there is none and someone else has the lease.
@@ -223,7 +223,7 @@ impl Leases {
     /// Checks that someone may drive all of these figures. Every token must be that of one of them.
     ///
     /// # Errors
-    /// As [`Leases::check`].
+    /// Same as [`Leases::check`].
     pub fn check_all(
         &self,
         figures: &[String],
@@ -256,7 +256,7 @@ fn leases_hold(leased: &[(&String, &Lease)], token: &str) -> bool {
     leased.iter().any(|(_, l)| same(token, &l.token))
 }
 
-/// The fault that others get who want a figure with a lease.
+/// The fault for others that want a figure with a lease.
 pub fn controlled(figure: &str, lease: &Lease, now: Instant) -> Fault {
     let mut facts = vec![
         ("controller", lease.holder.to_string()),

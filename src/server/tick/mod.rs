@@ -1,8 +1,8 @@
 //! The rate keeper: the [`scheduler`]'s threads call [`Runner::round`] of each world when it is due.
 //!
-//! A tick is: carry out commands in order, sample desired motion, step the physics, publish the frame, account for
-//! time. The thread never waits for a client, for a lock that is held for long, or for the disk. Commands come through
-//! a bounded queue, frames leave through latest-wins cells.
+//! A tick has these stages: run commands in order, sample desired motion, step the physics, publish the frame, account
+//! for time. The thread never waits for a client, for a lock that is held for long, or for the disk. Commands come
+//! through a bounded queue, frames leave through latest-wins cells.
 
 pub mod budget;
 pub mod clock;
@@ -33,24 +33,24 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::sync::{broadcast, watch};
 
-/// Longest wait before commands of a slow or paused world are looked at.
+/// Longest wait before the commands of a slow or paused world are checked.
 const PATIENCE: Duration = Duration::from_millis(50);
-/// Share of the period that commands may take in one tick, so that a flood cannot keep the clock from running. What
-/// does not fit waits for the next tick.
+/// Share of the period that commands may take in one tick, so that a flood cannot stop the clock. The rest waits for
+/// the next tick.
 const COMMAND_SHARE: f64 = 0.25;
-/// Least time for the commands of one tick: fast clocks must not take all day over a few of them.
+/// Least time for the commands of one tick, so that fast clocks still get through them.
 const COMMAND_LEAST: Duration = Duration::from_micros(200);
 
 /// The output of the thread that runs a world.
 #[derive(Debug)]
 pub struct Outlet {
-    /// Why nobody waits for it any more: its tick does not end.
+    /// Reason why no caller should wait for it any more: its tick does not end.
     pub lost: watch::Sender<Option<Fault>>,
-    /// Latest frame. Who reads it finds it at once; who waits for the next one is told by [`Outlet::tell`].
+    /// Latest frame. Readers find it at once; waiters for the next one are woken by [`Outlet::tell`].
     pub latest: watch::Sender<Arc<Snapshot>>,
-    /// Frames of the last ticks. Whoever looks into it copies pointers, so a tick does not wait for long.
+    /// Frames of the last ticks. Readers only copy pointers, so a tick does not wait for long.
     pub history: Mutex<FrameHistory>,
-    /// World and figures, as they were when something of them changed last.
+    /// World and figures as of their last change.
     pub described: watch::Sender<Arc<Described>>,
     /// Events of each tick that has some.
     pub events: broadcast::Sender<Arc<Vec<WorldEvent>>>,
@@ -60,12 +60,12 @@ pub struct Outlet {
     pub ticks: AtomicU64,
     /// Ticks that took longer than their period.
     pub overruns: AtomicU64,
-    /// Deadlines left out.
+    /// Skipped deadlines.
     pub skipped: AtomicU64,
 }
 
 impl Outlet {
-    /// Shows a new world, with so many frames and messages of events held for those who read late.
+    /// Shows a new world, with this number of frames and of event messages held for late readers.
     pub fn new(hosted: &mut HostedWorld, frames: usize, events: usize) -> Self {
         let first = hosted.snapshot(None);
         let mut history = FrameHistory::new(frames);
@@ -100,9 +100,9 @@ impl Outlet {
 /// When a world wants to be run again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Next {
-    /// Then; with true, a command makes it due at once.
+    /// At this time; with true, a command makes it due at once.
     At(Instant, bool),
-    /// When a command comes.
+    /// When a command arrives.
     Idle,
     /// It has ended.
     Ended,
@@ -114,11 +114,11 @@ pub struct Runner {
     inbox: Inbox,
     outlet: Arc<Outlet>,
     meter: Meter,
-    /// Its last round took long, or it was stepped by hand.
+    /// Whether its last round took long, or it was stepped by hand.
     long: bool,
     /// Processor time of the last round.
     took: Duration,
-    /// There is a frame that nobody was told of.
+    /// Whether there is a frame that has not been announced.
     untold: bool,
 }
 
@@ -141,13 +141,12 @@ impl Runner {
         std::mem::take(&mut self.untold).then(|| self.outlet.clone())
     }
 
-    /// The tick that it has come to.
+    /// Its present tick.
     pub fn tick(&self) -> u64 {
         self.outlet.latest.borrow().tick
     }
 
-    /// Whether its rounds should not keep those of others waiting: they take longer than `limit`, or were asked for by
-    /// hand.
+    /// Whether its rounds should not delay those of others: they take longer than `limit`, or were requested by hand.
     pub fn is_long(&mut self, limit: Duration) -> bool {
         if self.hosted.paused {
             self.long |= self.took > limit || !self.hosted.steps.is_empty();
@@ -157,7 +156,7 @@ impl Runner {
         self.long
     }
 
-    /// Does what is due: commands, a tick, none of both. Says when it wants to be called again.
+    /// Does everything that is due: commands, a tick, or neither. Returns when it wants to be called again.
     pub fn round(&mut self) -> Next {
         self.meter.begin();
         let mut goes_on = self.inbox.fetch();
@@ -197,7 +196,7 @@ impl Runner {
         }
     }
 
-    /// Tells who still waits that there is no more.
+    /// Tells the remaining waiters that the world has ended.
     fn end(&mut self) {
         guarded(&mut self.hosted, "the record", |s| {
             s.note(false, Instant::now());
@@ -209,7 +208,7 @@ impl Runner {
         }
     }
 
-    /// A round but for its account. Returns the time of the physics if there was a tick.
+    /// A round without its account. Returns the time of the physics if there was a tick.
     fn step(&mut self) -> Option<Duration> {
         let Self {
             hosted,
@@ -223,7 +222,7 @@ impl Runner {
         let start = Instant::now();
         let late = start.saturating_duration_since(hosted.clock.deadline());
 
-        // Motion that drivers have left, then commands in (client, sequence) order.
+        // First the motion that drivers have left, then commands in (client, sequence) order.
         guarded(hosted, "taking motion", HostedWorld::collect_motion);
         let allowance = if stopped {
             PATIENCE
@@ -247,7 +246,7 @@ impl Runner {
             s.offer_plans();
         });
         if hosted.closing.is_some() {
-            publish_events(hosted, outlet); // that it was deleted is the last one
+            publish_events(hosted, outlet); // the event of its deletion is the last one
             return None;
         }
         let commands_done = Instant::now();
@@ -318,13 +317,13 @@ impl Runner {
             times.record(stages);
         }
         if let Some(snapshot) = snapshot {
-            finish_steps(hosted, &snapshot); // last, so that who waits finds everything done
+            finish_steps(hosted, &snapshot); // last, so that the waiting client finds everything done
         }
         Some(physics)
     }
 }
 
-/// Adds to a counter what there is to add, which mostly is nothing.
+/// Adds to a counter; mostly the increment is zero.
 fn count(counter: &metrics::Counter, more: u64) {
     if more > 0 {
         counter.increment(more);
@@ -341,7 +340,7 @@ fn guarded<T>(
     done.map_err(|panic| fail(hosted, what, &*panic)).ok()
 }
 
-/// Notes that a world has failed, and tells who waits for it. It keeps its last frame and its first reason.
+/// Notes that a world has failed, and tells its waiters. It keeps its last frame and its first reason.
 fn fail(hosted: &mut HostedWorld, what: &str, panic: &(dyn Any + Send)) {
     let message = panic
         .downcast_ref::<&str>()
@@ -367,9 +366,9 @@ fn fail(hosted: &mut HostedWorld, what: &str, panic: &(dyn Any + Send)) {
     }
 }
 
-/// Shows the world as it is now; `None` if that fails. Who waits for a frame is told later ([`Outlet::tell`]).
+/// Shows the world as it is now; `None` if that fails. Waiters for a frame are woken later ([`Outlet::tell`]).
 ///
-/// * `hash`: of its state, if that is known.
+/// * `hash`: of its state, if known.
 fn publish(hosted: &mut HostedWorld, outlet: &Outlet, hash: Option<u64>) -> Option<Arc<Snapshot>> {
     let snapshot = guarded(hosted, "the frame", |s| {
         s.publish_feedback();
@@ -387,13 +386,13 @@ fn publish(hosted: &mut HostedWorld, outlet: &Outlet, hash: Option<u64>) -> Opti
     let shown = snapshot.clone();
     outlet.latest.send_if_modified(|latest| {
         *latest = shown;
-        false // nobody is told yet
+        false // no waiter is woken yet
     });
     hosted.note_shown();
     Some(snapshot)
 }
 
-/// Tells what changed of world and figures, before who changed it gets an answer.
+/// Publishes changes of world and figures, before the client that changed them gets an answer.
 fn describe(hosted: &mut HostedWorld, outlet: &Outlet) {
     if let Some(described) = guarded(hosted, "the description", HostedWorld::describe).flatten() {
         // The watchdog has already reported the failure; do not overwrite it.
@@ -414,7 +413,7 @@ fn publish_events(hosted: &mut HostedWorld, outlet: &Outlet) {
         history
             .unwrap_or_else(PoisonError::into_inner)
             .note(&events);
-        // An error only means that nobody listens.
+        // An error only means that there are no listeners.
         let _ = outlet.events.send(Arc::new(events));
     }
 }

@@ -1,4 +1,4 @@
-//! Threads that solve what figures want to have planned, for all worlds of a server.
+//! Threads that compute the plans of figures, for all worlds of a server.
 //!
 //! The queue is bounded. A request that finds no room stays with its figure and is offered again in the next tick.
 
@@ -7,12 +7,12 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
-/// Most threads that plan.
+/// Most planning threads.
 const MOST_THREADS: usize = 4;
-/// Most requests that wait for one of them.
+/// Most requests that wait for a planning thread.
 const MOST_WAITING: usize = 256;
 
-/// The threads that plan. They end when this is dropped and the queue is empty.
+/// The planning threads. They end when this is dropped and the queue is empty.
 #[derive(Debug)]
 pub struct Planners {
     queue: SyncSender<PlanRequest>,
@@ -20,7 +20,7 @@ pub struct Planners {
 }
 
 impl Planners {
-    /// Starts the threads: one per processor, at most four. A machine that has none to spare plans in its ticks.
+    /// Starts the threads: one per processor, at most four. A machine without spare processors plans in its ticks.
     pub fn start() -> Self {
         let (queue, waiting) = sync_channel(MOST_WAITING);
         let waiting = Arc::new(Mutex::new(waiting));
@@ -39,7 +39,7 @@ impl Planners {
         Self { queue, threads }
     }
 
-    /// How ticks get a plan: they do not wait for it, unless there is no thread that works it out.
+    /// How ticks get their plans: they do not wait for one, unless there is no thread to compute it.
     pub fn planning(&self) -> Planning {
         if self.threads > 0 {
             Planning::Aside
@@ -48,7 +48,7 @@ impl Planners {
         }
     }
 
-    /// Hands over as many requests as there is room for. Never waits.
+    /// Hands over the requests for which there is room. Never waits.
     pub fn offer(&self, requests: impl Iterator<Item = PlanRequest>) {
         for request in requests {
             if self.queue.try_send(request.clone()).is_err() {

@@ -1,4 +1,4 @@
-//! Does again what was recorded of a world.
+//! Replays the recorded past of a world.
 
 use super::journal::{JournalItem, JournalSegment};
 use super::scene::{RecordItem, RecordReader, Scene, Unreadable};
@@ -6,10 +6,10 @@ use crate::engine::Planning;
 use sinew_wire::status::Fault;
 use std::sync::Arc;
 
-/// Why a world is not what was recorded.
+/// Why a world differs from its record.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReplayError {
-    /// Its state is another one.
+    /// Its state differs.
     #[error("after tick {tick} the state has hash {found:016x}, recorded was {expected:016x}")]
     Differs {
         /// The first such tick.
@@ -19,12 +19,12 @@ pub enum ReplayError {
         /// Hash of the state.
         found: u64,
     },
-    /// A record that cannot be read, or of another time.
+    /// A record cannot be read, or belongs to another time.
     #[error("before tick {tick}: {why}")]
     Record {
         /// Ticks done.
         tick: u64,
-        /// Why.
+        /// Reason.
         why: &'static str,
     },
     /// It was told to stop.
@@ -38,16 +38,16 @@ impl From<Unreadable> for ReplayError {
     }
 }
 
-/// A scene that goes through records.
+/// A scene that replays records.
 #[derive(Debug)]
 pub struct Replay {
     /// The scene.
     pub scene: Scene,
     reader: RecordReader,
-    /// World time that the clock has left out so far, s.
+    /// World time that the clock has skipped until now, s.
     lost: f64,
     threads: Option<usize>,
-    /// Hashes that were compared.
+    /// Number of hashes compared.
     pub compared: u64,
 }
 
@@ -73,18 +73,18 @@ impl Replay {
         Ok(Self::new(first.scene()?))
     }
 
-    /// Steps with so many threads. The result does not depend on it.
+    /// Steps with this number of threads. The result does not depend on it.
     pub fn with_threads(mut self, threads: usize) -> Self {
         self.threads = Some(threads);
         self.scene.set_threads(threads);
         self
     }
 
-    /// Goes through the segments of a past, the first of which it began at, as [`Self::through`] does. Where the world
-    /// was put into another state it is put there, too: those who drive it went on in their own way then.
+    /// Goes through the segments of a past, of which the first is where this replay began, like [`Self::through`].
+    /// Where the world was put into another state, so is the scene; the players of live motion were not continued then.
     ///
     /// # Errors
-    /// As there.
+    /// Same as [`Self::through`].
     pub fn through_past(
         &mut self,
         past: &[Arc<JournalSegment>],
@@ -114,11 +114,11 @@ impl Replay {
         Ok(())
     }
 
-    /// Goes through what was logged behind the checkpoint, as far as the state after tick `until`; what changed it
-    /// there is not done. `each` sees the scene after each tick, and says whether to go on.
+    /// Goes through the entries logged after the checkpoint, up to the state after tick `until`; changes after that
+    /// tick are not applied. `each` sees the scene after each tick, and returns whether to continue.
     ///
     /// # Errors
-    /// The first thing that is not as it was recorded; `each` had enough.
+    /// The first difference from the record; or `each` stopped it.
     pub fn through<'a>(
         &mut self,
         logged: impl IntoIterator<Item = &'a JournalItem>,
@@ -128,7 +128,7 @@ impl Replay {
         for entry in logged {
             let now = self.scene.world().tick();
             match entry {
-                // Written twice: a checkpoint came in between.
+                // Written twice, because a checkpoint came in between.
                 JournalItem::Record(r) if r.seq <= self.scene.seq() => {}
                 JournalItem::Record(r) => {
                     let why = match (r.seq == self.scene.seq() + 1, r.tick == now) {

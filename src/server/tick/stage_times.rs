@@ -1,17 +1,17 @@
-//! How long the stages of recent ticks took.
+//! The durations of the stages of recent ticks.
 
 use crate::telemetry::metrics::ticks;
 use std::time::Duration;
 
 /// Stages of a tick, in order.
 pub const STAGES: [&str; 6] = ["late", "commands", "motion", "step", "publish", "total"];
-/// Ticks that are remembered: ten seconds at 60 Hz.
+/// Number of remembered ticks: ten seconds at 60 Hz.
 const WINDOW: usize = 600;
 
 /// Times of recent ticks.
 #[derive(Clone, Debug)]
 pub struct StageTimes {
-    /// By tick, then by stage: those of one tick lie together, where it writes them.
+    /// By tick, then by stage: values of one tick are adjacent, because they are written together.
     micros: Vec<[f32; STAGES.len()]>,
     next: usize,
 }
@@ -36,7 +36,7 @@ pub struct Percentiles {
     pub max: f64,
 }
 
-/// Counts one tick for the metrics; `clocked`: its world runs against the clock.
+/// Counts one tick in the metrics; `clocked`: its world runs against the clock.
 pub fn count(stages: &[Duration; STAGES.len()], clocked: bool) {
     let meters = ticks();
     let [late, parts @ .., total] = stages;
@@ -51,7 +51,7 @@ pub fn count(stages: &[Duration; STAGES.len()], clocked: bool) {
     crate::telemetry::traces::tick(&STAGES[1..STAGES.len() - 1], parts);
 }
 
-/// Percentiles of some numbers; all zero for none.
+/// Percentiles of some numbers; all zero if there are none.
 pub fn percentiles(values: impl Iterator<Item = f32>) -> Percentiles {
     let mut sorted: Vec<f32> = values.collect();
     sorted.sort_unstable_by(f32::total_cmp);

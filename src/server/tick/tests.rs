@@ -1,4 +1,4 @@
-//! The loop of one world, with commands that take long and with commands that break it.
+//! The loop of one world, with commands that take long and commands that break it.
 
 use super::command::{CommandOrigin, CommandQueue, WorldCommand};
 use super::hosted_world::{HostedWorld, WorldLimits};
@@ -9,7 +9,7 @@ use sinew_wire::convert;
 use sinew_wire::types::{Overrun, WorldCondition, WorldUpdate};
 use std::sync::mpsc::sync_channel;
 
-/// Workers of a test: plain threads, so that tests beside it are not kept waiting.
+/// Workers of a test: plain threads, so that tests beside it are not delayed.
 pub(super) fn workers(workers: usize) -> SchedulerPlan {
     SchedulerPlan {
         workers,
@@ -65,7 +65,7 @@ impl Running {
         [late.p50, late.max]
     }
 
-    /// False if it takes no commands any more.
+    /// Returns false if it takes no more commands.
     pub(super) fn send(&self, action: impl FnOnce(&mut HostedWorld) + Send + 'static) -> bool {
         let origin = CommandOrigin {
             client: "c".into(),
@@ -98,7 +98,7 @@ impl Running {
 #[test]
 fn commands_that_take_long_are_spread_over_ticks_in_order() {
     let scheduler = Scheduler::start(workers(1)).unwrap();
-    let world = Running::start(&scheduler, 50.0); // 5 ms of each tick are for commands
+    let world = Running::start(&scheduler, 50.0); // 5 ms of each tick go to commands
     let (tx, rx) = sync_channel(64);
     for n in 0..40 {
         let tx = tx.clone();
@@ -144,7 +144,7 @@ fn a_frame_that_cannot_be_made_fails_the_world_and_not_its_thread() {
     world.end();
 }
 
-/// What a long command held up is computed back to back, and nothing is left out.
+/// Ticks delayed by a long command are computed back to back, and none is skipped.
 #[test]
 fn missed_ticks_are_caught_up_where_that_is_asked_for() {
     let scheduler = Scheduler::start(workers(1)).unwrap();
@@ -172,8 +172,8 @@ fn missed_ticks_are_caught_up_where_that_is_asked_for() {
     world.end();
 }
 
-/// Frames of several worlds that are due at once are told of together, and none is kept back: whoever waits sees the
-/// tick that is there, also when the worker has nothing left to do.
+/// Frames of several worlds that are due at once are announced together, and none is kept back: every waiter sees the
+/// present tick, even when the worker has no work left.
 #[test]
 fn who_waits_for_a_frame_is_told_of_the_latest_one() {
     let scheduler = Scheduler::start(workers(1)).unwrap();
@@ -193,7 +193,7 @@ fn who_waits_for_a_frame_is_told_of_the_latest_one() {
             assert!(tick > last, "{tick} after {last}");
             last = tick;
         }
-        // The last frame is told of, too: nothing comes after it.
+        // The last frame is announced, too, although no frame follows it.
         world.ask(|s| s.pause().unwrap());
         while last != world.outlet.latest.borrow().tick {
             let told =

@@ -1,4 +1,4 @@
-//! Last use of a world, so that an unused one can end.
+//! Last use of a world, so that an unused one can be ended.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -41,12 +41,12 @@ impl Default for WorldUsage {
 }
 
 impl WorldUsage {
-    /// The world is used now.
+    /// Notes that the world is used now.
     pub fn note(&self) {
         lock(&self.0).last = Instant::now();
     }
 
-    /// The world is in use until the returned value is dropped.
+    /// Notes that the world is in use until the returned value is dropped.
     pub fn begin(&self) -> InUse {
         lock(&self.0).open += 1;
         InUse(self.0.clone())

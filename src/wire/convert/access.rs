@@ -7,14 +7,14 @@ pub use super::names::grant_name;
 use super::{shortened, within};
 use std::time::SystemTime;
 
-/// Entries of the list of roles: more than there are.
+/// Most entries of the list of roles, more than there are roles.
 pub const MOST_ROLES: usize = 8;
-/// Figures that a grant names.
+/// Most figures that a grant names.
 const MOST_FIGURES: usize = 64;
-/// Bytes of a principal.
+/// Most bytes of a principal.
 const MOST_PRINCIPAL: usize = 256;
 
-/// To whom a grant is.
+/// The principal that gets a grant.
 pub fn principal<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
     let known = ["user:", "cert:"]
         .iter()
@@ -32,7 +32,7 @@ pub fn principal<'a>(field: &str, name: &'a str) -> Result<&'a str, Fault> {
     ))
 }
 
-/// Figures that the role of a driver is for. They need not be there yet.
+/// Figures for the role of a driver. They need not exist yet.
 pub fn figures(field: &str, names: &[String]) -> Result<Vec<String>, Fault> {
     if names.len() > MOST_FIGURES {
         return Err(Fault::invalid(
@@ -83,7 +83,7 @@ pub fn max_priority(field: &str, value: i32) -> Result<i32, Fault> {
     within(field, f64::from(value), 0.0, 99.0).map(|_| value)
 }
 
-/// When a grant ends; it must not be over.
+/// The end of a grant, which must be in the future.
 pub fn expiry(
     field: &str,
     at: Option<prost_types::Timestamp>,
@@ -101,7 +101,7 @@ pub fn expiry(
 /// A time, if there is one.
 ///
 /// # Errors
-/// There is no such time.
+/// The time does not exist.
 pub fn time(field: &str, at: Option<prost_types::Timestamp>) -> Result<Option<SystemTime>, Fault> {
     let time = at.map(SystemTime::try_from).transpose();
     time.map_err(|_| Fault::invalid(field, "must be a time"))
@@ -110,7 +110,7 @@ pub fn time(field: &str, at: Option<prost_types::Timestamp>) -> Result<Option<Sy
 /// The fields that an update takes.
 ///
 /// # Errors
-/// The mask names something else.
+/// The mask names another field.
 pub fn taken(
     g: &pb::Grant,
     mask: Option<&prost_types::FieldMask>,

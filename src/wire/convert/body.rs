@@ -1,4 +1,4 @@
-//! Bodies: names that say their profile, and descriptions.
+//! Bodies: names that state their profile, and descriptions.
 
 use super::super::pb;
 use super::super::status::Fault;
@@ -30,7 +30,7 @@ pub fn by_name(field: &str, name: &str) -> Result<BodyRef, Fault> {
     by_id(id).ok_or_else(|| Fault::not_found("body", shortened(name)))
 }
 
-/// Body of a request: by name, by profile, or the adult man. Whether the tables cover the profile is found when it is
+/// Body of a request: by name, by profile, or the adult man. Whether the tables cover the profile only shows when it is
 /// built.
 pub fn reference(
     field: &str,
@@ -183,7 +183,7 @@ pub fn provenance_out(list: Vec<(&'static str, Provenance)>) -> Vec<pb::Provenan
         .collect()
 }
 
-/// Which text form is asked for.
+/// The requested text form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TextForm {
     /// MuJoCo XML.

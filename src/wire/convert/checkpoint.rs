@@ -17,9 +17,9 @@ pub struct CheckpointInfo<'a> {
     pub time: f64,
     /// State hash.
     pub hash: u64,
-    /// Bytes.
+    /// Size, bytes.
     pub size: usize,
-    /// When it was taken.
+    /// Creation time.
     pub created: SystemTime,
 }
 

@@ -14,7 +14,7 @@ const FAR: f64 = 1e4;
 /// Ease of a constraint that names none, s.
 const EASE: f64 = 0.5;
 
-/// The constraints of a figure; `field` is where the list stands in the request.
+/// The constraints of a figure; `field` is the place of the list in the request.
 pub fn list(field: &str, all: &[pb::Constraint]) -> Result<Vec<ConstraintSettings>, Fault> {
     if all.len() > MAX_CONSTRAINTS {
         return Err(Fault::invalid(

@@ -9,13 +9,13 @@ use crate::types::MAX_DRIVEN_FIGURES;
 use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
-/// Bytes of a token.
+/// Most bytes of a token.
 const MOST_TOKEN: usize = 128;
-/// How long a lease is kept unused, ms, if that is not told.
+/// Time for which an unused lease is kept if the request does not say, ms.
 const GRACE_MS: f64 = 10_000.0;
 
 fn token(field: &str, token: &str) -> Result<(), Fault> {
-    // The input is not repeated: it may be a secret for something else.
+    // Errors do not repeat the input, because it may be a secret of another service.
     if token.len() > MOST_TOKEN {
         return Err(Fault::invalid(
             field,
@@ -25,7 +25,7 @@ fn token(field: &str, token: &str) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Who asks, by these tokens.
+/// The principal and its tokens.
 pub fn key(principal: &Arc<str>, field: &str, tokens: &[String]) -> Result<ControlKey, Fault> {
     if tokens.len() > MAX_DRIVEN_FIGURES {
         return Err(Fault::invalid(
@@ -45,7 +45,7 @@ pub fn key(principal: &Arc<str>, field: &str, tokens: &[String]) -> Result<Contr
     })
 }
 
-/// Who asks, by this token, if there is one.
+/// The principal and its token, if there is one.
 pub fn single(principal: &Arc<str>, field: &str, text: &str) -> Result<ControlKey, Fault> {
     token(field, text)?;
     let tokens = (!text.is_empty()).then(|| text.to_owned());
@@ -55,7 +55,7 @@ pub fn single(principal: &Arc<str>, field: &str, text: &str) -> Result<ControlKe
     })
 }
 
-/// How long a lease is kept unused.
+/// Time for which an unused lease is kept.
 pub fn grace(field: &str, ms: f64) -> Result<Duration, Fault> {
     or_default(field, ms, GRACE_MS, 1.0, 60_000.0).map(|ms| Duration::from_secs_f64(ms / 1e3))
 }
@@ -65,7 +65,7 @@ pub fn priority(field: &str, value: i32, most: i32) -> Result<i32, Fault> {
     within(field, f64::from(value), 0.0, f64::from(most)).map(|_| value)
 }
 
-/// How long a figure goes over, s, and how long the offer stands.
+/// Time over which a figure changes to the new motion, s, and time for which the offer stands.
 pub fn offer(blend_ms: f64, offer_ms: f64) -> Result<(f64, Duration), Fault> {
     let blend = or_default("blend_ms", blend_ms, 500.0, 0.0, 5000.0)? / 1e3;
     let lasts = or_default("offer_ms", offer_ms, 30_000.0, 1.0, 600_000.0)?;

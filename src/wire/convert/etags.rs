@@ -1,7 +1,8 @@
-//! Etags (AIP-154): what a client read last, so that it does not overwrite what somebody else has changed since.
+//! Etags (AIP-154): they identify the version that a client has read, so that it does not overwrite a later change by
+//! another client.
 //!
-//! An etag is a hash of the configuration as it is sent. So it needs no memory of its own: equal settings have equal
-//! etags, also after a restart of the server or in a world that was restored.
+//! An etag is a hash of the configuration as it is sent, so it needs no memory of its own: equal settings have equal
+//! etags, even after a restart of the server or in a restored world.
 
 use super::super::pb;
 use super::super::status::Fault;
@@ -12,7 +13,7 @@ fn hash(message: &impl prost::Message) -> String {
     format!("{:016x}", xxh3_64(&message.encode_to_vec()))
 }
 
-/// Of what was set of a world.
+/// The etag of the settings of a world.
 pub fn world(w: &pb::World) -> String {
     hash(&pb::World {
         state: 0,
@@ -27,7 +28,7 @@ pub fn world(w: &pb::World) -> String {
     })
 }
 
-/// Of what was set of a figure. The time that its constraints have left runs by itself.
+/// The etag of the settings of a figure. It leaves out the remaining time of constraints, which changes by itself.
 pub fn figure(f: &pb::Figure) -> String {
     let mut set = pb::Figure {
         status: None,
@@ -40,7 +41,7 @@ pub fn figure(f: &pb::Figure) -> String {
     hash(&set)
 }
 
-/// Of what was set of an obstacle. One that is not fixed moves by itself.
+/// The etag of the settings of an obstacle. It leaves out the motion of one that is not fixed, which changes by itself.
 pub fn obstacle(o: &pb::Obstacle) -> String {
     let fixed = o.mobility == i32::from(pb::ObstacleMobility::Fixed);
     hash(&pb::Obstacle {
@@ -52,7 +53,7 @@ pub fn obstacle(o: &pb::Obstacle) -> String {
     })
 }
 
-/// Of a grant.
+/// The etag of a grant.
 pub fn grant(g: &pb::Grant) -> String {
     hash(&pb::Grant {
         create_time: None,
@@ -61,10 +62,10 @@ pub fn grant(g: &pb::Grant) -> String {
     })
 }
 
-/// Checks the etag of a request, if it has one, against what there is.
+/// Checks the etag of a request, if it has one, against the present one.
 ///
 /// # Errors
-/// It is another one.
+/// They differ.
 pub fn check(name: &str, sent: &str, now: impl FnOnce() -> String) -> Result<(), Fault> {
     if sent.is_empty() || sent == now() {
         return Ok(());

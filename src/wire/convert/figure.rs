@@ -38,7 +38,7 @@ pub fn stepper(field: &str, value: i32) -> Result<StepperKind, Fault> {
     }
 }
 
-/// A value of an enumeration, or what to say about it.
+/// A value of an enumeration, or a fault that describes it.
 fn choice<T: TryFrom<i32>>(field: &str, value: i32, what: &str) -> Result<T, Fault> {
     T::try_from(value).map_err(|_| Fault::invalid(field, format!("{value} is not a {what}")))
 }
@@ -90,7 +90,7 @@ pub fn paper(field: &str, o: Option<&pb::PaperOptions>) -> Result<ControlParams,
     Ok(out)
 }
 
-/// The choices in force, every one of them said.
+/// The choices in force, all of them explicit.
 fn paper_out(p: &ControlParams) -> pb::PaperOptions {
     pb::PaperOptions {
         preset: if *p == ControlParams::paper2000() {
@@ -162,7 +162,7 @@ fn time_scale(field: &str, value: f64) -> Result<f64, Fault> {
     within(field, value, 0.0, MAX_TIME_SCALE)
 }
 
-/// Settings of a new figure; `field` is where the message stands in the request.
+/// Settings of a new figure; `field` is the place of the message in the request.
 pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, Fault> {
     let none = pb::Figure::default();
     let f = f.unwrap_or(&none);

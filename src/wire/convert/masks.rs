@@ -11,16 +11,16 @@ pub struct MaskFields<'a> {
     pub settable: &'a [(&'static str, bool)],
     /// Fields that are set at creation.
     pub fixed: &'a [&'static str],
-    /// Fields that only the server sets, and the name: a mask may name them, which does nothing.
+    /// Fields that only the server sets, and the name. A mask may name them without effect.
     pub output: &'a [&'static str],
 }
 
 impl MaskFields<'_> {
-    /// The fields that a mask takes from the request: those that it names; without one, those that have a value; all
-    /// for `*`.
+    /// The fields that a mask takes from the request: those that it names; without a mask, those with a value; all for
+    /// `*`.
     ///
     /// # Errors
-    /// A path is none of the fields, one that is set at creation, or a part of a field; `*` is not alone.
+    /// A path names no field, one that is fixed at creation, or a part of a field; or `*` is not alone.
     pub fn taken(&self, mask: Option<&FieldMask>) -> Result<Vec<&'static str>, Fault> {
         let paths = mask.map(|m| m.paths.as_slice()).unwrap_or_default();
         let settable = || self.settable.iter().map(|(name, _)| *name);
@@ -35,7 +35,7 @@ impl MaskFields<'_> {
         let mut taken = Vec::with_capacity(self.settable.len());
         for (i, path) in paths.iter().enumerate() {
             let refused = |problem| Err(Fault::invalid(format!("update_mask.paths[{i}]"), problem));
-            // A part of a field is what the field is.
+            // A part of a field is treated like the field.
             let (whole, part) = match path.split_once('.') {
                 Some((whole, part)) => (whole, Some(part)),
                 None => (path.as_str(), None),

@@ -1,5 +1,5 @@
-//! Requests to domain types and domain types to responses. Everything is checked here, once: finite, in range, counted,
-//! named.
+//! Conversion of requests to domain types and of domain types to responses. Everything is checked here, once: finite,
+//! in range, counted, named.
 
 pub mod access;
 pub mod body;
@@ -33,7 +33,7 @@ pub const WORLD_EXTENT: f64 = 10_000.0;
 
 /// A finite number within bounds.
 ///
-/// The field is written out for an error only: streams have hundreds of numbers in each tick.
+/// The field is only formatted for an error, because streams have hundreds of numbers in each tick.
 pub(crate) fn within(field: impl Display, value: f64, least: f64, most: f64) -> Result<f64, Fault> {
     // Written so that NaN fails.
     if value >= least && value <= most {
@@ -146,7 +146,7 @@ pub fn display_name(field: &str, name: &str) -> Result<String, Fault> {
 /// Most bytes of the last part of a name.
 pub const MAX_ID: usize = 63;
 
-/// The last part of a new name; `None` if the server is to choose.
+/// The last part of a new name; `None` if the server has to choose.
 pub fn new_id(field: &str, id: &str) -> Result<Option<String>, Fault> {
     if id.is_empty() {
         return Ok(None);
@@ -169,7 +169,7 @@ pub fn new_id(field: &str, id: &str) -> Result<Option<String>, Fault> {
     }
 }
 
-/// Who asks, at most 64 printable ASCII characters.
+/// The name that a client gives itself, at most 64 printable ASCII characters.
 pub fn client_id(field: &str, id: &str) -> Result<String, Fault> {
     if id.len() > 64 || !id.bytes().all(|b| b.is_ascii_graphic() || b == b' ') {
         return Err(Fault::invalid(
@@ -180,7 +180,7 @@ pub fn client_id(field: &str, id: &str) -> Result<String, Fault> {
     Ok(id.to_owned())
 }
 
-/// The start of a text that came from outside, short enough for a message.
+/// The start of a text from outside, short enough for a message.
 pub(crate) fn shortened(text: &str) -> &str {
     match text.char_indices().nth(80) {
         Some((end, _)) => &text[..end],
@@ -188,7 +188,7 @@ pub(crate) fn shortened(text: &str) -> &str {
     }
 }
 
-/// A count on the wire, where it has a sign.
+/// A count from a signed field.
 ///
 /// # Errors
 /// It is negative.
@@ -197,8 +197,8 @@ pub fn not_negative(field: &str, value: i64) -> Result<u64, Fault> {
         .map_err(|_| Fault::invalid(field, format!("must not be negative, got {value}")))
 }
 
-/// A duration; `None` if it is negative. The conversion of `prost_types` negates such a one, which overflows at the end
-/// of what can be written.
+/// A duration; `None` if it is negative. The conversion of `prost_types` negates a negative one, which overflows at the
+/// end of its range.
 pub fn duration(given: &prost_types::Duration) -> Option<std::time::Duration> {
     let given = Some(*given).filter(|d| d.seconds >= 0)?;
     std::time::Duration::try_from(given).ok()

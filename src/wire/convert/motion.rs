@@ -34,7 +34,7 @@ fn optional(field: &str, value: Option<f64>, least: f64, most: f64) -> Result<Op
     value.map(|v| within(field, v, least, most)).transpose()
 }
 
-/// How a BVH file is read.
+/// The reading options of a BVH file.
 pub fn bvh_reading(field: &str, o: Option<&pb::BvhOptions>) -> Result<BvhReading, Fault> {
     let Some(o) = o else {
         return Ok(BvhReading::default());
@@ -61,7 +61,7 @@ pub fn bvh_reading(field: &str, o: Option<&pb::BvhOptions>) -> Result<BvhReading
     })
 }
 
-/// A BVH file with its options; the file itself is read elsewhere.
+/// A BVH file with its options. The file itself is parsed elsewhere.
 pub fn bvh(field: &str, source: pb::BvhSource, max_bytes: u64) -> Result<MotionSource, Fault> {
     if source.data.is_empty() {
         return Err(Fault::invalid(format!("{field}.data"), "must not be empty"));
@@ -124,7 +124,7 @@ pub fn clip_source(
     }
 }
 
-/// How a clip is played.
+/// The manner of playing a clip.
 pub fn playback(r: &pb::PlayClipRequest) -> Result<Playback, Fault> {
     Ok(Playback {
         max_help: 0.0,
@@ -136,7 +136,7 @@ pub fn playback(r: &pb::PlayClipRequest) -> Result<Playback, Fault> {
     })
 }
 
-/// Header of a drive; `field` is where it stands in the request.
+/// Header of a drive; `field` is its place in the request.
 pub fn drive_open(
     field: &str,
     h: &pb::DriveHeader,
@@ -210,7 +210,7 @@ pub fn drive_open(
     })
 }
 
-/// A window in ms as seconds: none, or one that is long enough to be of use.
+/// A window in ms as seconds: none, or one long enough to be useful.
 fn window(field: &str, ms: f64) -> Result<f64, Fault> {
     let (least, most) = sinew_physics::plan::stream::WINDOW;
     if ms == 0.0 {
@@ -359,7 +359,8 @@ fn bone_rotations(
             ));
         }
     };
-    // World rotations as they come out of the joints, so that what a hinge drops does not turn the segments beyond it.
+    // World rotations computed from the joints, so that rotation dropped by a hinge does not turn the segments beyond
+    // it.
     let mut world_from = [Quat::identity(); SEGMENT_COUNT];
     if let Some(q) = given[0] {
         posture.root_rotation = q;
@@ -378,7 +379,7 @@ fn bone_rotations(
     Ok(())
 }
 
-/// Desired postures in a batch: what its conversion and use cost.
+/// Number of desired postures in a batch: they determine the cost of its conversion and use.
 pub fn postures(batch: &pb::MotionBatch) -> usize {
     batch.frames.iter().map(|f| f.figures.len()).sum()
 }
@@ -495,7 +496,7 @@ pub fn feedback_out(f: &Feedback) -> pb::DriveFeedback {
     }
 }
 
-/// How a file was understood, for a response.
+/// The reading report of a file, for a response.
 pub fn report_out(r: &ReadingReport) -> pb::RetargetReport {
     pb::RetargetReport {
         mapped: { r.skeleton.mapped.iter() }
@@ -585,7 +586,7 @@ pub fn clip_out(c: &ClipInfo, with_report: bool) -> pb::Clip {
     }
 }
 
-/// How far it may go so that a figure keeps to a clip; `None` if it is not given.
+/// How far the motion of a clip may be changed so that a figure can follow it; `None` if not given.
 pub fn follow(field: &str, value: i32) -> Result<Option<Follow>, Fault> {
     match pb::Follow::try_from(value) {
         Ok(pb::Follow::Unspecified) => Ok(None),
@@ -596,14 +597,14 @@ pub fn follow(field: &str, value: i32) -> Result<Option<Follow>, Fault> {
     }
 }
 
-/// Shortest and longest search of a rehearsal, and that of one that does not say.
+/// Shortest, longest and default search of a rehearsal.
 const BUDGET: [Duration; 3] = [
     Duration::from_secs(1),
     Duration::from_secs(3600),
     Duration::from_secs(600),
 ];
 
-/// How long a rehearsal may search.
+/// The time for which a rehearsal may search.
 pub fn budget(field: &str, given: Option<prost_types::Duration>) -> Result<Duration, Fault> {
     let [least, most, unless] = BUDGET;
     let Some(given) = given else {
@@ -613,7 +614,7 @@ pub fn budget(field: &str, given: Option<prost_types::Duration>) -> Result<Durat
     given.ok_or_else(|| Fault::invalid(field, "must be 1 s…1 h"))
 }
 
-/// The means of following a clip and the bound of the help; values that are not given are those of `unless`.
+/// The means of following a clip and the bound of the help; missing values are those of `unless`.
 pub fn follow_settings(
     value: i32,
     most_help: Option<f64>,
@@ -696,7 +697,7 @@ pub fn forecast_out(f: &Forecast) -> pb::Forecast {
     }
 }
 
-/// A posture as clients send it: for our own client.
+/// A posture in the form in which clients send it; for our own client.
 pub fn figure_motion(
     figure: &str,
     posture: &Posture,

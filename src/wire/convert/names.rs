@@ -1,12 +1,12 @@
 //! Resource names: one style, one parser.
 //!
-//! A name is a sequence of collections and ids: `worlds/{world}/figures/{figure}`. Fields that are called after a
-//! resource hold such names, fields that end in `_id` the last part of one.
+//! A name is a sequence of collections and ids: `worlds/{world}/figures/{figure}`. Fields named after a resource hold
+//! such names, fields that end in `_id` the last part of one.
 
 use super::super::status::Fault;
 use super::shortened;
 
-/// The form of the names of one kind of resource: collections, each with what its ids stand for.
+/// The form of the names of one kind of resource: collections, each with the meaning of its ids.
 #[derive(Clone, Copy, Debug)]
 pub struct Form<const N: usize>([(&'static str, &'static str); N]);
 

@@ -14,7 +14,7 @@ const ROUND: f64 = 100.0;
 const EDGE: f64 = 1000.0;
 /// Least radius or half edge, m.
 const THIN: f64 = 0.005;
-/// Fastest, m/s and rad/s.
+/// Highest speed, m/s and rad/s.
 const FASTEST: f64 = 100.0;
 
 fn shape(field: &str, s: Option<&pb::obstacle::Shape>) -> Result<Shape, Fault> {
@@ -151,7 +151,7 @@ pub fn update(
     .taken(mask)?;
     let has = |name: &str| taken.contains(&name);
     let field = "obstacle";
-    // An obstacle has one shape: of those that are named the one that is given counts.
+    // An obstacle has one shape: if a mask names several, the one that is given counts.
     let shaped = shapes
         .iter()
         .copied()
@@ -290,7 +290,7 @@ mod tests {
             ..now.clone()
         };
         assert_eq!(only.apply(&now).unwrap(), want);
-        // Without a mask what is given counts, and is checked.
+        // Without a mask the given fields count, and are checked.
         let Err(Fault::Invalid { field, .. }) = update(&change, None) else {
             panic!("not a number was taken");
         };
@@ -301,7 +301,7 @@ mod tests {
         };
         let both = update(&given, None).unwrap().apply(&now).unwrap();
         assert_eq!(both.mobility, Mobility::Free(7.0));
-        // All of them: what is not given gets its default.
+        // All fields: missing ones get their defaults.
         let all = update(&ball(), Some(&mask(&["*"]))).unwrap();
         let moved = ObstacleSetup {
             velocity: Vec3 {

@@ -3,12 +3,12 @@
 use super::super::status::Fault;
 use xxhash_rust::xxh3::xxh3_64;
 
-/// Items of a page when the request does not say, and the most of one.
+/// Items of a page if the request does not say, and the most items of one.
 const SIZE: (usize, usize) = (100, 1000);
-/// Bytes of a token: a checksum and the key of the item before the page, in hexadecimal digits.
+/// Most bytes of a token: a checksum and the key of the item before the page, in hexadecimal digits.
 const MOST_TOKEN: usize = 2 * (8 + 512);
 
-/// The kind of a list: a token of one list is none of another.
+/// The kind of a list: a token of one list is invalid for another.
 fn checksum(list: &str, key: &str) -> [u8; 8] {
     xxh3_64(format!("{list}\0{key}").as_bytes()).to_be_bytes()
 }
@@ -32,10 +32,10 @@ fn key(list: &str, token: &str) -> Option<String> {
 }
 
 /// A page of a list that is sorted by key: the items after `page_token`, and the token of the next page. `list` names
-/// what is listed: the parent and the collection.
+/// the list: the parent and the collection.
 ///
 /// # Errors
-/// A negative size, or a token that is none of this list.
+/// A negative size, or a token that does not belong to this list.
 pub fn page<T>(
     list: &str,
     items: impl IntoIterator<Item = (String, T)>,
@@ -61,7 +61,7 @@ pub fn page<T>(
             )
         })?),
     };
-    // Items may have come and gone since the page before.
+    // Items may have been added and removed since the page before.
     let mut rest = items
         .into_iter()
         .skip_while(|(k, _)| after.as_ref().is_some_and(|after| k <= after));
@@ -91,7 +91,7 @@ mod tests {
     fn pages_continue_where_the_last_one_ended() {
         let (first, token) = page("worlds", items(5), 2, "").unwrap();
         assert_eq!(first, [0, 1]);
-        // Earlier items may be gone by now; the rest is listed all the same.
+        // Earlier items may be gone by now; the remaining ones are still listed.
         let later = items(5).into_iter().skip(2);
         assert_eq!(page("worlds", later, 3, &token).unwrap().0, [2, 3, 4]);
         let (rest, token) = page("worlds", items(5), 3, &token).unwrap();

@@ -55,7 +55,7 @@ fn second_segment(at: &dyn Fn(&str) -> String, l: &pb::Load) -> Result<SecondSeg
             "needs segment to be l_hand or r_hand",
         ));
     }
-    held_second(at, l)?; // nor is there a point
+    held_second(at, l)?; // nor is a point allowed
     Ok(when.map_or(SecondSegment::Never, SecondSegment::Helps))
 }
 
@@ -159,7 +159,7 @@ pub fn batch(list: &[pb::Perturbation]) -> Result<Vec<FigureDisturbance>, Fault>
         .collect()
 }
 
-/// Disturbances in time of a clip: when (s) and what.
+/// Disturbances in time of a clip: time (s) and disturbance.
 pub fn timed(list: &[pb::TimedPerturbation]) -> Result<Vec<(f64, Disturbance)>, Fault> {
     if list.len() > MAX_BATCH {
         return Err(Fault::invalid(
@@ -266,7 +266,7 @@ mod tests {
                 panic!("accepted");
             };
             assert_eq!(field, path);
-            // An unknown segment is answered with all that there are.
+            // The error for an unknown segment lists all segments.
             let listed = SEGMENT_NAMES.iter().all(|n| problem.contains(n));
             assert_eq!(listed, path.ends_with("segment"), "{problem}");
         }

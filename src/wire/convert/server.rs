@@ -13,12 +13,12 @@ pub fn limits(list: &[(&str, i64)]) -> Vec<pb::ServerLimit> {
         .collect()
 }
 
-/// How busy a world is.
+/// The load of a world.
 #[derive(Debug)]
 pub struct Stats<'a> {
     /// Last part of its name.
     pub world: &'a str,
-    /// Ticks, overruns, deadlines left out.
+    /// Ticks, overruns, skipped deadlines.
     pub ticks: [u64; 3],
     /// Refused requests.
     pub refused: u64,
@@ -32,7 +32,7 @@ pub struct Stats<'a> {
     pub stages: Vec<(&'a str, [f64; 3])>,
 }
 
-/// How busy a world is, for a response.
+/// The load of a world, for a response.
 pub fn stats(s: &Stats<'_>) -> pb::WorldStats {
     pb::WorldStats {
         world: WORLD.name([s.world]),

@@ -6,7 +6,7 @@ use super::super::types::{MotionSource, SimulationSettings, SimulationSummary, W
 use super::{figure, motion, or_default, perturbation, state, world};
 use sinew_physics::plan::ReadingReport;
 
-/// Where the motion of a simulation comes from.
+/// The source of the motion of a simulation.
 #[derive(Debug)]
 pub enum SimulationSource {
     /// Last part of a clip's name.

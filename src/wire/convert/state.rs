@@ -76,7 +76,7 @@ pub fn view(v: Option<&pb::View>) -> Result<ViewSpec, Fault> {
     })
 }
 
-/// Which events a viewer wants.
+/// The events that a viewer wants.
 pub fn event_filter(r: &pb::WatchEventsRequest) -> Result<EventFilter, Fault> {
     if r.types.len() > 64 {
         return Err(Fault::invalid("types", "must be at most 64"));

@@ -85,7 +85,7 @@ pub fn settings(w: Option<pb::World>) -> Result<WorldSettings, Fault> {
     })
 }
 
-/// Whether these settings could have come in a request.
+/// Whether a request could have contained these settings.
 pub fn is_pace(pace: &WorldPace) -> bool {
     let caught_up = match pace.overrun {
         Overrun::CatchUp(most) => most,
@@ -98,7 +98,7 @@ pub fn is_pace(pace: &WorldPace) -> bool {
         && (pace.idle_ttl).is_none_or(|ttl| (IDLE_TTL.0..=IDLE_TTL.1).contains(&ttl))
 }
 
-/// How long a world may be idle; `None`: for ever.
+/// Time for which a world may be idle; `None`: for ever.
 pub fn idle_ttl(
     field: &str,
     ttl: Option<&prost_types::Duration>,

@@ -1,5 +1,5 @@
-//! Goal: what the scan lets through is decoded, and takes no more than it counted. Method: messages built by hand,
-//! mutations of good ones, and the sizes of the generated types.
+//! Goal: a message that passes the scan is decoded, and takes no more memory than was counted. Method: messages built
+//! by hand, mutations of good ones, and the sizes of the generated types.
 
 use super::*;
 use crate::pb;
@@ -84,10 +84,10 @@ fn empty_elements_are_refused_where_they_become_too_many() {
         .parse()
         .unwrap();
     assert_eq!(limit, "decoded_bytes");
-    // What was counted by then is within the limit, and at least what it takes.
+    // The bytes counted until then are within the limit, and at least those really taken.
     let taken = element * size_of::<pb::FigureMotion>();
     assert!(taken <= value as usize, "{element} elements take {taken}");
-    // So are empty strings.
+    // Empty strings are counted, too.
     let names = field(3, &[1 << 3 | 2, 0].repeat(500_000));
     let refused = check::<pb::GetWorldFrameRequest>(&names).unwrap_err();
     assert!(
@@ -176,7 +176,7 @@ fn what_is_not_asked_of_the_server_is_not_looked_at() {
 }
 
 proptest! {
-    /// Bytes that are damaged, or made up, never panic; what passes is decoded.
+    /// Damaged or invented bytes never panic; bytes that pass are decoded.
     #[test]
     fn what_passes_is_decoded(
         at in 0usize..400, byte in any::<u8>(), cut in 0usize..400, made_up in prop::collection::vec(any::<u8>(), 0..64)

@@ -1,4 +1,4 @@
-//! Stored motions: how they are read, described, followed and played.
+//! Stored motions: reading, describing, following and playing them.
 
 use super::place::Place;
 use serde::{Deserialize, Serialize};
@@ -8,24 +8,24 @@ use sinew_physics::plan::ReadingReport;
 use sinew_physics::rehearsal::follow::{Follow, FollowWay, MOST_HELP};
 use std::sync::Arc;
 
-/// How a clip is played.
+/// The manner of playing a clip.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Playback {
     /// Speed factor.
     pub speed: f64,
-    /// Repeat.
+    /// Whether it repeats.
     pub looped: bool,
     /// World time of the start, s; `None`: the next tick.
     pub start: Option<f64>,
-    /// Put the figure into the first posture.
+    /// Whether to put the figure into the first posture.
     pub reset: bool,
-    /// Where the clip begins; `None`: where the figure is.
+    /// Place at which the clip begins; `None`: the place of the figure.
     pub place: Option<Place>,
-    /// Most help while it is being lost, body weights.
+    /// Most help while the motion is being lost, body weights.
     pub max_help: f64,
 }
 
-/// How a BVH file is read; `None` leaves the choice to the reader.
+/// The reading options of a BVH file; `None` leaves the choice to the reader.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BvhReading {
     /// Length of a file unit, m.
@@ -34,17 +34,17 @@ pub struct BvhReading {
     pub z_up: Option<bool>,
     /// Frames per second.
     pub rate_hz: Option<f64>,
-    /// Put the feet on the floor.
+    /// Whether to put the feet on the floor.
     pub floor: Option<bool>,
-    /// Keep planted feet from sliding.
+    /// Whether to keep planted feet from sliding.
     pub lock_feet: Option<bool>,
     /// Low-pass corner, Hz.
     pub cutoff_hz: Option<f64>,
-    /// Walk what the recording runs.
+    /// Whether to walk where the recording runs.
     pub walk_runs: Option<bool>,
 }
 
-/// Where a motion comes from.
+/// The source of a motion.
 #[derive(Clone, Debug)]
 pub enum MotionSource {
     /// Bytes of a BVH file.
@@ -55,23 +55,23 @@ pub enum MotionSource {
         rate_hz: f64,
         /// At least two.
         postures: Vec<Posture>,
-        /// Which feet are planted, one per posture; empty: decided from height and speed.
+        /// The planted feet, one entry per posture; empty: decided from height and speed.
         planted: Vec<[bool; 2]>,
     },
 }
 
-/// A stored motion as it is described to clients.
+/// The description of a stored motion for clients.
 #[derive(Clone, Debug)]
 pub struct ClipInfo {
     /// Last part of its name.
     pub id: String,
     /// Name for people.
     pub display_name: String,
-    /// Comes with the server.
+    /// Whether it is built in.
     pub builtin: bool,
-    /// Its owner; `None`: everybody.
+    /// Its owner; `None`: it belongs to all callers.
     pub owner: Option<Arc<str>>,
-    /// Last part of the name of the body it was prepared for.
+    /// Last part of the name of the body for which it was prepared.
     pub body: String,
     /// Frames per second.
     pub rate_hz: f64,
@@ -79,11 +79,11 @@ pub struct ClipInfo {
     pub frames: usize,
     /// Length, s.
     pub duration: f64,
-    /// How the file was understood.
+    /// The reading report of its file.
     pub report: Option<Arc<ReadingReport>>,
-    /// When it was stored.
+    /// Creation time.
     pub created: Option<std::time::SystemTime>,
-    /// The forecast of how it is followed.
+    /// The forecast of how well it is followed.
     pub forecast: Option<Arc<Forecast>>,
     /// The means that a figure may use to follow it.
     pub follow: FollowSettings,
@@ -112,9 +112,9 @@ impl Default for FollowSettings {
 pub struct RehearsalInfo {
     /// The way in which the figure follows the clip.
     pub way: FollowWay,
-    /// Why not in an easier one.
+    /// Reason why no easier way was possible.
     pub reason: String,
-    /// When it is lost, s.
+    /// Time at which it is lost, s.
     pub lost_at: Option<f64>,
     /// Mean distance of the segments from the recording in the world, and with both pelvis origins in one place, m.
     pub error: [f64; 2],
@@ -122,6 +122,6 @@ pub struct RehearsalInfo {
     pub help: [f64; 4],
     /// The DOF that uses most of its strength, and that share.
     pub hardest: (String, f64),
-    /// The budget stopped the search.
+    /// Whether the budget stopped the search.
     pub stopped: bool,
 }

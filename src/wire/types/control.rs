@@ -1,75 +1,75 @@
-//! Who controls a figure.
+//! Control of figures.
 
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Who wants to control a figure, and by which tokens.
+/// A principal that wants to control a figure, and its tokens.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ControlKey {
-    /// Who.
+    /// The principal.
     pub principal: Arc<str>,
     /// Tokens of leases.
     pub tokens: Vec<String>,
 }
 
-/// How a lease is wanted.
+/// The request for a lease.
 #[derive(Clone, Debug)]
 pub struct Acquire {
     /// Token of a new lease.
     pub token: String,
     /// Priority.
     pub priority: i32,
-    /// How long it is kept unused.
+    /// Time for which an unused lease is kept.
     pub grace: Duration,
-    /// Who wants it is known, not anonymous.
+    /// Whether the principal is known, not anonymous.
     pub known: bool,
 }
 
-/// How a lease is offered.
+/// The offer of a lease.
 #[derive(Clone, Debug)]
 pub struct Transfer {
-    /// To whom; `None`: to who has the token.
+    /// The principal that may accept it; `None`: any with the token.
     pub to: Option<Arc<str>>,
     /// Token of the offer.
     pub token: String,
-    /// How long the figure goes over, s.
+    /// Time over which the figure changes to the new motion, s.
     pub blend: f64,
-    /// How long it stands.
+    /// Time for which the offer stands.
     pub lasts: Duration,
 }
 
 /// SHA-256 of a secret.
 pub type TokenHash = [u8; 32];
 
-/// A lease as it outlives the server.
+/// The part of a lease that outlives the server.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptLease {
-    /// Who has it.
+    /// The holder.
     pub holder: Arc<str>,
     /// The hash of its secret.
     pub token: TokenHash,
     /// Its priority.
     pub priority: i32,
-    /// How long it is kept unused.
+    /// Time for which it is kept unused.
     pub grace: Duration,
 }
 
-/// Who controls a figure.
+/// The control of a figure.
 #[derive(Clone, Debug, Default)]
 pub struct ControlInfo {
     /// Last part of the figure's name.
     pub figure: String,
-    /// Who; `None`: nobody.
+    /// The holder; `None`: none.
     pub holder: Option<Arc<str>>,
-    /// How often that changed.
+    /// The number of changes of control.
     pub epoch: i64,
     /// Priority.
     pub priority: i32,
-    /// When it ends; `None`: not as long as it is used.
+    /// Remaining time; `None`: no end while it is used.
     pub expires_in: Option<Duration>,
-    /// It came with a drive.
+    /// Whether it came with a drive.
     pub implicit: bool,
-    /// To whom it is offered.
+    /// The principal to which it is offered.
     pub offered_to: Option<Arc<str>>,
     /// The part of it that outlives the server. Not for clients.
     pub kept: Option<KeptLease>,

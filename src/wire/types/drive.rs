@@ -1,4 +1,4 @@
-//! Desired motion as it is streamed, and how the jitter buffer answers.
+//! Desired motion as it is streamed, and the answers of the jitter buffer.
 
 use super::control::ControlKey;
 use serde::{Deserialize, Serialize};
@@ -12,29 +12,29 @@ pub const MAX_DRIVEN_FIGURES: usize = 64;
 pub enum Delay {
     /// Always this many seconds.
     Fixed(f64),
-    /// As the arrival jitter needs, at most this many seconds.
+    /// As long as the arrival jitter requires, at most this many seconds.
     Adaptive {
         /// Largest delay, s.
         most: f64,
     },
 }
 
-/// How a drive answers when frames are late, and how long it lasts.
+/// How a drive handles late frames, and how long it lasts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DriveSettings {
     /// Expected frames per second.
     pub rate_hz: f64,
     /// Delay between arrival and use.
     pub delay: Delay,
-    /// How long the last velocity is continued, s; 0 holds at once.
+    /// Time for which the last velocity is continued, s; 0 holds at once.
     pub extrapolation: f64,
-    /// How long the last posture is held before relaxing, s.
+    /// Time for which the last posture is held before relaxing, s.
     pub hold: f64,
-    /// How long the figures are kept without a connection or push, s.
+    /// Time for which the figures are kept without a connection or push, s.
     pub grace: f64,
-    /// Put each figure into its first desired posture.
+    /// Whether to put each figure into its first desired posture.
     pub reset: bool,
-    /// Window in which motion is prepared, s; 0: frames are used as they come; `None`: as the server is set.
+    /// Window in which motion is prepared, s; 0: frames are used as they come; `None`: the server's setting.
     pub window: Option<f64>,
 }
 
@@ -45,9 +45,9 @@ pub struct DriveOpen {
     pub world: String,
     /// Last parts of the figures' names.
     pub figures: Vec<String>,
-    /// Who drives; empty: the server chooses.
+    /// Name of the driver; empty: the server chooses.
     pub driver: String,
-    /// The driver, and its leases.
+    /// The principal that drives, and the tokens of its leases.
     pub who: ControlKey,
     /// Settings.
     pub settings: DriveSettings,
@@ -58,13 +58,13 @@ pub struct DriveOpen {
 pub struct FigureSample {
     /// Position in the drive's list of figures.
     pub slot: usize,
-    /// Desired posture. Without `has_root` its pelvis pose means nothing.
+    /// Desired posture. Without `has_root` its pelvis pose is meaningless.
     pub posture: Posture,
     /// Whether the sender gave the pelvis pose.
     pub has_root: bool,
     /// Desired velocity, layout of `State::velocity`.
     pub velocity: Option<Box<[f64; NV]>>,
-    /// Which feet are planted.
+    /// The planted feet.
     pub planted: Option<[bool; 2]>,
 }
 
@@ -79,13 +79,13 @@ pub struct MotionSample {
     pub figures: Vec<FigureSample>,
 }
 
-/// How the jitter buffer answered.
+/// The kind of an answer of the jitter buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Supply {
-    /// Nothing was asked yet.
+    /// No request yet.
     #[default]
     None,
-    /// A frame exactly at the wanted time.
+    /// A frame exactly at the requested time.
     Present,
     /// Between two frames.
     Interpolated,
@@ -104,11 +104,11 @@ pub enum Supply {
 pub struct FigureFeedback {
     /// Last part of the figure's name.
     pub figure: String,
-    /// Sequence of the newest frame that acts; −1 if none.
+    /// Sequence of the newest frame in use; −1 if none.
     pub applied_sequence: i64,
-    /// Source time that acts, ns.
+    /// Source time in use, ns.
     pub applied_source_ns: i64,
-    /// Motion held but not used, s.
+    /// Duration of the motion held but not used, s.
     pub buffered: f64,
     /// Present delay, s.
     pub delay: f64,
@@ -116,17 +116,17 @@ pub struct FigureFeedback {
     pub jitter: f64,
     /// Last answer.
     pub supply: Supply,
-    /// Ticks by answer: present, interpolated, extrapolated, held, relaxed.
+    /// Ticks by kind of answer: present, interpolated, extrapolated, held, relaxed.
     pub ticks: [u64; 5],
-    /// Frames too late to act.
+    /// Frames too late to be used.
     pub late: u64,
-    /// Frames not newer than what was there.
+    /// Frames not newer than the newest one held.
     pub stale: u64,
     /// Frames dropped for want of room.
     pub overflow: u64,
     /// Times that the stream restarted.
     pub resyncs: u64,
-    /// How far it is behind because its world leaves ticks out, s; contained in the delay.
+    /// How far it is behind because its world skips ticks, s; contained in the delay.
     pub behind: f64,
     /// Window in which motion is prepared, s; contained in the delay.
     pub window: f64,
@@ -135,7 +135,7 @@ pub struct FigureFeedback {
 /// State of a drive.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Feedback {
-    /// Who drives.
+    /// Name of the driver.
     pub driver: String,
     /// Tick of the world.
     pub tick: u64,

@@ -8,12 +8,12 @@ use sinew_physics::figure::{
 };
 use sinew_physics::math::{Quat, Vec3};
 
-/// Which body: a name that says its profile, see [`crate::convert::body`].
+/// The body, by a name that states its profile; see [`crate::convert::body`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyRef {
     /// Last part of the name.
     pub id: String,
-    /// Who it stands for.
+    /// The person that it represents.
     pub profile: Profile,
 }
 
@@ -34,13 +34,13 @@ pub struct FigureSettings {
     pub params: ControlParams,
     /// Fatigue, assist and help.
     pub options: FigureOptions,
-    /// Where it stands.
+    /// Its place at the start.
     pub place: Place,
     /// Constraints from the start.
     pub constraints: Vec<ConstraintSettings>,
 }
 
-/// Where a part of a figure is wanted.
+/// The desired place of a part of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ConstraintSettings {
     /// Segment and point, segment frame; no point: the middle of a hand, else the centre of mass. `None`: the figure's
@@ -48,15 +48,15 @@ pub struct ConstraintSettings {
     pub on: Option<(SegmentId, Option<Vec3>)>,
     /// Wanted position, world, m.
     pub position: Option<Vec3>,
-    /// How much each axis counts, 0…1.
+    /// Weight of each axis, 0…1.
     pub axes: [f64; 3],
     /// Wanted rotation, `world_from_segment`.
     pub rotation: Option<Quat>,
-    /// How much it counts, 0…1.
+    /// Weight of the rotation, 0…1.
     pub weight: f64,
-    /// Time to come and to go, s.
+    /// Time over which it begins and ends, s.
     pub ease: f64,
-    /// How long, s; infinite until it is taken off.
+    /// Duration, s; infinite until it is removed.
     pub duration: f64,
 }
 
@@ -77,7 +77,7 @@ pub struct FigureInfo {
     pub driver: Option<String>,
     /// Index in frames.
     pub index: i32,
-    /// Constraints that hold, with the time that they have left.
+    /// Active constraints, with their remaining time.
     pub constraints: Vec<ConstraintSettings>,
     /// How it follows its motion, as of the last tick.
     pub follows: Follows,
@@ -86,13 +86,13 @@ pub struct FigureInfo {
 /// How a figure follows its motion, with the help that it may get.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Follows {
-    /// The way, and the help that it took.
+    /// The way of following, and the help taken.
     pub so_far: Following,
-    /// Largest force of the help over the weight if the motion is being lost; 0: none.
+    /// Largest force of the help over the weight while the motion is being lost; 0: none.
     pub most_help: f64,
 }
 
-/// Changes of a figure; `None` leaves a setting as it is.
+/// Changes of a figure; `None` leaves a setting unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FigureUpdate {
     /// Name for people.
@@ -109,7 +109,7 @@ pub struct FigureUpdate {
     pub assist: Option<f64>,
     /// Most help while its motion is being lost, body weights.
     pub max_help: Option<f64>,
-    /// Whether the body meets itself.
+    /// Whether the body collides with itself.
     pub self_contact: Option<bool>,
     /// All constraints.
     pub constraints: Option<Vec<ConstraintSettings>>,
@@ -118,7 +118,7 @@ pub struct FigureUpdate {
 }
 
 impl FigureUpdate {
-    /// The options that it makes of those that a figure has.
+    /// The options of a figure after this update.
     pub fn options(&self, now: FigureOptions) -> FigureOptions {
         FigureOptions {
             fatigue_time_scale: self.fatigue_time_scale.unwrap_or(now.fatigue_time_scale),
@@ -128,11 +128,11 @@ impl FigureUpdate {
         }
     }
 
-    /// The settings that it makes of those that a figure has.
+    /// The settings of a figure after this update.
     #[must_use]
     pub fn applied(self, now: FigureSettings) -> FigureSettings {
         let options = self.options(now.options);
-        // Whether a figure steps is no choice of the paper's controller.
+        // The paper's controller has no choice of stepping.
         let params = ControlParams {
             protective_steps: self.protective_steps.unwrap_or(now.params.protective_steps),
             ..self.params.unwrap_or(now.params)

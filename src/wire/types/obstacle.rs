@@ -1,29 +1,29 @@
-//! Obstacles and what changes of them.
+//! Obstacles and their changes.
 
 use crate::status::Fault;
 use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
 use sinew_physics::math::{Quat, Vec3};
 
-/// How an obstacle moves, without its mass.
+/// The mobility of an obstacle, without its mass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ObstacleMobility {
     /// Not at all.
     Fixed,
-    /// With its velocity.
+    /// It moves with its given velocity.
     Led,
-    /// As a rigid body.
+    /// It moves as a rigid body.
     Free,
 }
 
-/// Why a plane is not free.
+/// Reason why a plane cannot be free.
 pub const FREE_PLANE: &str = "a plane cannot move freely";
 
-/// Changes of an obstacle; `None` leaves what it has at that tick.
+/// Changes of an obstacle; `None` leaves the value that it has at that tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ObstacleUpdate {
     /// Shape.
     pub shape: Option<Shape>,
-    /// How it moves.
+    /// Mobility.
     pub mobility: Option<ObstacleMobility>,
     /// Mass of a free one, kg.
     pub mass: Option<f64>,
@@ -38,7 +38,7 @@ pub struct ObstacleUpdate {
 }
 
 impl ObstacleUpdate {
-    /// The obstacle as it is to be.
+    /// The obstacle after the update.
     ///
     /// # Errors
     /// A free plane, or a free obstacle without mass.
@@ -79,7 +79,7 @@ impl ObstacleUpdate {
 pub struct ObstacleInfo {
     /// Last part of its name.
     pub id: String,
-    /// Counts up from obstacle to obstacle of a world.
+    /// Its number; numbers count up in a world.
     pub number: u64,
     /// Its setup, with its present pose and velocity.
     pub setup: ObstacleSetup,

@@ -8,9 +8,9 @@ use sinew_physics::math::Vec3;
 /// The second holder of a load. In bytes, the first two are an option.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum SecondSegment {
-    /// Nothing.
+    /// None.
     Never,
-    /// Another segment from the beginning on, at a point as for the first.
+    /// Another segment from the beginning, at a point as for the first.
     Holds(SegmentId, Option<Vec3>),
     /// The other hand reaches for it.
     Helps(SecondHand),
@@ -23,7 +23,7 @@ pub enum Disturbance {
     Load {
         /// Carrying segment.
         segment: SegmentId,
-        /// Where, segment frame; `None`: the tip of hands and feet, else the centre of mass.
+        /// Point, segment frame; `None`: the tip of hands and feet, else the centre of mass.
         point: Option<Vec3>,
         /// Mass, kg.
         mass: f64,
@@ -31,20 +31,20 @@ pub enum Disturbance {
         velocity: Vec3,
         /// The second holder.
         second: SecondSegment,
-        /// Force at one hand beyond which it is lost, N.
+        /// Force at one hand beyond which the load is lost, N.
         grip: f64,
-        /// How long, s; infinite until cleared.
+        /// Duration, s; infinite until cleared.
         duration: f64,
     },
-    /// A force, N, world axes. An impulse is the force that gives it over its duration.
+    /// A force, N, world axes. An impulse is the force that produces it over its duration.
     Force {
         /// Pushed segment.
         segment: SegmentId,
-        /// Where, segment frame; `None`: the centre of mass.
+        /// Point, segment frame; `None`: the centre of mass.
         point: Option<Vec3>,
         /// Force, N.
         force: Vec3,
-        /// How long, s; infinite until cleared.
+        /// Duration, s; infinite until cleared.
         duration: f64,
     },
 }

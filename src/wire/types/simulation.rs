@@ -13,13 +13,13 @@ pub struct SimulationSettings {
     pub rate_hz: f64,
     /// Substeps per tick.
     pub substeps: u32,
-    /// How long, s; `None`: the length of the clip.
+    /// Duration, s; `None`: the length of the clip.
     pub duration: Option<f64>,
-    /// Repeat the clip.
+    /// Whether to repeat the clip.
     pub looped: bool,
     /// Disturbances by time, s.
     pub disturbances: Vec<(f64, Disturbance)>,
-    /// Frames wanted.
+    /// Requested frames.
     pub view: Option<ViewSpec>,
 }
 
@@ -30,7 +30,7 @@ pub struct SimulationSummary {
     pub ticks: u64,
     /// Ticks per second.
     pub rate_hz: f64,
-    /// When the figure fell, s.
+    /// Time at which the figure fell, s.
     pub fell_at: Option<f64>,
     /// Root mean square of the joint angle errors against the target that moves along with the feet, rad.
     pub tracking_joint_rms: f64,
@@ -38,7 +38,7 @@ pub struct SimulationSummary {
     pub tracking_joint_max: f64,
     /// Largest torque relative to the torque available.
     pub utilisation: f64,
-    /// Largest violation of the strength.
+    /// Largest excess over the strength.
     pub over_limit: f64,
     /// Time at the limit per DOF, s.
     pub saturated: Vec<f64>,

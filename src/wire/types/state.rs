@@ -1,4 +1,4 @@
-//! Views of a world: snapshots, events, and the selection that a viewer asks for.
+//! Views of a world: snapshots, events, and the selection of a viewer.
 
 use super::figure::Follows;
 use super::obstacle::ObstacleInfo;
@@ -8,7 +8,7 @@ use sinew_physics::math::Vec3;
 use sinew_physics::motion::Target;
 use std::sync::Arc;
 
-/// How numbers are written.
+/// The format of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NumberFormat {
     /// 32-bit floating point.
@@ -32,7 +32,7 @@ pub struct ViewSpec {
     pub fields: FieldSet,
     /// Number format.
     pub format: NumberFormat,
-    /// One frame for every so many ticks.
+    /// Ticks per frame.
     pub divisor: u32,
 }
 
@@ -68,11 +68,11 @@ pub struct Snapshot {
     pub server_ns: i64,
     /// Version of the roster.
     pub roster_version: i32,
-    /// Who is who; same order as `figures`.
+    /// The figures by index; same order as `figures`.
     pub roster: Arc<[RosterEntry]>,
     /// Figures, in the order of creation.
     pub figures: Vec<FigureSnapshot>,
-    /// Obstacles, in the order they were added.
+    /// Obstacles, in the order in which they were added.
     pub obstacles: Vec<ObstacleInfo>,
 }
 
@@ -87,7 +87,7 @@ pub struct FigureSnapshot {
     pub report: Option<TickReport>,
     /// The target at the end of the tick.
     pub desired: Target,
-    /// Sequence of the desired-motion frame that acts; −1 if not driven live.
+    /// Sequence of the desired-motion frame in use; −1 if not driven live.
     pub applied_sequence: i64,
     /// Its source time, ns.
     pub applied_source_ns: i64,
@@ -112,7 +112,7 @@ pub enum EventKind {
     Relieved(usize),
     /// Balance was lost.
     BalanceLost,
-    /// Balance was found again.
+    /// Balance was regained.
     Recovered,
     /// The figure fell.
     Fell,
@@ -124,10 +124,10 @@ pub enum EventKind {
     LoadDropped(SegmentId, f64),
     /// A load slipped from the hand: segment, kg.
     LoadSlipped(SegmentId, f64),
-    /// The other hand took hold of a load too: segment, kg, that hand, share of its strength that the arm needs alone
-    /// and with help.
+    /// The other hand took hold of a load too: segment, kg, that hand, and the share of its strength that the arm needs
+    /// alone and with help.
     LoadShared(SegmentId, f64, SegmentId, [f64; 2]),
-    /// It let go: the same.
+    /// The other hand let go: the same values.
     LoadUnshared(SegmentId, f64, SegmentId, [f64; 2]),
     /// A push was accepted: segment, N·s.
     Pushed(SegmentId, f64),
@@ -135,7 +135,7 @@ pub enum EventKind {
     Touched(SegmentId, String, Option<SegmentId>),
     /// A segment no longer touches it.
     Parted(SegmentId, String, Option<SegmentId>),
-    /// Something is in the way of its steps: the figure broke off what it did.
+    /// An obstacle is in the way of its steps, so the figure broke off its motion.
     WayBarred,
     /// The figure is frozen at its last good state.
     Quarantined,
@@ -149,19 +149,19 @@ pub enum EventKind {
     FigureRemoved,
     /// A driver took the figure.
     DriveBegan(String),
-    /// A driver no longer has the figure: driver, why.
+    /// A driver no longer has the figure: driver and reason.
     DriveEnded(String),
     /// The stream of a drive restarted: driver and reason.
     DriveResynced(String),
-    /// A lease began: holder, and from whom.
+    /// A lease began: holder, and previous holder.
     ControlAcquired(String),
-    /// A lease ended: holder, why.
+    /// A lease ended: holder and reason.
     ControlReleased(String),
-    /// A lease was taken by higher priority: by whom, from whom.
+    /// A lease was taken by one of higher priority: new and previous holder.
     ControlPreempted(String),
-    /// A lease is offered: by whom, to whom.
+    /// A lease is offered: the holder and the receiver.
     ControlOffered(String),
-    /// Someone was refused: who, which call.
+    /// A caller was refused: caller and call.
     AccessRefused(String),
     /// The world was paused.
     Paused,
@@ -169,20 +169,20 @@ pub enum EventKind {
     Restored(u64),
     /// The world was resumed.
     Resumed,
-    /// The world failed: why.
+    /// The world failed: reason.
     Failed(String),
-    /// The world was deleted: by whom, or why.
+    /// The world was deleted: caller or reason.
     Deleted(String),
     /// A clip of this id began to play.
     ClipBegan(String),
-    /// A clip of this id is over, or was ended.
+    /// A clip of this id ended, or was ended.
     ClipEnded(String),
 }
 
 /// One event.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorldEvent {
-    /// Tick after which it was true.
+    /// Tick after which it happened.
     pub tick: u64,
     /// World time, s.
     pub time: f64,
@@ -192,7 +192,7 @@ pub struct WorldEvent {
     pub kind: EventKind,
 }
 
-/// Which events a viewer wants.
+/// The events that a viewer wants.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EventFilter {
     /// Last parts of figure names; empty: all, and events of the world.

@@ -5,12 +5,12 @@ use super::figure::FigureInfo;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
-/// How the clock treats a tick that takes longer than its period.
+/// The handling of a tick that takes longer than its period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Overrun {
-    /// Leaves out the deadlines that were missed.
+    /// Skips the missed deadlines.
     Skip,
-    /// Computes up to this many missed ticks back to back, then leaves out the rest.
+    /// Computes up to this many missed ticks back to back, then skips the rest.
     CatchUp(u32),
     /// World time runs slower.
     Dilate,
@@ -23,11 +23,11 @@ pub struct WorldPace {
     pub display_name: String,
     /// Overrun policy.
     pub overrun: Overrun,
-    /// Catch-up limit as it was set; used by `Overrun::CatchUp`.
+    /// Catch-up limit as set; used by `Overrun::CatchUp`.
     pub catch_up_limit: u32,
     /// World seconds per wall second.
     pub speed: f64,
-    /// How long the world may be idle before it is deleted; `None`: for ever.
+    /// Time for which the world may be idle before it is deleted; `None`: for ever.
     pub idle_ttl: Option<Duration>,
 }
 
@@ -42,7 +42,7 @@ pub struct WorldSettings {
     pub gravity: f64,
     /// Friction of the ground.
     pub friction: f64,
-    /// Figures and obstacles touch each other.
+    /// Whether figures and obstacles touch each other.
     pub collisions: bool,
     /// The settings that may change later.
     pub pace: WorldPace,
@@ -55,7 +55,7 @@ pub enum WorldCondition {
     Running,
     /// Its clock is stopped.
     Paused,
-    /// A step ended abnormally: why.
+    /// A step ended abnormally: reason.
     Failed(String),
 }
 
@@ -76,11 +76,11 @@ pub struct WorldInfo {
     pub figures: usize,
     /// Epoch.
     pub epoch: i32,
-    /// When it was created.
+    /// Creation time.
     pub created: std::time::SystemTime,
 }
 
-/// Changes of a world; `None` leaves a setting as it is.
+/// Changes of a world; `None` leaves a setting unchanged.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorldUpdate {
     /// Name for people.
@@ -91,12 +91,12 @@ pub struct WorldUpdate {
     pub catch_up_limit: Option<u32>,
     /// Speed.
     pub speed: Option<f64>,
-    /// How long it may be idle; `Some(None)`: for ever.
+    /// Time for which it may be idle; `Some(None)`: for ever.
     pub idle_ttl: Option<Option<Duration>>,
 }
 
 impl WorldUpdate {
-    /// Changes the settings that it holds.
+    /// Applies the changes to these settings.
     pub fn apply(self, pace: &mut WorldPace) {
         if let Some(name) = self.display_name {
             pace.display_name = name;
@@ -119,7 +119,7 @@ impl WorldUpdate {
     }
 }
 
-/// A world with its figures, as clients may ask for them at any time.
+/// A world with its figures, ready for clients that ask at any time.
 #[derive(Clone, Debug)]
 pub struct Described {
     /// The world; its tick and time are those of the last change.

@@ -4,7 +4,7 @@
 //! There is one file per kind of attack: `net_…` sends bytes, connections and requests meant to exhaust the server;
 //! `tick_…` takes shared resources: ticks, workers, places. `cargo test --test command abuse` runs the short form,
 //! `tests/abuse/run.sh` the long one.
-#![cfg(target_os = "linux")] // limits of a process and its memory as Linux tells them
+#![cfg(target_os = "linux")] // limits and memory of a process in the way of Linux
 
 mod harness;
 mod net_http2;

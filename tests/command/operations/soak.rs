@@ -236,7 +236,7 @@ async fn a_server_that_is_used_without_end_holds_no_more() {
         let mean = values().sum::<f64>() / steady.len().max(1) as f64;
         let grown = trend(&steady) * length;
         let bound = (part * mean).max(least);
-        // The four parts of that time tell a trend that ends from one that does not.
+        // The four parts of that time distinguish a trend that ends from one that does not.
         let part = steady.len().div_ceil(4).max(1);
         let parts: String = steady
             .chunks(part)

@@ -98,7 +98,7 @@ async fn a_token_says_who_someone_is_and_without_one_nobody_is_served() {
         refusal(&e),
         (Code::Unauthenticated, "CREDENTIALS_REQUIRED".into())
     );
-    // Without TLS there is nothing at all.
+    // Without TLS there is no answer at all.
     if let Ok(plain) = Client::connect(&server.address.to_string()).await {
         assert!(plain.serves().await.is_err());
     }
@@ -155,7 +155,7 @@ async fn tokens_that_prove_nothing_are_refused() {
     ] {
         assert_eq!(refused(&server, token.clone()).await, reason, "{token:.60}");
     }
-    // The algorithm is not for the token to choose.
+    // A token must not choose the algorithm.
     let part = |v: Value| base64url(v.to_string().as_bytes());
     let none = format!(
         "{}.{}.",

@@ -46,7 +46,7 @@ impl Decoder for Raw {
     }
 }
 
-/// Fills the names of a request, so that it means something in this world.
+/// Fills the names of a request so that they exist in this world.
 fn name_things(message: &mut DynamicMessage, method: &str, world: &str) {
     let kind = [
         "Figure",
@@ -222,7 +222,7 @@ async fn lists_show_what_one_may_see_and_a_name_is_no_more_than_a_guess() {
     let other = world(&b, "studio-b-stage", true).await;
     assert_eq!(names(&a).await, [&*stage]);
     assert_eq!(names(&b).await, [&*other]);
-    // A name outside of the token, one that the server would choose, and one of the other studio.
+    // A name outside the token, a name that the server would choose, and a name of the other studio.
     for id in ["studio-b-mine", "", "lobby"] {
         let request = pb::CreateWorldRequest {
             world_id: id.into(),

@@ -1,7 +1,7 @@
 //! Goal: no bytes from outside can crash anything. Method: arbitrary bytes, and damaged valid ones, are given to all
 //! code that reads bytes: requests of every call of the protos, BVH, checkpoints, files of the store.
 //!
-//! `SINEW_FUZZ_CASES` says how many of each; docs/testing.md has the command.
+//! `SINEW_FUZZ_CASES` sets the number of each; docs/testing.md has the command.
 
 mod bytes;
 mod edit;

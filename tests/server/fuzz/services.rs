@@ -35,7 +35,7 @@ struct Services {
     _stop: tokio::sync::watch::Sender<bool>,
 }
 
-/// How a call ended: its code, and whether an error said why.
+/// Result of a call: its code, and whether an error gave a reason.
 type Outcome = Option<(Code, bool)>;
 
 impl Services {

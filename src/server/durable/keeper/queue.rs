@@ -19,7 +19,7 @@ pub struct KeeperSizes {
     pub retention: Retention,
 }
 
-/// Times of losses of one world that are remembered for those who still wait to learn what was lost.
+/// Times of losses of one world that are remembered for callers that are still waiting to learn of them.
 const MAX_LOSSES: usize = 16;
 
 /// Reason for the loss of entries that were handed in at the end.

@@ -1,50 +1,51 @@
-//! Where one stream goes on as another one would.
+//! Joins one stream to another at a moment where they are alike.
 //!
 //! Two drivers of the same walk are never quite in phase: their clocks, networks and delays differ. A figure that is
 //! handed over is in mid-step, and a jump in the phase of its step would cost it its balance. So the second stream is
-//! searched for the moment that is most like the one at which the first one is left, in their postures and their rates.
-//! It is taken up there, a little older or newer than its delay has it, and makes up for that slowly.
+//! searched for the moment that is most like the one at which the first is left, in posture and rates. It is joined
+//! there, a little older or newer than its delay asks for, and slowly makes up for the difference.
 
 use super::{JitterBuffer, Supply};
 use sinew_physics::body::Posture;
 use sinew_physics::plan::likeness;
 
-/// Most that is played older than its delay has it, s: a stride, so that there is a like moment in every walk. Two
-/// hundredths of time make up for it.
+/// Largest amount by which the joining motion may be older than its delay asks for, s: a stride, so that every walk
+/// contains a like moment. It is made up for by two hundredths of time.
 const MOST_OLDER: f64 = 1.2;
-/// Share of what has come ahead of its time that may be used up.
+/// Share of the motion that has arrived early that may be used up.
 const MOST_NEWER: f64 = 0.75;
-/// A like moment is waited for so long after the second stream has begun, s: a stride and its neighbours.
+/// Time after the beginning of the second stream for which a like moment is awaited, s: a stride and its neighbours.
 const PATIENCE: f64 = 1.5;
-/// Moments that are compared for each sample of the grid: between them the best is interpolated.
+/// Moments compared for each sample of the grid; the best one is interpolated between them.
 const MOMENTS: i64 = 1;
 
-/// How a stream goes on from another one in a tick.
+/// How a stream can continue from another one in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StreamSeam {
-    /// Not yet: what is more like it may still come.
+    /// Not yet: a better match may still arrive.
     Later,
     /// Here.
     Here(StreamStart),
-    /// There is nothing like it.
+    /// There is no like moment.
     Nowhere,
 }
 
-/// Where a stream is taken up.
+/// The place where a stream is joined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StreamStart {
-    /// How much later than what would be due, s.
+    /// How much later than the time that is due, s.
     later: f64,
-    /// Newest playout time that the window has, s, and its next sample: of the other stream, as this one counts.
+    /// Newest playout time that the window has, s, and its next sample: those of the other stream, in the times of this
+    /// one.
     head: f64,
     next: i64,
-    /// Offset of its times, s, so that its grid is that of the other stream.
+    /// Offset of its times, s, so that its grid matches that of the other stream.
     renamed: f64,
 }
 
 impl JitterBuffer {
-    /// Where this stream, of which playout time `p` (s) is due, goes on as `before` would, whose samples on a grid of
-    /// `rate` per second a window holds.
+    /// Finds the place at which this stream, of which playout time `p` (s) is due, can continue `before`. A window
+    /// holds the samples of `before` on a grid of `rate` per second.
     pub fn seam(&self, p: f64, before: &Self, rate: f64) -> StreamSeam {
         let (Some(head), Some(newest)) = (before.grid.head, self.frames.back()) else {
             return StreamSeam::Nowhere;
@@ -61,12 +62,12 @@ impl JitterBuffer {
             return StreamSeam::Nowhere;
         }
         let last = last.map(|a| a.target.posture);
-        // The next sample of the grid is so far ahead of what is due.
+        // How far the next sample of the grid is ahead of the time that is due.
         let ahead = next as f64 / rate - (head + self.tick);
         let stride = 1.0 / (rate * MOMENTS as f64);
         let room = (self.seconds(newest) - p - ahead).max(0.0);
         let first = ((3.0 / rate - p - ahead).max(-MOST_OLDER) / stride).ceil() as i64;
-        // A driver may announce times far ahead: they are no more to be looked through than those behind.
+        // A driver may announce times far ahead; no more of them are searched than of those behind.
         let ahead_of_delay = (MOST_NEWER * room).min(MOST_OLDER);
         let end = (ahead_of_delay / stride).floor() as i64;
         let waits = p < PATIENCE;
@@ -88,7 +89,7 @@ impl JitterBuffer {
         let Some(i) = best.filter(|i| costs[*i].1) else {
             return otherwise;
         };
-        // At an end of what is there, a better one may come.
+        // The best match is at an end of the range, so a better one may still come.
         let between = match (
             i.checked_sub(1).and_then(|b| costs.get(b)),
             costs.get(i + 1),
@@ -106,7 +107,7 @@ impl JitterBuffer {
         };
         let later = ((first + i as i64) as f64 + between) * stride;
         let due = p + later;
-        // The grids have one phase after this.
+        // From here on both grids have the same phase.
         let samples = ((due - head - self.tick) * rate).round();
         let named = head + self.tick + samples / rate;
         StreamSeam::Here(StreamStart {
@@ -117,7 +118,7 @@ impl JitterBuffer {
         })
     }
 
-    /// Goes on from another stream at a seam of this tick.
+    /// Continues from another stream at a seam of this tick.
     pub fn enter(&mut self, entry: StreamStart) {
         self.pace.shift(entry.later, entry.renamed, &self.settings);
         self.grid.head = Some(entry.head);
@@ -141,7 +142,7 @@ mod tests {
     /// Ticks that are no multiple of samples.
     const TICK: f64 = 1.0 / 75.0;
 
-    /// Somebody whose knees and hips swing while he moves on, at time `t` (s) of his motion.
+    /// A figure whose knees and hips swing while it moves on, at time `t` (s) of its motion.
     fn motion(t: f64) -> Posture {
         let mut p = Posture::default();
         p.root_position.x = 1.2 * t;
@@ -167,7 +168,7 @@ mod tests {
         JitterBuffer::new(settings, TICK, body, Target::still(stand), stand)
     }
 
-    /// A driver with a clock of his own, who began to send at `began` (s) and is `ahead` (s) in the motion.
+    /// A driver with its own clock that began to send at `began` (s) and is `ahead` (s) in the motion.
     struct SeamDriver {
         buffer: JitterBuffer,
         began: f64,
@@ -195,7 +196,7 @@ mod tests {
         }
     }
 
-    /// The samples of a window: the time of the motion (s) of each, as its pelvis says, and how time runs there.
+    /// The samples of a window: the time of the motion (s) of each, read from its pelvis, and how time runs there.
     #[derive(Default)]
     struct HeldSamples {
         samples: Vec<f64>,
@@ -218,7 +219,8 @@ mod tests {
         }
     }
 
-    /// One goes over to the other; returns when, s after the second one began, and what the window held.
+    /// Hands over from one stream to the other. Returns when, s after the second one began, and the content of the
+    /// window.
     fn go_over(ahead: f64, delay: Delay, other: fn(f64) -> Posture) -> (Option<f64>, HeldSamples) {
         let mut first = SeamDriver {
             buffer: buffer(delay),
@@ -271,7 +273,8 @@ mod tests {
                     entered < 0.1 + ahead.max(0.0) + 0.1,
                     "{ahead} s: {entered} s"
                 );
-                // Samples are a grid of the motion that has no seam: what was off is made up for by two hundredths.
+                // The samples form a grid of the motion without a seam: the difference is made up for by two
+                // hundredths.
                 let steps = held.samples.windows(2).map(|w| (w[1] - w[0]) * RATE);
                 for (k, step) in steps.enumerate() {
                     assert!(
@@ -279,7 +282,7 @@ mod tests {
                         "{ahead} s: step {k} of {step} samples"
                     );
                 }
-                // Nor has the time that the window tells its figure.
+                // The time that the window tells its figure has no seam either.
                 for w in held.lead.windows(2).skip(10) {
                     assert!(
                         (w[1] - w[0]).abs() < 0.11 * TICK,

@@ -215,7 +215,7 @@ fn old_and_surplus_frames_are_counted() {
     }
 }
 
-/// Half a second ahead at 0.5 m/s, then the last posture again and again.
+/// Half a second ahead at 0.5 m/s, then the last posture repeatedly.
 #[test]
 fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
     let walking = |i: i64, at: i64| {
@@ -246,8 +246,8 @@ fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
     assert!(b.has_news(), "it moves again");
 }
 
-/// A driver at 60 Hz in real time, in a world that leaves out two ticks of three: the motion is slow, not fast; what
-/// cannot be played any more is left out in one piece, and the driver is told.
+/// A driver at 60 Hz in real time, in a world that skips two ticks of three: the motion is slow, not fast; motion that
+/// can no longer be played is skipped in one piece, and the driver is told.
 #[test]
 fn a_stream_in_an_overloaded_world_is_never_too_fast() {
     for delay in [Delay::Fixed(0.05), Delay::Adaptive { most: 0.1 }] {
@@ -277,13 +277,13 @@ fn a_stream_in_an_overloaded_world_is_never_too_fast() {
                 pieces.push(why);
             }
         }
-        // 20 s were left out, 2 s at a time.
+        // 20 s were skipped, 2 s at a time.
         assert_eq!(pieces, [Resync::Behind; 9]);
         assert_eq!((b.counts().overflow, b.counts().stale), (0, 0));
     }
 }
 
-/// A hiccup of the world is caught up slowly.
+/// The stream catches up slowly after a hiccup of the world.
 #[test]
 fn a_stream_that_fell_behind_catches_up() {
     let mut b = buffer(Delay::Fixed(0.05));
@@ -308,7 +308,7 @@ fn a_stream_that_fell_behind_catches_up() {
     assert_eq!(b.counts().resyncs, 0);
 }
 
-/// What a driver sends while its clock is set, or after it was started again.
+/// The frames of a driver whose clock is set, or that was restarted.
 #[test]
 fn a_clock_that_starts_again_is_followed_within_a_second() {
     let hour = 3_600_000_000_000;
@@ -362,7 +362,7 @@ fn a_clock_that_starts_again_is_followed_within_a_second() {
     }
 }
 
-/// Frames that are sent again, for safety or after a connection was lost, are no new beginning.
+/// Frames that are sent again, for safety or after a lost connection, do not restart the stream.
 #[test]
 fn frames_that_come_again_are_no_new_beginning() {
     let mut b = buffer(Delay::Fixed(0.05));
@@ -380,7 +380,7 @@ fn frames_that_come_again_are_no_new_beginning() {
     assert!(b.counts().stale > 1000);
 }
 
-/// A stream of somebody who turns all joints at once, at times that are never quite regular, without velocities.
+/// A stream in which all joints turn at once, at times that are never quite regular, without velocities.
 fn lively(frames: i64) -> JitterBuffer {
     let mut b = buffer(Delay::Fixed(0.0));
     for i in 0..frames {

@@ -1,7 +1,7 @@
-//! The sum of what perturbers with bounds do to figures.
+//! Limits the total effect of bounded perturbers on figures.
 //!
-//! A bound is for what one principal does to one figure at a time, however many calls and perturbations it is made of:
-//! twice the force is twice the force, whether it comes in one piece or in two.
+//! A bound limits the effect of one principal on one figure at a time, however many calls and perturbations it consists
+//! of: twice the force is twice the force, whether it comes in one piece or in two.
 
 use sinew_physics::world::FigureKey;
 use sinew_wire::status::Fault;
@@ -9,7 +9,7 @@ use sinew_wire::types::Disturbance;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The bounds of one principal.
+/// The limits of one principal.
 #[derive(Clone, Debug)]
 pub struct Bound {
     /// The principal.
@@ -34,7 +34,7 @@ pub(super) struct PerturbationShare {
 }
 
 impl PerturbationShare {
-    /// Of a perturbation that begins with tick `from`; ticks take `dt` s.
+    /// The share of a perturbation that begins with tick `from`; ticks take `dt` s.
     pub fn of(
         what: &Disturbance,
         (principal, figure): (&Arc<str>, FigureKey),
@@ -58,15 +58,15 @@ impl PerturbationShare {
     }
 }
 
-/// Perturbations that act, or will.
+/// Perturbations that act now or will act.
 #[derive(Debug, Default)]
 pub(super) struct Shares(Vec<PerturbationShare>);
 
 impl Shares {
-    /// Checks that these, on top of what acts from tick `now` on, stay within a bound.
+    /// Checks that these, on top of those that act from tick `now` on, stay within a bound.
     ///
     /// # Errors
-    /// They do not, at some time.
+    /// They exceed it at some time.
     pub fn check(
         &mut self,
         bound: &Bound,
@@ -78,7 +78,7 @@ impl Shares {
             let of_it =
                 |s: &&PerturbationShare| s.principal == bound.principal && s.figure == at.figure;
             let all = || self.0.iter().chain(new).filter(of_it);
-            // Sums are largest where something begins.
+            // Sums are largest where a perturbation begins.
             let begins = all().map(|s| s.ticks.start.max(now));
             for tick in begins.filter(|t| at.ticks.contains(t)) {
                 let acts = || all().filter(|s| s.ticks.contains(&tick));
@@ -91,7 +91,7 @@ impl Shares {
                     ),
                     ("mass", acts().map(|s| s.mass).sum(), bound.mass, "kg"),
                 ] {
-                    // Rounding of the sum is no push.
+                    // Rounding of the sum must not count as a force.
                     if sum > most * (1.0 + 1e-9) {
                         return Err(refused(
                             i,
@@ -107,12 +107,12 @@ impl Shares {
         Ok(())
     }
 
-    /// Notes what acts from now on.
+    /// Adds perturbations that act from now on.
     pub fn add(&mut self, new: Vec<PerturbationShare>) {
         self.0.extend(new);
     }
 
-    /// Nothing acts on this figure any more.
+    /// No perturbation acts on this figure any more.
     pub fn forget(&mut self, figure: FigureKey) {
         self.0.retain(|s| s.figure != figure);
     }
@@ -176,7 +176,7 @@ mod tests {
             all.check(&bound, &one(20.0, 9..21), 5).is_err(),
             "a later push counts"
         );
-        // Neither of others nor on others.
+        // Neither those of others nor those on others count.
         all.add(vec![push(&q, a, 1e3, 0..100), push(&p, b, 1e3, 0..100)]);
         assert!(all.check(&bound, &one(40.0, 5..19), 5).is_ok());
         assert!(all.check(&bound, &one(100.0, 9..20), 9).is_ok());

@@ -1,4 +1,4 @@
-//! A world that goes on from another state.
+//! Puts a world into another state.
 
 use super::HostedWorld;
 use super::bounds::Shares;
@@ -13,16 +13,16 @@ use std::time::Instant;
 /// The source of the state that a world continues with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StateOrigin {
-    /// It begins with it: drives that nobody sends to go on with what has come.
+    /// The world begins with it. Drives without a sender continue with the motion that has arrived.
     Beginning,
-    /// Another world, or what it once was: what is known of its past leads nowhere.
+    /// Another world, or an earlier version of it: the known past does not lead to this state.
     Elsewhere,
-    /// Its own past: what was before that is its past still.
+    /// Its own past: the ticks before the state remain its past.
     OwnPast,
 }
 
 impl HostedWorld {
-    /// The state between two ticks. What takes time is done elsewhere.
+    /// The state between two ticks. Slow work on it is done elsewhere.
     ///
     /// # Errors
     /// The world has failed.
@@ -33,11 +33,11 @@ impl HostedWorld {
         Ok(self.scene.capture())
     }
 
-    /// Goes on from another state. Pace, name and whether it is paused stay as they are, and so do drives of figures
+    /// Continues from another state. Pace, name and whether it is paused stay as they are, and so do drives of figures
     /// that are in both: their streams restart, and the figures switch to them.
     ///
     /// # Errors
-    /// Another rate or number of substeps, too many figures, or no room for their ticks. Nothing has changed then.
+    /// Another rate or number of substeps, too many figures, or no room for their ticks. Then nothing has changed.
     pub fn restore(&mut self, mut scene: Scene, from: StateOrigin) -> Result<WorldInfo, Fault> {
         self.working()?;
         let (new, old) = (scene.settings(), self.scene.settings());
@@ -69,7 +69,7 @@ impl HostedWorld {
         (after..before).for_each(|_| self.budget.remove_figure(&self.account));
         self.flush();
         self.end_drives_of_others(&scene);
-        // Who controls a figure that is still there goes on doing so.
+        // Leases of figures that still exist continue.
         let there = |id: &str| scene.members().iter().any(|m| m.id == id);
         let gone = self.scene.members().iter().filter(|m| !there(&m.id));
         for figure in gone.map(|m| m.id.clone()).collect::<Vec<_>>() {
@@ -87,7 +87,7 @@ impl HostedWorld {
         } else {
             scene.end_live();
         }
-        // From here on this is the world.
+        // From here on this scene is the world.
         self.scene = scene;
         self.shares = Shares::default();
         let _ = self.scene.apply(SceneInput::Pace(pace)); // never refused
@@ -99,7 +99,7 @@ impl HostedWorld {
         }
         self.epoch += 1;
         self.restart_clock();
-        // A roster of its own makes viewers take a frame of an earlier tick.
+        // A roster of its own makes viewers accept a frame of an earlier tick.
         self.roster_changed();
         self.touch();
         self.world_event(EventKind::Restored(tick));
@@ -107,7 +107,7 @@ impl HostedWorld {
         Ok(self.info())
     }
 
-    /// Ends drives of figures that will not be there.
+    /// Ends drives of figures that will no longer exist.
     fn end_drives_of_others(&mut self, scene: &Scene) {
         let there = |id: &str| scene.members().iter().any(|m| m.id == id);
         let gone =
@@ -119,7 +119,7 @@ impl HostedWorld {
         }
     }
 
-    /// Ends what plays to a figure without a driver: someone else says what it does.
+    /// Ends the players of a figure without a driver: another source determines its motion now.
     pub(super) fn end_undriven(&mut self, figure: FigureKey) {
         let players = self.scene.players().iter();
         let own = players.filter(|p| p.figure == figure && self.undriven.contains_key(&p.key));
@@ -129,22 +129,22 @@ impl HostedWorld {
         }
     }
 
-    /// Lets figures finish their steps and stand whose drives came with the state that the world began with, after the
-    /// grace time of their drivers in world time.
+    /// Stops figures whose drives came with the state that the world began with, after the grace time of their drivers
+    /// in world time. They finish their steps and stand.
     pub(in crate::tick) fn expire_undriven(&mut self) {
         let tick = self.scene.world().tick();
         while let Some((key, _)) = self.undriven.iter().find(|(_, until)| **until <= tick) {
             let key = *key;
             self.undriven.remove(&key);
             let Some(figure) = self.scene.player(key).map(|p| p.figure) else {
-                continue; // it went with its figure
+                continue; // it was removed with its figure
             };
             let _ = self.scene.apply(SceneInput::Unfollow(key)); // neither is refused
             let _ = self.scene.apply(SceneInput::Stop(figure));
         }
     }
 
-    /// Lets the drives that there are play to the figures of this scene.
+    /// Connects the existing drives to the figures of this scene.
     fn follow_again(&mut self) {
         for d in 0..self.drives.len() {
             for s in 0..self.drives[d].slots.len() {
@@ -157,7 +157,7 @@ impl HostedWorld {
                 self.drives[d].slots[s].player = found.ok().and_then(|i| {
                     let follow = SceneInput::Follow {
                         figure: self.scene.members()[i].key,
-                        // It goes over from what the figure does now.
+                        // The figure switches to it from its present motion.
                         settings: sinew_wire::types::DriveSettings {
                             reset: false,
                             ..settings.clone()

@@ -1,4 +1,4 @@
-//! When clips begin and end, for viewers of events.
+//! The beginning and end of clips, for viewers of events.
 
 use super::{HostedWorld, PlayingClip};
 use crate::engine;
@@ -14,17 +14,17 @@ impl HostedWorld {
         Some((id.clone(), since))
     }
 
-    /// The clips that figures play, as told last: after a restored state nothing is news.
+    /// Notes the clips that figures play as announced: after a restored state none of them is news.
     pub(super) fn note_clips(&mut self) {
         let members = self.scene.members().iter();
         let told = members.filter_map(|m| Some((m.key, self.plays(m)?)));
         self.told = told.collect();
     }
 
-    /// Tells of clips that have begun or ended since the last call.
+    /// Announces clips that have begun or ended since the last call.
     pub(super) fn tell_clips(&mut self) {
         let members = self.scene.members();
-        // Figures that have gone are told of otherwise.
+        // Removed figures are announced elsewhere.
         self.told
             .retain(|key, _| members.iter().any(|m| m.key == *key));
         for i in 0..self.scene.members().len() {

@@ -1,4 +1,4 @@
-//! Leases of figures: taking, giving back, handing over, losing them.
+//! Leases of figures: taking, returning, handing over and losing them.
 
 use super::HostedWorld;
 use crate::ingest::mailbox::DriverId;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 impl HostedWorld {
-    /// Who controls a figure.
+    /// The controller of a figure.
     ///
     /// # Errors
     /// There is no such figure.
@@ -19,14 +19,14 @@ impl HostedWorld {
         Ok(self.control_of(figure, Instant::now()))
     }
 
-    /// Who controls each figure, in their order.
+    /// The controller of each figure, in the order of figures.
     pub fn controls(&self) -> Vec<ControlInfo> {
         let now = Instant::now();
         let members = self.scene.members().iter();
         members.map(|m| self.control_of(&m.id, now)).collect()
     }
 
-    /// Whether a lease or a drive ends by itself, at a time that every use of it puts off.
+    /// Whether a lease or a drive ends by itself, at a time that every use postpones.
     pub(super) fn control_passes(&self) -> bool {
         self.leases.end_by_themselves() || self.drives.iter().any(|d| d.expires.is_some())
     }
@@ -56,7 +56,7 @@ impl HostedWorld {
     /// Takes or renews a lease. Returns it with its token.
     ///
     /// # Errors
-    /// Someone else has it, with no lower priority; the token is not the valid one.
+    /// Someone else has it, with no lower priority; or the token is not the valid one.
     pub fn acquire(
         &mut self,
         figure: &str,
@@ -77,13 +77,13 @@ impl HostedWorld {
             if lease.expires.is_some() {
                 lease.touch(now);
             }
-            // The one that was shown to be valid.
+            // The token that was just shown to be valid.
             let mut tokens = who.tokens.iter();
             let token = tokens.find(|t| lease.is_held_by(&who.principal, std::slice::from_ref(t)));
             let token = token.cloned().ok_or_else(|| fenced(figure))?;
             return Ok((self.control(figure)?, token));
         }
-        // Nobody knows two anonymous callers apart, so a lost token is lost.
+        // Two anonymous callers cannot be told apart, so a lost token is lost.
         let own = |holder: &str| a.known && *holder == *who.principal;
         let detail = match self.leases.of(figure) {
             Some(lease) if own(&lease.holder) => None,
@@ -98,7 +98,7 @@ impl HostedWorld {
         };
         let renewed = self.leases.of(figure).is_some();
         if detail.is_some() || renewed {
-            // The drive of the token before is fenced; one without a token goes on with the new one.
+            // A drive with the earlier token is fenced; one without a token continues with the new one.
             self.take_figure(figure, "someone else has the lease now");
         }
         let token = a.token;
@@ -116,8 +116,8 @@ impl HostedWorld {
         Ok((self.control(figure)?, token))
     }
 
-    /// Brings leases back from before the server was started: their holders have their grace time to come back. Those
-    /// of figures that are no more are gone.
+    /// Brings back leases from before a restart of the server: their holders have their grace time to come back. Leases
+    /// of figures that no longer exist are dropped.
     pub fn bring_leases_back(&mut self, all: Vec<(String, i64, Option<KeptLease>)>) {
         let now = Instant::now();
         for (figure, epoch, kept) in all {
@@ -129,7 +129,7 @@ impl HostedWorld {
         self.touch();
     }
 
-    /// Gives a lease back.
+    /// Returns a lease.
     ///
     /// # Errors
     /// The token is not the valid one.
@@ -166,7 +166,7 @@ impl HostedWorld {
         self.control(figure)
     }
 
-    /// Accepts an offer: a new holder, a new token.
+    /// Accepts an offer. The lease gets a new holder and a new token.
     ///
     /// # Errors
     /// There is no such offer to this principal.
@@ -193,7 +193,7 @@ impl HostedWorld {
             ),
         })?;
         let mut next = Lease::new(who.principal.clone(), &token, lease.priority, grace, now);
-        // Without a drive there is nothing to go over from.
+        // Without a drive there is no motion to switch from.
         let driven = self.drives.iter().any(|d| d.has(figure));
         next.takeover = driven.then_some(offer.blend);
         let detail = format!("{} from {}", who.principal, lease.holder);
@@ -210,7 +210,7 @@ impl HostedWorld {
             .ok_or_else(|| fenced(figure))
     }
 
-    /// Checks that someone may let a figure do something other than follow a live drive, and counts that as a use of
+    /// Checks that a caller may let a figure do something other than follow a live drive, and counts that as a use of
     /// its lease.
     pub(super) fn may_direct(&mut self, figure: &str, who: &ControlKey) -> Result<(), Fault> {
         let now = Instant::now();
@@ -218,7 +218,7 @@ impl HostedWorld {
             .check(figure, &who.principal, &who.tokens, now)?;
         let goes_over = self.leases.of(figure).is_some_and(|l| l.takeover.is_some());
         if goes_over {
-            // The holder before still drives; its motion ends with what comes now.
+            // The previous holder still drives; its motion ends with the new one.
             self.detach(figure, "the lease was handed over");
         }
         self.not_driven(figure)?;
@@ -229,7 +229,7 @@ impl HostedWorld {
         Ok(())
     }
 
-    /// Checks that someone may change a figure that another one may be driving.
+    /// Checks that a caller may change a figure that another one may be driving.
     pub(super) fn may_adjust(&self, figure: &str, who: &ControlKey) -> Result<(), Fault> {
         let now = Instant::now();
         self.leases
@@ -241,7 +241,7 @@ impl HostedWorld {
         }
     }
 
-    /// Ends a lease and what drives the figure by it.
+    /// Ends a lease and the drive of the figure under it.
     pub(super) fn end_lease(&mut self, figure: &str, why: &str) {
         let Some(lease) = self.leases.end(figure) else {
             return;
@@ -254,7 +254,7 @@ impl HostedWorld {
         self.touch();
     }
 
-    /// Ends leases whose time is over. A figure that is driven comes to a stand; one that plays a clip goes on.
+    /// Ends expired leases. A driven figure comes to a stand; one that plays a clip continues.
     pub(super) fn expire_leases(&mut self, now: Instant) {
         while let Some(figure) = self.leases.expired(now) {
             self.end_lease(&figure, "its time is over");
@@ -266,7 +266,7 @@ impl HostedWorld {
         for drive in &self.drives {
             for slot in drive.slots.iter().filter(|s| s.player.is_some()) {
                 let lease = self.leases.of_mut(&slot.figure);
-                // The drive of the holder before does not keep the lease of the one after.
+                // The drive of the previous holder must not keep the new holder's lease alive.
                 let Some(lease) = lease.filter(|l| l.holder == drive.id.principal) else {
                     continue;
                 };
@@ -282,7 +282,7 @@ impl HostedWorld {
         }
     }
 
-    /// A stream of this drive has ended: its leases have their grace time from now on.
+    /// A stream of this drive has ended: the grace time of its leases begins now.
     pub(super) fn release_leases(&mut self, id: &DriverId, now: Instant) {
         let drive = self.drives.iter().find(|d| d.id == *id);
         let figures = drive
@@ -296,14 +296,14 @@ impl HostedWorld {
         }
     }
 
-    /// Takes a figure from whoever drives it: it finishes its step and stands.
+    /// Takes a figure from its driver: it finishes its step and stands.
     fn take_figure(&mut self, figure: &str, why: &str) {
         if self.detach(figure, why) {
             self.hold(figure);
         }
     }
 
-    /// Ends the drive of a figure, whose motion goes on as it is; its driver is fenced. False if nobody drives it.
+    /// Ends the drive of a figure without stopping its motion; its driver is fenced. Returns whether it had a driver.
     pub(super) fn detach(&mut self, figure: &str, why: &str) -> bool {
         let Some(i) = self.drives.iter().position(|d| d.has(figure)) else {
             return false;
@@ -322,7 +322,7 @@ impl HostedWorld {
             drive.mailbox.close(fenced(figure));
             self.mailboxes.remove(&drive.id);
         }
-        // It may have ended by itself: another player has taken the figure over.
+        // It may have ended by itself because another player took the figure over.
         if let Some(key) = ended.filter(|key| self.scene.player(*key).is_some()) {
             let _ = self.scene.apply(SceneInput::Unfollow(key)); // never refused
         }
@@ -331,7 +331,7 @@ impl HostedWorld {
         true
     }
 
-    /// Tells those who watch events that someone was refused.
+    /// Tells viewers of events that a caller was refused.
     pub fn tell_refused(&mut self, figure: &str, who: &Arc<str>, call: &str) {
         self.event(figure, EventKind::AccessRefused(format!("{who}: {call}")));
     }

@@ -1,4 +1,4 @@
-//! Motion that figures are asked for: clips, and drives that stream.
+//! Desired motion of figures: clips, and live drives.
 
 use super::HostedWorld;
 use crate::engine::Clip;
@@ -20,7 +20,7 @@ impl HostedWorld {
         }
     }
 
-    /// A figure, to rehearse a clip for it.
+    /// A figure, for which a clip is to be rehearsed.
     ///
     /// # Errors
     /// There is none of that name, or nothing can be rehearsed for it.
@@ -30,8 +30,8 @@ impl HostedWorld {
         Performer::of(self.scene.figure(key), world.params(), world.time())
     }
 
-    /// Lets a figure play a clip, as it was rehearsed if it is one of those that it was rehearsed for. Returns the
-    /// world time of its start.
+    /// Lets a figure play a clip, in its rehearsed form if it was rehearsed for this figure. Returns the world time of
+    /// its start.
     pub fn play(
         &mut self,
         figure: &str,
@@ -80,7 +80,7 @@ impl HostedWorld {
         let _ = self.scene.apply(SceneInput::Stop(key)); // never refused
     }
 
-    /// Lets a figure finish its step and stand, or hold the posture that is asked of it now if it stands already.
+    /// Lets a figure finish its step and stand, or hold its present desired posture if it stands already.
     pub fn stop(&mut self, figure: &str, who: &ControlKey) -> Result<(), Fault> {
         self.working()?;
         self.member(figure)?;
@@ -89,8 +89,8 @@ impl HostedWorld {
         Ok(())
     }
 
-    /// Begins or takes up a drive. `connection` is the stream that will send; `None` for a push. Returns where its
-    /// motion is to be left.
+    /// Begins or resumes a drive. `connection` is the stream that will send; `None` for a push. Returns the mailbox for
+    /// its motion.
     pub fn open_drive(
         &mut self,
         open: &DriveOpen,
@@ -115,7 +115,7 @@ impl HostedWorld {
         }
         if let Some(d) = self.drives.iter_mut().find(|d| d.id == id) {
             if d.drives(&open.figures) && who.tokens == d.mailbox.tokens() {
-                d.touch(connection, now); // the same driver comes back: its motion goes on
+                d.touch(connection, now); // the same driver comes back: its motion continues
                 let mailbox = Arc::clone(&d.mailbox);
                 self.use_leases(now);
                 return Ok(mailbox);
@@ -178,12 +178,12 @@ impl HostedWorld {
         }
     }
 
-    /// How long the figure goes over to the motion of a new holder of its lease, s, if it is to.
+    /// Time over which the figure changes to the motion of a new holder of its lease, s, if a handover is pending.
     fn takeover(&self, figure: &str) -> Option<f64> {
         self.leases.of(figure)?.takeover
     }
 
-    /// Takes what drivers have sent since the last tick.
+    /// Takes the motion that drivers have sent since the last tick.
     pub(in crate::tick) fn collect_motion(&mut self) {
         let now = Instant::now();
         let scheduled = self.schedule();
@@ -193,12 +193,12 @@ impl HostedWorld {
         self.tell_new_beginnings();
     }
 
-    /// World time that the clock has left out so far, s.
+    /// World time that the clock has skipped until now, s.
     fn lost(&self) -> f64 {
         self.lost_before + self.clock.lost() * self.scene.world().dt()
     }
 
-    /// The scheduled time of an arrival. While the clock stands still so does scheduled time.
+    /// The scheduled time of an arrival. Scheduled time stands still while the clock does.
     fn schedule(&self) -> impl Fn(Instant) -> f64 + use<> {
         let (now, lost) = (self.scene.world().time(), self.lost());
         let dt = self.scene.world().dt();
@@ -209,7 +209,7 @@ impl HostedWorld {
         }
     }
 
-    /// Tells that streams restarted, and why.
+    /// Announces that streams restarted, and why.
     fn tell_new_beginnings(&mut self) {
         let mut told = Vec::new();
         for drive in &self.drives {
@@ -226,14 +226,14 @@ impl HostedWorld {
         }
     }
 
-    /// Lets drivers who push know the state of their drives without asking for it.
+    /// Gives drivers that push the state of their drives without a question to the world.
     pub(in crate::tick) fn publish_feedback(&self) {
         for drive in self.drives.iter().filter(|d| d.connection.is_none()) {
             drive.mailbox.publish(drive.feedback(&self.scene));
         }
     }
 
-    /// Notes that a frame has been published: how long the motion that it shows took to get there.
+    /// Notes that a frame has been published: how long its motion took to get there.
     pub(in crate::tick) fn note_shown(&mut self) {
         let now = Instant::now();
         for arrival in self.scene.take_shown() {
@@ -241,7 +241,7 @@ impl HostedWorld {
         }
     }
 
-    /// Takes no more motion: the world has failed.
+    /// Accepts no more motion, because the world has failed.
     pub(in crate::tick) fn close_mailboxes(&self, why: &Fault) {
         for drive in &self.drives {
             drive.mailbox.close(why.clone());
@@ -260,14 +260,14 @@ impl HostedWorld {
         Ok(d.feedback(&self.scene))
     }
 
-    /// A stream ended: `kept` if it was lost and the driver may come back.
+    /// Ends a stream. `kept`: it was lost, and the driver may come back.
     pub fn close_drive(&mut self, driver: &DriverId, connection: u64, kept: bool) {
         let Some(d) = self
             .drives
             .iter_mut()
             .find(|d| d.id == *driver && d.connection == Some(connection))
         else {
-            return; // someone with this name has taken over
+            return; // another stream with this name has taken over
         };
         let now = Instant::now();
         if kept {
@@ -288,7 +288,7 @@ impl HostedWorld {
         drive.mailbox.close(fenced(&driver.name));
         self.mailboxes.remove(driver);
         for slot in drive.slots.iter().filter(|s| s.player.is_some()) {
-            // One whose motion was never there has nothing to stop.
+            // A drive without motion has nothing to stop.
             let player = slot.player.and_then(|key| self.scene.player(key));
             let stops = player.is_none_or(|p| p.takeover.is_none());
             if let Some(key) = slot.player {

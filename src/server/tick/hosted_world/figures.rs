@@ -1,4 +1,4 @@
-//! Figures of a world: members, their settings, what there is to tell of them.
+//! Figures of a world: members, their settings and their description.
 
 use super::HostedWorld;
 use crate::engine;
@@ -28,8 +28,7 @@ impl HostedWorld {
 
     pub(super) fn figure_info(&self, m: &Member) -> FigureInfo {
         let f = self.scene.figure(m.key);
-        // Of two clips the one that was asked for last is known by name: it plays, or the figure comes to a stand for
-        // it.
+        // Only the name of the most recently requested clip is kept: the figure plays it, or comes to a stand for it.
         let (next_clip, clip) = match f.next_clip() {
             Some(_) => (m.clip.clone(), None),
             None => (None, m.clip.clone()),
@@ -71,7 +70,7 @@ impl HostedWorld {
         self.roster = self.scene.roster();
     }
 
-    /// The name of a new figure, one that is free if none is given; there must be room for it.
+    /// The name of a new figure, or a free one if none is given; there must be room for it.
     fn new_figure_id(&self, id: Option<String>) -> Result<String, Fault> {
         self.working()?;
         if self.scene.members().len() as u64 >= self.limits.figures {
@@ -97,7 +96,7 @@ impl HostedWorld {
         })
     }
 
-    /// The figure that [`Self::create_figure`] would add. What its settings mean to the physics is checked before
+    /// The figure that [`Self::create_figure`] would add. The physics has checked its settings before
     /// ([`engine::check_figure`]).
     pub fn would_create_figure(
         &self,
@@ -161,8 +160,8 @@ impl HostedWorld {
         })
     }
 
-    /// Changes strength, controller or name.
-    /// `who`: a driver, whom others who control the figure keep out; `None`: a director.
+    /// Changes strength, controller or name. `who`: a driver, which is refused if others control the figure; `None`: a
+    /// director.
     pub fn update_figure(
         &mut self,
         figure: &str,
@@ -191,7 +190,7 @@ impl HostedWorld {
         Ok(())
     }
 
-    /// Ends the drive of a figure that is no more, and tells its driver if it was the last one.
+    /// Ends the drive of a removed figure, and tells its driver if it was the last one.
     fn take_from_driver(&mut self, figure: &str) {
         let name = format!("worlds/{}/figures/{figure}", self.id);
         let Some(i) = self.drives.iter().position(|d| d.has(figure)) else {
@@ -228,7 +227,7 @@ impl HostedWorld {
         self.figure(figure)
     }
 
-    /// Breaks the world: the physics has lost a figure that is shown.
+    /// Makes the physics lose a figure that is still shown, which breaks the world.
     #[cfg(test)]
     pub(in crate::tick) fn forget_in_physics(&mut self, figure: &str) {
         let i = self.member(figure).expect("it is there");

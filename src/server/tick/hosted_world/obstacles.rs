@@ -16,7 +16,7 @@ impl HostedWorld {
         })
     }
 
-    /// All obstacles, in the order they were added.
+    /// All obstacles, in the order in which they were added.
     pub fn obstacles(&self) -> Vec<ObstacleInfo> {
         let all = self.scene.obstacles().iter();
         all.map(|o| self.scene.obstacle_info(o)).collect()
@@ -28,7 +28,7 @@ impl HostedWorld {
         Ok(self.scene.obstacle_info(&self.scene.obstacles()[i]))
     }
 
-    /// The name of a new obstacle; one that is free if none is given.
+    /// The name of a new obstacle, or a free one if none is given.
     fn new_obstacle_id(&self, id: Option<String>) -> Result<String, Fault> {
         Ok(match id {
             Some(id) if self.obstacle(&id).is_ok() => {

@@ -7,17 +7,17 @@ use sinew_wire::status::Fault;
 use sinew_wire::types::{Disturbance, EventKind, FigureDisturbance};
 
 impl HostedWorld {
-    /// Checks that a batch is of figures that there are.
+    /// Checks that the figures of a batch exist.
     fn known(&self, batch: &[FigureDisturbance]) -> Result<(), Fault> {
         self.working()?;
         let mut figures = batch.iter().map(|d| &d.figure);
         figures.try_for_each(|figure| self.member(figure).map(|_| ()))
     }
 
-    /// The share that a batch takes of the bound of its principal, if it has one.
+    /// The share of a batch in the bound of its principal, if it has one.
     ///
     /// # Errors
-    /// More than that allows.
+    /// The batch exceeds the bound.
     fn shares(
         &mut self,
         batch: &[FigureDisturbance],
@@ -38,7 +38,7 @@ impl HostedWorld {
         Ok(shares)
     }
 
-    /// Checks a batch as [`Self::perturb`] does and returns what it would.
+    /// Checks a batch like [`Self::perturb`], and returns what that would return.
     pub fn would_perturb(
         &mut self,
         batch: &[FigureDisturbance],
@@ -61,7 +61,7 @@ impl HostedWorld {
         self.scene.apply(SceneInput::Perturb(batch.to_vec()))?;
         self.shares.add(shares);
         for d in batch {
-            // A force without end is no push.
+            // A force without end is not a push.
             if let Disturbance::Force {
                 segment,
                 force,

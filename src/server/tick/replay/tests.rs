@@ -1,7 +1,7 @@
-//! Goal: a world that is done again from any of its checkpoints is the same in each tick, bit for bit, on any number of
-//! threads; and one that is not says where. Method: a scene with everything that clients do to it (figures that come
-//! and go, clips, live motion with and without a window that comes in bursts and is handed over, loads, obstacles,
-//! late plans) keeps a journal as a server does. `SINEW_REPLAYS` is how often it is done again.
+//! Goal: a world that is replayed from any of its checkpoints is the same in each tick, bit for bit, on any number of
+//! threads, and a difference is reported with its place. Method: a scene with every kind of change by clients (figures
+//! that come and go, clips, live motion with and without a window that comes in bursts and is handed over, loads,
+//! obstacles, late plans) keeps a journal as a server does. `SINEW_REPLAYS` is the number of replays.
 
 use super::*;
 use crate::engine::{self, Clip, FigureKey, ObstacleKey};
@@ -112,7 +112,7 @@ impl Script {
         self.players.push(key);
     }
 
-    /// A frame of a walk (or of an arm that swings), `i` frames after the first; it comes a little late or early.
+    /// Sends a frame of a walk (or of a swinging arm), `i` frames after the first; it arrives a little late or early.
     fn send(&mut self, player: usize, i: i64, now: f64) {
         let t = i as f64 / 60.0;
         let mut posture = if player.is_multiple_of(2) {
@@ -135,7 +135,7 @@ impl Script {
             .take_frame(self.players[player], frame, now + jitter);
     }
 
-    /// What clients do before a tick.
+    /// The commands of clients before a tick.
     fn commands(&mut self, tick: u64) {
         let now = self.scene.world().time();
         let push = |figure: &str, newtons: f64| FigureDisturbance {
@@ -189,7 +189,7 @@ impl Script {
             70 => {
                 let batch = vec![push("a", 90.0), push("d", -60.0)];
                 self.scene.apply(SceneInput::Perturb(batch)).unwrap();
-                // Refused, and refused again whenever it is done again.
+                // It is refused, and refused again in each replay.
                 let none = self
                     .scene
                     .apply(SceneInput::Perturb(vec![push("nobody", 1.0)]));
@@ -240,7 +240,7 @@ impl Script {
         }
     }
 
-    /// Runs it, with a journal. `aside`: plans come when threads have them.
+    /// Runs it, with a journal. `aside`: plans are computed by threads and arrive when they are ready.
     fn run(mut self, aside: bool) -> (Journal, Vec<u64>) {
         let room = Room {
             bytes: 1 << 30,
@@ -253,7 +253,7 @@ impl Script {
         for tick in 0..TICKS {
             self.commands(tick);
             self.scene.sample(0.01 * (tick / 100) as f64);
-            // Some plans are not there when they are needed.
+            // Some plans have not arrived when they are needed.
             let planning = if aside {
                 Planning::Aside
             } else {
@@ -390,7 +390,7 @@ fn what_differs_is_told_with_its_tick() {
             found: hash
         }
     );
-    // A record that was lost, as one that was cut.
+    // A lost record, and a cut one.
     let mut past = journal.past(0, TICKS).unwrap();
     let first = Arc::make_mut(&mut past[1]);
     let at = first

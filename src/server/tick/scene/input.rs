@@ -1,9 +1,8 @@
 //! Everything that changes a world between ticks, as values.
 //!
-//! [`Scene::apply`](super::Scene::apply) is the only way by which one of them takes effect, so a world that is driven
-//! now, one that is brought back and one that is replayed go through the same code. Two things come in each tick and
-//! have a form of their own in the record ([`record`](super::record)): frames of desired motion as they arrived, and
-//! which plans were late.
+//! A change takes effect only through [`Scene::apply`](super::Scene::apply), so a live world, one that is brought back
+//! and one that is replayed run the same code. Two things come in each tick and have a form of their own in the record
+//! ([`record`](super::record)): frames of desired motion as they arrived, and the plans that were late.
 
 use crate::engine::{Clip, FigureKey, ObstacleKey};
 use serde::{Deserialize, Serialize};
@@ -15,7 +14,7 @@ use sinew_wire::types::{
 };
 use std::sync::Arc;
 
-/// Number of a player in its scene: none is given twice.
+/// Number of a player in its scene. No number is assigned twice.
 pub type PlayerKey = u64;
 
 /// A change of a world.
@@ -29,13 +28,13 @@ pub enum SceneInput {
         id: String,
         /// Settings.
         settings: Box<FigureSettings>,
-        /// The body, where it is at hand; it follows from its profile.
+        /// The body, if available; otherwise it is built from its profile.
         #[serde(skip)]
         body: Option<Arc<Body>>,
     },
-    /// A figure is gone, with what plays to it.
+    /// A figure is removed, together with its players.
     RemoveFigure(FigureKey),
-    /// Other settings of a figure.
+    /// New settings of a figure.
     UpdateFigure(FigureKey, Box<FigureUpdate>),
     /// A figure stands still at a place, without loads.
     ResetFigure(FigureKey, Option<Place>),
@@ -48,14 +47,14 @@ pub enum SceneInput {
         /// The clip, prepared for its body.
         #[serde(with = "sinew_physics::saved::definition")]
         clip: Arc<Clip>,
-        /// How.
+        /// The manner of playing it.
         playback: Playback,
     },
     /// A figure finishes its step and stands.
     Stop(FigureKey),
     /// Loads and forces, all or none.
     Perturb(Vec<FigureDisturbance>),
-    /// A figure is free of loads and forces.
+    /// A figure is freed of loads and forces.
     ClearPerturbations(FigureKey),
     /// A new obstacle.
     AddObstacle {
@@ -64,22 +63,22 @@ pub enum SceneInput {
         /// The obstacle.
         setup: ObstacleSetup,
     },
-    /// Another obstacle in the place of one.
+    /// An obstacle replaces another one.
     UpdateObstacle(ObstacleKey, ObstacleSetup),
-    /// An obstacle is gone.
+    /// An obstacle is removed.
     RemoveObstacle(ObstacleKey),
-    /// Live motion begins to be played to a figure.
+    /// Live motion begins to play to a figure.
     Follow {
         /// Figure.
         figure: FigureKey,
-        /// How its motion is played.
+        /// The settings of its playback.
         settings: DriveSettings,
         /// Window in which it is prepared, s; 0: none.
         window: f64,
-        /// The figure goes over from what is played to it, in so many seconds, once its own motion is there.
+        /// Time over which the figure changes from its present player to this one, s, once the motion has arrived.
         takeover: Option<f64>,
     },
-    /// Live motion is no longer played to a figure, which goes on with what it does.
+    /// Live motion no longer plays to a figure, which continues what it does.
     Unfollow(PlayerKey),
     /// Plays the most recently requested clip from its rehearsal, provided that the clip starts from a stand.
     Rehearsed {
@@ -94,14 +93,14 @@ pub enum SceneInput {
 /// The result of an input.
 #[derive(Clone, Debug)]
 pub enum InputResult {
-    /// Nothing that has to be told.
+    /// Nothing that needs an answer.
     Changed,
-    /// A figure of this key.
+    /// A new figure has this key.
     Figure(FigureKey),
-    /// An obstacle of this name and key.
+    /// A new obstacle has this name and key.
     Obstacle(String, ObstacleKey),
     /// A clip begins at this world time, s.
     Begins(f64),
-    /// A player of this key.
+    /// A new player has this key.
     Player(PlayerKey),
 }

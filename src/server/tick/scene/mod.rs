@@ -1,9 +1,9 @@
-//! A world as far as it is the same when it is done again: physics, figures and obstacles by name, what plays live
-//! motion to figures. Clocks, connections, leases and permissions lie around it (`hosted_world`).
+//! The part of a world that replays identically: physics, figures and obstacles by name, players of live motion.
+//! Clocks, connections, leases and permissions are outside (`hosted_world`).
 //!
 //! A scene is changed by [`Scene::apply`], by frames that arrive ([`Scene::take_frame`]) and by ticks
-//! ([`Scene::sample`], [`Scene::step`]). Each notes what it did in a record. A scene of before that is put through the
-//! same records has the same states, bit for bit (`replay`).
+//! ([`Scene::sample`], [`Scene::step`]). Each of them notes its changes in a record. An earlier scene that is put
+//! through the same records has the same states, bit for bit (`replay`).
 
 mod input;
 mod motion;
@@ -29,7 +29,7 @@ use sinew_wire::types::{FigureDisturbance, FigureSettings, FigureUpdate, Place, 
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A figure with what is known of it besides its physics.
+/// A figure with everything known about it besides its physics.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Member {
     /// Last part of its name.
@@ -40,11 +40,11 @@ pub struct Member {
     pub index: i32,
     /// Settings.
     pub settings: FigureSettings,
-    /// Last part of the name of the clip that was asked for last.
+    /// Last part of the name of the most recently requested clip.
     pub clip: Option<String>,
 }
 
-/// A world that can be done again.
+/// A world that can be replayed.
 #[derive(Debug)]
 pub struct Scene {
     world: World,
@@ -92,7 +92,7 @@ impl Scene {
         &self.members
     }
 
-    /// Its obstacles, in the order they were added.
+    /// Its obstacles, in the order in which they were added.
     pub fn obstacles(&self) -> &[(String, ObstacleKey)] {
         &self.obstacles
     }
@@ -107,7 +107,7 @@ impl Scene {
         self.players.iter().find(|p| p.key == key)
     }
 
-    /// All that play live motion.
+    /// All players of live motion.
     pub fn players(&self) -> &[Player] {
         &self.players
     }
@@ -137,27 +137,28 @@ impl Scene {
         self.record.take()
     }
 
-    /// Forgets what has changed it since the last call of [`Self::take_record`]: it did not come to an end.
+    /// Forgets the changes since the last call of [`Self::take_record`], because the round did not finish.
     pub fn discard_record(&mut self) {
         self.record.discard();
     }
 
-    /// Records so far.
+    /// Number of records until now.
     pub fn seq(&self) -> u64 {
         self.record.seq()
     }
 
-    /// Notes that it is past a record that was read.
+    /// Notes that a record has been replayed.
     pub(super) fn passed(&mut self, seq: u64) {
         self.record.passed(seq);
     }
 
-    /// Changes the world. The one place where that is done, whoever asks for it and whenever.
+    /// Changes the world. This is the only place that does so, whatever the source of the change.
     ///
     /// # Errors
-    /// The physics refuses the input, whose place in the request is named.
+    /// The physics refuses the input, named by its place in the request.
     pub fn apply(&mut self, input: SceneInput) -> Result<InputResult, Fault> {
-        // These are checked before anything changes. Refusals of what costs nothing to ask for would fill the past.
+        // These are checked before anything changes. Refused requests cost nothing to send, so recording them would
+        // fill the past.
         let checked = matches!(
             input,
             SceneInput::Perturb(_)
@@ -281,7 +282,7 @@ impl Scene {
         if u.controller.is_some() || u.strength.is_some() || u.params.is_some() || steps.is_some() {
             let controller = u.controller.unwrap_or(m.settings.controller);
             let strength = u.strength.unwrap_or_else(|| m.settings.strength.clone());
-            // Whether it steps is no choice of the paper's controller.
+            // The paper's controller has no choice of stepping.
             let params = ControlParams {
                 protective_steps: steps.unwrap_or(m.settings.params.protective_steps),
                 ..u.params.unwrap_or_else(|| m.settings.params.clone())
@@ -314,10 +315,10 @@ impl Scene {
         Ok(InputResult::Changed)
     }
 
-    /// The result of a batch.
+    /// The result that a batch would have.
     ///
     /// # Errors
-    /// It is refused.
+    /// It would be refused.
     pub fn would_perturb(
         &self,
         batch: &[FigureDisturbance],
@@ -377,28 +378,28 @@ impl Scene {
 
     // ── live motion and ticks ──
 
-    /// Takes a frame for a player that arrived at scheduled time `at`, s. Whether its stream restarts with it.
+    /// Takes a frame for a player that arrived at scheduled time `at`, s. Returns whether its stream restarts with it.
     pub fn take_frame(&mut self, key: PlayerKey, frame: BufferedFrame, at: f64) -> bool {
         self.record.frame(self.world.tick(), key, &frame, at);
         let player = self.players.iter_mut().find(|p| p.key == key);
         player.is_some_and(|p| p.buffer.push(frame, at))
     }
 
-    /// Why the stream of a player began anew since the last call, if it did.
+    /// Why the stream of a player restarted since the last call, if it did.
     pub fn take_notice(&mut self, key: PlayerKey) -> Option<Resync> {
         let player = self.players.iter_mut().find(|p| p.key == key);
         player?.buffer.take_notice()
     }
 
-    /// When the frames came that act now, once for each: what they do has been published.
+    /// Arrival times of the frames in use, once for each: their effect has been published.
     pub fn take_shown(&mut self) -> impl Iterator<Item = Instant> + '_ {
         self.players
             .iter_mut()
             .filter_map(|p| p.buffer.take_shown())
     }
 
-    /// Hands the desired motion of the next tick to figures with players. The clock has left out `lost` seconds of
-    /// world time so far. Returns players that have ended because others have taken over.
+    /// Hands the desired motion of the next tick to figures with players. The clock has skipped `lost` seconds of world
+    /// time until now. Returns players that have ended because others have taken over.
     pub fn sample(&mut self, lost: f64) -> Vec<PlayerKey> {
         if self.players.is_empty() {
             return Vec::new();
@@ -423,17 +424,17 @@ impl Scene {
         }
     }
 
-    /// The next tick does without these plans of a figure.
+    /// Makes the next tick do without these plans of a figure.
     pub(super) fn delay_plans(&mut self, key: FigureKey, late: LatePlans) {
         self.world.delay_plans(key, late);
     }
 
-    /// Steps with so many threads from now on. The result does not depend on it.
+    /// Steps with this number of threads from now on. The result does not depend on it.
     pub fn set_threads(&mut self, threads: usize) {
         self.world.set_threads(threads);
     }
 
-    /// Breaks the world: the physics has lost a figure that is shown.
+    /// Makes the physics lose a figure that is still shown, which breaks the world.
     #[cfg(test)]
     pub(super) fn forget_in_physics(&mut self, key: FigureKey) {
         self.world.remove_figure(key);

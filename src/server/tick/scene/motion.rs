@@ -1,4 +1,4 @@
-//! Motion that figures are asked for: clips, and live motion.
+//! Desired motion of figures: clips, and live motion.
 
 use super::player::{Player, PlayoutWindow};
 use super::{InputResult, PlayerKey, Scene};
@@ -23,8 +23,8 @@ impl Scene {
             .place
             .unwrap_or_else(|| engine::place_of(&f.state().posture));
         let state = engine::first_state(&clip, place);
-        // A figure that is put into the clip is in motion at once; one that stands comes into it by the clip's lead-in,
-        // and one that moves comes to a stand before that.
+        // A figure that is reset to the clip moves at once. One that stands enters it by the clip's lead-in, and one
+        // that moves comes to a stand first.
         let mut playback = engine::playback(clip, begin, p.speed, p.looped, (place, !p.reset));
         playback.max_help = p.max_help;
         let mut start = playback.start;
@@ -52,7 +52,7 @@ impl Scene {
             self.figure_mut(figure)?.stop(time);
         }
         let f = self.figure_mut(figure)?;
-        // Who takes over decides when its motion is there.
+        // A player that takes over decides itself when its motion has arrived.
         let window = (length > 0.0).then(|| {
             if settings.reset || takeover.is_some() {
                 PlayoutWindow::new(f.body(), length)
@@ -80,7 +80,8 @@ impl Scene {
         Ok(InputResult::Player(key))
     }
 
-    /// Lets figures go over to the motion of those who took them over, where it is there. Returns those before.
+    /// Changes figures to the players that take them over, where their motion has arrived. Returns the previous
+    /// players.
     pub(super) fn take_over(&mut self, now: Now) -> Vec<PlayerKey> {
         let mut ended = Vec::new();
         let mut i = 0;
@@ -92,7 +93,7 @@ impl Scene {
             let player = &mut self.players[i];
             player.takeover = None;
             let (key, figure) = (player.key, player.figure);
-            // Who was there before ends here.
+            // The previous player ends here.
             let plays = |p: &&Player| p.figure == figure && p.key != key && p.takeover.is_none();
             let before = self.players.iter().find(plays);
             let late = before.and_then(|p| Some(p.window.as_ref()?.late()));
@@ -107,13 +108,14 @@ impl Scene {
             if let (Some(p), Some(f)) = (player, self.world.figure_mut(figure)) {
                 p.join(f, now, blend, seam, late.unwrap_or_default());
             }
-            // Others have moved up.
+            // The removal has moved other players.
             i = 0;
         }
         ended
     }
 
-    /// How the `i`-th player takes its figure over in the tick that begins `now`, over so many seconds, if it does.
+    /// How the `i`-th player takes its figure over in the tick that begins `now`, and over how many seconds, if it
+    /// does.
     fn seam(&mut self, i: usize, now: Now) -> Option<(f64, StreamSeam)> {
         let blend = self.players[i].takeover?;
         let key = self.players[i].figure;
@@ -131,7 +133,7 @@ impl Scene {
 
     pub(super) fn play_live(&mut self, now: Now) {
         for player in &mut self.players {
-            // Until its own motion is there the one before goes on.
+            // The previous player continues until its own motion has arrived.
             if player.takeover.is_some() {
                 continue;
             }
@@ -149,12 +151,12 @@ impl Scene {
                 continue;
             };
             let first = reset.then(|| pair.now.state());
-            // First: a reset follows a stop that is still being planned.
+            // Before the reset, which would carry out a stop that is still being planned.
             if let Some(f) = self.world.figure_mut(key) {
                 f.set_drive(Motion::External(pair));
             }
             if let Some(state) = first {
-                // Input from the wire was checked there, so there is nothing left to refuse.
+                // The motion was checked when it came from the wire, so there is nothing left to refuse.
                 let _ = engine::reset(&mut self.world, key, state);
             }
         }

@@ -1,7 +1,7 @@
 //! The player of live motion for a figure: its jitter buffer and, if the motion is prepared, its window.
 //!
-//! A player is part of the world: what it does in a tick depends on the frames that came and on the clock that ticks
-//! were counted by, both of which are recorded. Who may send it frames is a matter of drives (`drives`).
+//! A player is part of the world: its effect in a tick depends on the frames that arrived and on the clock that counted
+//! the ticks, both of which are recorded. Permission to send it frames is a matter of drives (`drives`).
 
 use super::input::PlayerKey;
 use crate::engine::{self, Figure, FigureKey, LivePlayback};
@@ -17,9 +17,9 @@ use std::sync::Arc;
 
 /// Samples of standing before a stream begins, for a figure that is not put into it.
 const LEAD_IN: usize = 6;
-/// A stream waits so long at most for its figure to stand, s: a step or two, and some sway.
+/// Longest time for which a stream waits for its figure to stand, s: a step or two, and some sway.
 const MOST_STOPPING: f64 = 5.0;
-/// Samples from one look for a moment at which to catch up to the next.
+/// Samples between two searches for a moment at which to catch up.
 const CATCH_UP_STRIDE: i64 = 10;
 
 /// The player of live motion for one figure.
@@ -33,9 +33,9 @@ pub struct Player {
     pub buffer: JitterBuffer,
     /// The window that prepares its motion, if there is one.
     pub window: Option<PlayoutWindow>,
-    /// It takes the figure over from another player, over so many seconds, once its own motion is there.
+    /// Time over which it takes the figure over from another player, s, once its own motion has arrived.
     pub takeover: Option<f64>,
-    /// Its figure is put into its first desired posture.
+    /// Whether its figure is put into its first desired posture.
     pub reset: bool,
 }
 
@@ -46,9 +46,9 @@ pub struct PlayoutWindow {
     pub length: f64,
     /// The stream until its figure begins to follow it.
     waiting: Option<Box<LivePlayback>>,
-    /// The figure comes into the stream from what it does, whatever the driver asked for.
+    /// Whether the figure enters the stream from its present motion, whatever the driver asked for.
     begun: bool,
-    /// It comes to a stand before that; from this world time on it is not waited for any more, s.
+    /// Set while the figure first comes to a stand: world time after which it is no longer awaited, s.
     stands: Option<f64>,
     /// How far the figure is behind the window, because it was led into a stream that began in motion.
     late: WindowLag,
@@ -57,9 +57,9 @@ pub struct PlayoutWindow {
 /// How far a figure is behind the window of its stream.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct WindowLag {
-    /// So much, s.
+    /// The lag, s.
     by: f64,
-    /// Sample from which on it follows the stream itself.
+    /// Sample from which on the figure follows the stream itself.
     from: i64,
 }
 
@@ -91,12 +91,12 @@ impl PlayoutWindow {
         self.late.by
     }
 
-    /// The same, for one that takes its figure over.
+    /// The lag, for a player that takes its figure over.
     pub fn late(&self) -> WindowLag {
         self.late
     }
 
-    /// A window that begins once its figure stands, which has been told to stop at world time `time`, s.
+    /// A window that begins once its figure stands, after a stop requested at world time `time`, s.
     pub fn after_stop(body: &Arc<Body>, length: f64, time: f64) -> Self {
         Self {
             begun: true,
@@ -105,7 +105,7 @@ impl PlayoutWindow {
         }
     }
 
-    /// True while it waits for its figure to stand.
+    /// Whether it still waits for its figure to stand.
     fn waits_for_stand(&mut self, figure: &Figure, time: f64) -> bool {
         let Some(until) = self.stands else {
             return false;
@@ -118,15 +118,16 @@ impl PlayoutWindow {
         false
     }
 
-    /// Leads the figure into a stream that begins in motion: by steps to a moment of it, once enough of it has come.
-    /// The window's newest playout time is `head` (s), `next` samples of the grid are over. False: not yet.
+    /// Leads the figure into a stream that begins in motion: by steps, to a moment of the stream, once enough of it has
+    /// arrived. The window's newest playout time is `head` (s), and `next` samples of the grid are past. Returns false
+    /// while it is not ready.
     fn leads_in(&mut self, figure: &mut Figure, (head, next): (f64, i64), time: f64) -> bool {
         let Some(live) = &mut self.waiting else {
             return true;
         };
         if let Some(found) = figure.take_stream_entry() {
             let Some(way) = found else {
-                // Later samples may be within its reach.
+                // No moment was within reach, but later samples may be.
                 *self = Self::after_stop(figure.body(), self.length, time);
                 return false;
             };
@@ -152,7 +153,7 @@ impl PlayoutWindow {
         false
     }
 
-    /// Continues from what is asked of the figure now: a stream that begins elsewhere is moved there.
+    /// Continues from the present desired posture of the figure: a stream that begins elsewhere is moved there.
     fn lead_in(&mut self, posture: &Posture) {
         if let Some(live) = &mut self.waiting {
             for _ in 0..LEAD_IN {
@@ -163,8 +164,8 @@ impl PlayoutWindow {
 }
 
 impl Player {
-    /// Takes up after it was read: makes anew what follows from the body of its figure. False: it cannot have been
-    /// written for this figure in a world with ticks of `dt` seconds.
+    /// Completes a player that was read, by deriving the parts that follow from the body of its figure. Returns whether
+    /// a checkpoint could hold it, for this figure in a world with ticks of `dt` seconds.
     pub(super) fn complete(&mut self, figure: &Figure, dt: f64) -> bool {
         let waiting = self.window.as_mut().and_then(|w| w.waiting.as_mut());
         let waits = waiting.is_none_or(|live| live.offset.is_finite() && live.motion.complete());
@@ -178,7 +179,7 @@ impl Player {
             && self.buffer.complete(figure.body(), dt)
     }
 
-    /// How it takes its figure over from the one that plays to it now, if it can in the tick that begins `now`; `None`
+    /// How it takes its figure over from the present player, if it can do so in the tick that begins `now`; `None`
     /// while there is no motion.
     pub fn seam(
         &mut self,
@@ -190,7 +191,7 @@ impl Player {
         let Some(window) = &self.window else {
             return Some(StreamSeam::Nowhere);
         };
-        // The stream that the figure follows goes on with another motion: its window stays.
+        // The stream that the figure follows continues with another motion, in the same window.
         let length = window.length;
         let before = before.filter(|b| b.window.as_ref().is_some_and(|w| w.length == length));
         Some(match before {
@@ -201,9 +202,9 @@ impl Player {
         })
     }
 
-    /// Takes a figure over from another player, in the middle of what it does, over `blend` seconds.
+    /// Takes a figure over from another player, in the middle of its motion, over `blend` seconds.
     ///
-    /// * `late`: how far the figure is behind the window of that one.
+    /// * `late`: how far the figure is behind the window of that player.
     pub fn join(
         &mut self,
         figure: &mut Figure,
@@ -214,7 +215,7 @@ impl Player {
     ) {
         self.buffer.begin_from(figure.target().next.clone(), blend);
         let Some(window) = &mut self.window else {
-            return; // the buffer goes over by itself
+            return; // the buffer blends by itself
         };
         match (seam, figure.stream_mut()) {
             (StreamSeam::Here(entry), Some(live)) => {
@@ -225,15 +226,15 @@ impl Player {
                 window.late = late;
             }
             _ => {
-                // It finishes its step, and is led in from a stand.
+                // The figure finishes its step, and is led in from a stand.
                 figure.stop(now.time);
                 *window = PlayoutWindow::after_stop(figure.body(), window.length, now.time);
             }
         }
     }
 
-    /// Feeds the window with what is due in the tick that begins `now`; once there is enough of it, the figure
-    /// follows. Returns the state that the figure is to be put into, if its driver asked for that.
+    /// Feeds the window with the samples due in the tick that begins `now`. Once there are enough of them, the figure
+    /// follows. Returns the state into which to put the figure, if its driver asked for that.
     pub fn feed(&mut self, now: Now, figure: &mut Figure) -> Option<State> {
         let reset = self.reset;
         let window = self.window.as_mut()?;
@@ -251,7 +252,7 @@ impl Player {
             return None;
         }
         if window.waiting.is_none() && figure.stream_mut().is_none() {
-            // It stopped in a silence: a stream that comes again begins from where the figure is.
+            // The figure stopped in a silence: a stream that comes again begins from where the figure is.
             if !self.buffer.has_news() {
                 self.buffer.feed(now, (RATE, length), |_| ());
                 return None;
@@ -285,7 +286,7 @@ impl Player {
             // Earlier samples are still being played.
             window.late.by -= tick;
             if window.late.by <= 0.0 {
-                // It finishes its step and stands.
+                // The figure finishes its step and stands.
                 window.late.by = 0.0;
                 figure.stop(time);
                 return None;
@@ -307,13 +308,13 @@ impl Player {
         (reset && !window.begun).then_some(first.state())
     }
 
-    /// The desired motion over the tick that begins `now`, and whether the figure is to be put into it at once.
+    /// The desired motion over the tick that begins `now`, and whether to put the figure into it at once.
     pub fn sample(&mut self, now: Now) -> Option<(Box<TargetPair>, bool)> {
         let pair = self.buffer.sample(now)?;
         Some((pair, self.buffer.resets_now()))
     }
 
-    /// Sequence and source time that act now.
+    /// Sequence and source time of the frame in use.
     pub fn applied(&self) -> Option<(i64, i64)> {
         match self.buffer.supply() {
             Supply::None | Supply::Waiting => None,

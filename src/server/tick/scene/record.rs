@@ -8,9 +8,9 @@
 //!           4 figure late                                                               plans that were late in it
 //! ```
 //!
-//! Integers are of variable length. Numbers of a frame are written as what they differ from a continuation of the two
-//! frames before, without the bytes that are zero; not a bit is lost. A `fresh` record forgets what came before it: the
-//! first one behind each checkpoint is, so that reading can begin there.
+//! Integers are of variable length. Numbers of a frame are written as differences from an extrapolation of the two
+//! frames before, without their zero bytes; not a bit is lost. A `fresh` record forgets everything before it. The first
+//! one after each checkpoint is fresh, so that reading can begin there.
 
 use super::input::{PlayerKey, SceneInput};
 use crate::engine::FigureKey;
@@ -39,13 +39,13 @@ const LATE: u8 = 4;
 /// The changes of a world in one round.
 #[derive(Clone)]
 pub struct RoundRecord {
-    /// Its number: they grow by one.
+    /// Its number; numbers grow by one.
     pub seq: u64,
-    /// Tick before which it was.
+    /// The tick before which it was made.
     pub tick: u64,
-    /// As it is written.
+    /// The encoded record.
     pub bytes: Bytes,
-    /// Clips that it refers to.
+    /// Clips to which it refers.
     pub definitions: Vec<Definition>,
 }
 
@@ -62,7 +62,7 @@ pub enum RecordItem {
     Input(Box<SceneInput>),
     /// A frame of live motion, and when it arrived (scheduled time, s).
     Frame(PlayerKey, Box<BufferedFrame>, f64),
-    /// A tick samples live motion; the clock has left out so much world time, s.
+    /// A tick samples live motion, with the world time that the clock has skipped, s.
     Tick(f64),
     /// Plans of a figure that were late in it.
     Late(FigureKey, LatePlans),
@@ -95,7 +95,7 @@ impl FramePast {
     }
 
     fn guess(&self, i: usize) -> u64 {
-        // Added to, a negative zero would not stay one.
+        // As a difference, a negative zero would not stay one.
         let next = if self.slope[i] == 0.0 {
             self.last[i]
         } else {
@@ -175,7 +175,7 @@ fn put_signed(out: &mut Vec<u8>, x: i64) {
     put(out, ((x << 1) ^ (x >> 63)) as u64);
 }
 
-/// Words without their leading zero bytes; how many there are of two words stands before them.
+/// Words without their leading zero bytes; the counts for two words stand before them.
 fn put_words(out: &mut Vec<u8>, words: &[u64]) {
     for pair in words.chunks(2) {
         let length = |w: u64| 8 - w.leading_zeros() as usize / 8;
@@ -187,18 +187,18 @@ fn put_words(out: &mut Vec<u8>, words: &[u64]) {
     }
 }
 
-/// Writes records. Buffers are kept.
+/// Writes records. Its buffers are reused.
 #[derive(Debug, Default)]
 pub struct RecordWriter {
     on: bool,
     bytes: Vec<u8>,
     definitions: Vec<SharedDefinition>,
     tick: u64,
-    /// Records so far.
+    /// Number of records until now.
     seq: u64,
     fresh: bool,
     pasts: Pasts,
-    /// As it was written last.
+    /// The value written last.
     lost: Option<u64>,
 }
 
@@ -210,7 +210,7 @@ pub struct RecordMark {
     fresh: bool,
 }
 
-/// A definition in something that can be shown.
+/// A definition, wrapped so that it can be shown.
 struct SharedDefinition(Definition);
 
 impl std::fmt::Debug for SharedDefinition {
@@ -220,7 +220,7 @@ impl std::fmt::Debug for SharedDefinition {
 }
 
 impl RecordWriter {
-    /// A writer after `seq` records, that writes nothing until it is turned on.
+    /// A writer after `seq` records that writes nothing until it is turned on.
     pub fn after(seq: u64) -> Self {
         Self {
             seq,
@@ -228,23 +228,23 @@ impl RecordWriter {
         }
     }
 
-    /// Writes from now on.
+    /// Turns writing on.
     pub fn turn_on(&mut self) {
         self.on = true;
         self.forget();
     }
 
-    /// Records so far.
+    /// Number of records until now.
     pub fn seq(&self) -> u64 {
         self.seq
     }
 
-    /// Notes that a record was read and took effect.
+    /// Notes that a record was read and applied.
     pub fn passed(&mut self, seq: u64) {
         self.seq = seq;
     }
 
-    /// The next record can be read without those before.
+    /// Makes the next record readable without those before.
     pub fn forget(&mut self) {
         self.fresh = true;
         self.pasts.0.clear();
@@ -260,7 +260,7 @@ impl RecordWriter {
         self.on
     }
 
-    /// How far it has written.
+    /// The present position.
     pub fn mark(&self) -> RecordMark {
         RecordMark {
             bytes: self.bytes.len(),
@@ -269,7 +269,7 @@ impl RecordWriter {
         }
     }
 
-    /// Takes changes back that were written since, and have not taken place.
+    /// Takes back the changes written since the mark, because they did not take place.
     pub fn retract(&mut self, mark: RecordMark) {
         self.bytes.truncate(mark.bytes);
         self.definitions.truncate(mark.definitions);
@@ -285,7 +285,7 @@ impl RecordWriter {
         let (written, definitions) = saved::collecting(|| postcard::to_stdvec(input));
         let written = written.expect("what an input consists of can be written");
         self.bytes.push(INPUT);
-        // Numbers of definitions begin at 0 in each input; here they are those of the record.
+        // Numbers of definitions begin at 0 in each input; here they are made those of the record.
         put(&mut self.bytes, known as u64);
         put(&mut self.bytes, definitions.len() as u64);
         put(&mut self.bytes, written.len() as u64);
@@ -368,7 +368,7 @@ impl RecordWriter {
         if !self.bytes.is_empty() {
             self.bytes.clear();
             self.definitions.clear();
-            // The bytes lack the frame that this one was guessed from.
+            // The discarded bytes lack the frame from which this one was guessed.
             self.forget();
         }
     }
@@ -447,7 +447,7 @@ impl RecordReader {
         RemainingBytes(bytes).number()
     }
 
-    /// Hands the items of a record, in order, to `each`, as far as it wants them.
+    /// Hands the items of a record, in order, to `each`, until it returns an error.
     ///
     /// # Errors
     /// Bytes that cannot have been written, or the error that `each` returns.

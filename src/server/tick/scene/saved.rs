@@ -1,4 +1,4 @@
-//! A scene as it is written into a checkpoint, and made again from one.
+//! The form of a scene in a checkpoint, and a scene from that form.
 
 use super::record::RecordWriter;
 use super::{Member, Player, PlayerKey, Scene};
@@ -50,7 +50,7 @@ impl<'de> Deserialize<'de> for Players<'_> {
     }
 }
 
-/// Whether the description of a figure could have come in requests.
+/// Whether requests could have made this description of a figure.
 fn is_member(m: &Member) -> bool {
     display_name("", &m.settings.display_name).is_ok()
         && m.settings.constraints.len() <= MAX_CONSTRAINTS
@@ -58,7 +58,7 @@ fn is_member(m: &Member) -> bool {
 }
 
 impl Scene {
-    /// The state between two ticks. The next record can be read without those before.
+    /// The state between two ticks. Makes the next record readable without those before.
     pub fn capture(&mut self) -> Capture {
         self.record.forget();
         let Self {
@@ -84,10 +84,10 @@ impl Scene {
         })
     }
 
-    /// Makes a scene of a world and what was captured with it.
+    /// Makes a scene from a world and the other parts captured with it.
     ///
     /// # Errors
-    /// They are not of one world, or cannot have been written.
+    /// They are not of one world, or a checkpoint could not hold them.
     pub fn restored(world: World, saved: SavedScene<'static>) -> Result<Self, &'static str> {
         let SavedScene {
             settings,
@@ -162,13 +162,13 @@ impl Scene {
         })
     }
 
-    /// World time that the clock had left out when live motion was played last, s.
+    /// World time that the clock had skipped when live motion was played last, s.
     pub fn lost(&self) -> f64 {
         let lost = self.players.iter().filter_map(|p| p.buffer.lost());
         lost.fold(0.0, f64::max)
     }
 
-    /// Nothing plays live motion any more: figures that were driven finish their step and stand.
+    /// Ends all live motion: driven figures finish their step and stand.
     pub fn end_live(&mut self) {
         let time = self.world.time();
         self.players.clear();

@@ -7,7 +7,7 @@ use sinew_wire::types::{FigureSnapshot, ObstacleInfo, RosterEntry, Snapshot};
 use std::sync::Arc;
 
 impl Scene {
-    /// The name of the thing that a figure touches; empty if it has gone.
+    /// The name of an object that a figure touches; empty if it has been removed.
     pub fn name_of(&self, other: Other) -> String {
         match other {
             Other::Figure(key, _) => {
@@ -32,7 +32,7 @@ impl Scene {
         }
     }
 
-    /// Who is who.
+    /// The figures and their bodies, by index.
     pub fn roster(&self) -> Arc<[RosterEntry]> {
         let entry = |m: &super::Member| RosterEntry {
             index: m.index,
@@ -44,7 +44,7 @@ impl Scene {
 
     /// Its figures, in the order of creation.
     pub fn figures(&self) -> Vec<FigureSnapshot> {
-        // When the last tick began, which is what its report is about.
+        // Start of the last tick, to which the report refers.
         let (dt, tick) = (self.world.dt(), self.world.tick());
         let start = tick.saturating_sub(1) as f64 * dt;
         let applied = |key: FigureKey| {
@@ -59,7 +59,7 @@ impl Scene {
         self.members.iter().map(shown).collect()
     }
 
-    /// A frame of it that no server has shown: it has neither epoch nor wall time.
+    /// A frame of it outside a server: it has neither epoch nor wall time.
     pub fn snapshot(&self, world: &Arc<str>, roster: (Arc<[RosterEntry]>, i32)) -> Snapshot {
         Snapshot {
             world: Arc::clone(world),

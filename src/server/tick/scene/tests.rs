@@ -1,4 +1,4 @@
-//! What a scene tells of its figures: in which way they follow what they are asked to do, and that frames and
+//! The information that a scene gives about its figures: how they follow their desired motion, and that frames and
 //! checkpoints agree on it.
 
 use super::*;
@@ -15,7 +15,7 @@ use sinew_wire::frame::figure_frame;
 use sinew_wire::pb;
 use sinew_wire::types::{Disturbance, FieldSet, Follows, NumberFormat, Playback};
 
-/// Ticks of the motion that is rehearsed.
+/// Ticks of the rehearsed motion.
 const TICKS: usize = 30;
 /// Force of its help, N.
 const HELP: f64 = 20.0;
@@ -35,7 +35,7 @@ fn scene() -> (Scene, FigureKey) {
     (scene, key)
 }
 
-/// A stand that was rehearsed, with or without help.
+/// A rehearsed stand, with or without help.
 fn stand(scene: &Scene, key: FigureKey, force: f64) -> Arc<RehearsedMotion> {
     let p = scene.world.params();
     let stage = RehearsalWorld {
@@ -74,7 +74,7 @@ fn wave(scene: &Scene, key: FigureKey) -> Clip {
     engine::builtin(scene.figure(key).body(), "wave").unwrap()
 }
 
-/// A second of standing as a figure does.
+/// A second of a figure's own standing.
 fn still(scene: &Scene, key: FigureKey) -> Clip {
     let posture = scene.figure(key).state().posture;
     Clip::from_postures("still", 60.0, vec![posture; 61], vec![[true; 2]; 61]).unwrap()
@@ -97,7 +97,7 @@ fn play(scene: &mut Scene, key: FigureKey, clip: Clip, max_help: f64) {
     done.unwrap();
 }
 
-/// Steps, and what is told then, by the scene and by its frames.
+/// Steps, and returns the information given after that, by the scene and by its frames.
 fn told(scene: &mut Scene, ticks: usize) -> Follows {
     (0..ticks).for_each(|_| scene.step(Planning::InTick));
     let figure = &scene.figures()[0];
@@ -139,7 +139,7 @@ fn what_is_refused_is_not_recorded() {
     scene.apply(push(None)).unwrap();
     assert!(scene.apply(push(Some(-1))).is_err());
     let both = scene.take_record().unwrap();
-    // The first one of a past says so.
+    // The first record of a past is marked as fresh.
     assert_eq!(both.bytes[2..], alone.bytes[2..]);
     assert_eq!((alone.bytes[1], both.bytes[1]), (1, 0));
 }
@@ -182,7 +182,7 @@ fn what_a_rehearsal_needs_is_told_also_after_a_checkpoint() {
         assert_eq!(again.figures()[0].follows, first);
         let last = told(&mut scene, TICKS - 10);
         assert_eq!(told(&mut again, TICKS - 10), last);
-        // What it took stays once it is over, until the next motion begins.
+        // The help stays reported once it is over, until the next motion begins.
         let after = told(&mut scene, 5).so_far;
         assert_eq!(after.mode, FollowMode::Nothing);
         assert!((after.impulse - TICKS as f64 * force * dt).abs() < 1e-9);
@@ -193,7 +193,7 @@ fn what_a_rehearsal_needs_is_told_also_after_a_checkpoint() {
     }
 }
 
-/// All fields of a scene's figures in all formats; nothing in them is infinite or no number.
+/// All fields of a scene's figures in all formats, of which none may be infinite or not a number.
 fn shows_finite_numbers(scene: &Scene) {
     for format in [
         NumberFormat::Float,

@@ -1,17 +1,17 @@
 //! Threads that run the ticks of all worlds.
 //!
-//! Each worker has a *seat*: a heap of worlds by the time of their next round. It runs the earliest that is due, and
-//! puts it back. A worker that has nothing to do takes worlds that are overdue from the seats of others, between two
-//! rounds of theirs, and keeps them; so a world is never on two threads. A world that waits for a command is in no heap
-//! and costs nothing; the command wakes it.
+//! Each worker has a *seat*: a heap of worlds by the time of their next round. It runs the earliest world that is due,
+//! and puts it back. An idle worker takes overdue worlds from the seats of others, between two of their rounds, and
+//! keeps them; so a world is never on two threads. A world that waits for a command is in no heap and costs nothing;
+//! the command wakes it.
 //!
-//! There are two lanes of as many workers each. Worlds whose rounds take less than a millisecond share the *short*
-//! lane, which is the more urgent one to the system. All others, and those that are stepped by hand, share the *long*
-//! lane. A round cannot be interrupted by another one of the same worker, but long ones are on other threads than short
-//! ones, and the system interrupts those. So a world that needs little is late by the short rounds of others at most,
-//! also on one processor.
+//! There are two lanes, each with the same number of workers. Worlds whose rounds take less than a millisecond share
+//! the *short* lane, which has the higher system priority. All others, and those that are stepped by hand, share the
+//! *long* lane. A worker's round cannot be interrupted by another of its rounds, but long rounds run on other threads
+//! than short ones, and the system interrupts those threads. So a world that needs little is delayed at most by the
+//! short rounds of others, even on one processor.
 //!
-//! [`watchdog`] looks after rounds that do not end.
+//! [`watchdog`] watches for rounds that do not end.
 
 mod news;
 mod priority;
@@ -36,14 +36,14 @@ use std::time::Instant;
 use tokio::sync::watch;
 use workers::Workers;
 
-/// Golden section: multiples of it, modulo 1, are evenly spread however many there are.
+/// Golden section: its multiples, modulo 1, are evenly spread however many there are.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// The threads. They end when it is dropped; so do their worlds.
+/// The threads. They end when it is dropped, and so do their worlds.
 #[derive(Debug)]
 pub struct Scheduler(Arc<Workers>);
 
-/// One world, for those who have something for it.
+/// The handle to one world, for those that send something to it.
 #[derive(Debug)]
 pub struct WorldTicket {
     slot: Arc<WorldSlot>,
@@ -52,19 +52,19 @@ pub struct WorldTicket {
 
 impl Drop for WorldTicket {
     fn drop(&mut self) {
-        // Nobody can ask anything of it any more.
+        // No more questions can reach it.
         self.slot.outside.commands.close();
         self.wake();
     }
 }
 
 impl WorldTicket {
-    /// Lets a world look at its commands at once if its clock stands still; a clock that runs looks by itself.
+    /// Makes a world check its commands at once if its clock stands still; a running clock checks by itself.
     pub fn wake(&self) {
         self.shared.wake(&self.slot);
     }
 
-    /// Lets go of a world whose round does not end; others wait for its end.
+    /// Abandons a world whose round does not end, so that those waiting for its end can continue.
     pub fn abandon(&self) {
         if self.slot.outside.outlet.lost.borrow().is_some() {
             self.slot.gone();
@@ -76,7 +76,7 @@ impl Scheduler {
     /// Starts the threads.
     ///
     /// # Errors
-    /// The system gives no thread.
+    /// The system provides no thread.
     pub fn start(plan: SchedulerPlan) -> std::io::Result<Self> {
         let width = plan.width();
         let shared = Arc::new(Workers {
@@ -90,7 +90,7 @@ impl Scheduler {
             stuck: Mutex::default(),
             threads: AtomicU64::new(0),
         });
-        let scheduler = Self(shared.clone()); // ends those that were started if one cannot be
+        let scheduler = Self(shared.clone()); // if one cannot be started, this ends the others
         for seat in 0..shared.seats.len() {
             shared.clone().spawn(seat)?;
         }
@@ -98,7 +98,7 @@ impl Scheduler {
         Ok(scheduler)
     }
 
-    /// Runs a world from now on. Its ticks are spread over the period among those of all other worlds.
+    /// Runs a world from now on. Its ticks are placed between those of all other worlds in a period.
     pub fn add(
         &self,
         mut hosted: HostedWorld,
@@ -113,7 +113,7 @@ impl Scheduler {
         let world: Arc<str> = hosted.id().into();
         let mailboxes = hosted.mailboxes();
         let runner = Runner::new(hosted, commands, outlet);
-        // One whose clock stands still is shown once.
+        // A world whose clock stands still is shown once.
         let first = match runner.next() {
             Next::At(at, false) => at,
             _ => Instant::now(),
@@ -145,7 +145,7 @@ impl Scheduler {
         }
     }
 
-    /// Workers for short rounds, and what the system lets them be; as many have long rounds.
+    /// Workers for short rounds, and the priority that the system grants them; there are as many for long rounds.
     pub fn workers(&self) -> (usize, WorkerPriority) {
         let obtained = lock(&self.0.obtained).unwrap_or(WorkerPriority::Plain);
         (self.0.width, obtained)
@@ -160,7 +160,7 @@ impl Scheduler {
 /// A world that was added.
 #[derive(Debug)]
 pub struct Added {
-    /// For those who have something for it.
+    /// The handle to it.
     pub ticket: WorldTicket,
     /// Ends when the world has ended.
     pub closed: watch::Receiver<()>,

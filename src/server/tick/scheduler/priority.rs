@@ -1,20 +1,20 @@
-//! How urgent the threads of ticks are to the system: as urgent as it allows.
+//! The system priority of the threads of ticks: as high as the system allows.
 
 use std::fmt;
 
-/// Priority of a thread, the most urgent first.
+/// Priority of a thread, the highest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WorkerPriority {
-    /// First in, first out, before all threads that have no real-time priority.
+    /// First in, first out, before all threads without real-time priority.
     Fifo,
     /// A larger part of the processor, and sooner.
     Nice,
-    /// As any other thread.
+    /// Like any other thread.
     Plain,
 }
 
 impl WorkerPriority {
-    /// By the name that the setting `tick_priority` gives it.
+    /// By its name in the setting `tick_priority`.
     pub fn by_name(name: &str) -> Option<Self> {
         [Self::Fifo, Self::Nice, Self::Plain]
             .into_iter()
@@ -39,8 +39,8 @@ pub(super) enum Duty {
     Watch,
     /// Ticks that take little time.
     Short,
-    /// Ticks that take long, and ticks that nobody waits for on a clock. Never in real time: they could keep the
-    /// network from being served.
+    /// Ticks that take long, and ticks without a clock. Never in real time: they could keep the network from being
+    /// served.
     Long,
 }
 
@@ -87,9 +87,10 @@ mod linux {
         level.is_ok_and(|l| set_thread_priority_and_policy(thread_native_id(), l, FIFO).is_ok())
     }
 
-    /// Makes this thread as urgent as it may be, but no more than `most`. Returns what it has become.
+    /// Raises the priority of this thread as far as allowed, but no further than `most`. Returns the resulting
+    /// priority.
     pub(in super::super) fn raise(duty: Duty, most: WorkerPriority) -> WorkerPriority {
-        // Waits end when they should, not up to 50 µs later.
+        // Makes waits end on time, not up to 50 µs later.
         if let Err(e) = rustix::thread::set_current_timer_slack(NonZeroU64::new(1)) {
             tracing::debug!("the timers of a thread stay coarse: {e}");
         }
@@ -97,12 +98,12 @@ mod linux {
             return WorkerPriority::Fifo;
         }
         let own = Some(rustix::thread::gettid());
-        // Threads inherit from the one that starts them.
+        // Threads inherit the priority of the thread that starts them.
         if let Ok(ThreadSchedulePolicy::Realtime(_)) = thread_schedule_policy() {
             let done =
                 set_thread_priority_and_policy(thread_native_id(), ThreadPriority::Min, OTHER);
             tracing::debug!(?done, "a thread is in real time no more");
-            let _ = rustix::process::setpriority_process(own, 0); // less urgent is always allowed
+            let _ = rustix::process::setpriority_process(own, 0); // lowering is always allowed
         }
         let level = if duty == Duty::Long { -5 } else { -10 };
         if most <= WorkerPriority::Nice && rustix::process::setpriority_process(own, level).is_ok()
@@ -112,8 +113,8 @@ mod linux {
         WorkerPriority::Plain
     }
 
-    /// Makes a thread that still lives the least urgent of all: it does not end its work and must not keep others from
-    /// theirs.
+    /// Gives the lowest priority to a thread that is still alive: it does not end its work and must not keep others
+    /// from theirs.
     pub(in super::super) fn lower(id: Id, had: WorkerPriority) {
         const IDLE: ThreadSchedulePolicy =
             ThreadSchedulePolicy::Normal(NormalThreadSchedulePolicy::Idle);
@@ -146,12 +147,12 @@ mod other {
         }
     }
 
-    /// Threads stay as they are.
+    /// Threads keep their priority.
     pub(in super::super) fn raise(_: Duty, _: WorkerPriority) -> WorkerPriority {
         WorkerPriority::Plain
     }
 
-    /// Threads stay as they are.
+    /// Threads keep their priority.
     pub(in super::super) fn lower(_: Id, _: WorkerPriority) {}
 }
 

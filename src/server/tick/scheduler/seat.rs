@@ -1,7 +1,7 @@
-//! The work of one worker.
+//! The queue of one worker.
 //!
-//! Its mutex is held for the few instructions that change a heap, by workers and by those who wake a world. Nothing
-//! else is done while holding it.
+//! Its mutex is held for the few instructions that change a heap, by workers and by those that wake a world. No other
+//! work is done while holding it.
 
 use super::priority::{Id, WorkerPriority};
 use super::slot::{WorldSlot, lock};
@@ -11,14 +11,14 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// No world of a seat needs another worker.
+/// No world in a seat needs another worker.
 const NONE: u64 = u64::MAX;
 
 /// A world that is due at some time.
 #[derive(Debug)]
 pub(super) struct DueWorld {
     pub at: Instant,
-    /// It is void if the world has another stamp.
+    /// The entry is void if the world has another stamp.
     pub stamp: u64,
     pub slot: Arc<WorldSlot>,
 }
@@ -41,26 +41,26 @@ impl Ord for DueWorld {
     }
 }
 
-/// Worlds by the time of their next round, and the one that runs.
+/// Worlds by the time of their next round, and the running one.
 #[derive(Debug, Default)]
 pub(super) struct SeatQueue {
     heap: BinaryHeap<Reverse<DueWorld>>,
     /// The thread that has the seat.
     pub epoch: u64,
-    /// The world that it runs.
+    /// The world that the worker is running.
     pub running: Option<Arc<WorldSlot>>,
-    /// Counts what it has begun to run.
+    /// Number of rounds begun.
     pub rounds: u64,
-    /// Its thread, and how urgent that is.
+    /// Its thread, and the priority of that.
     pub thread: Option<(Id, WorkerPriority)>,
-    /// The thread was made less urgent because a round took long.
+    /// Whether the priority of the thread was lowered because a round took long.
     pub lowered: bool,
-    /// Until when it sleeps.
+    /// The time until which it sleeps.
     sleeps: Option<Option<Instant>>,
 }
 
 impl SeatQueue {
-    /// When the first one is due.
+    /// The time when the first one is due.
     pub fn top(&self) -> Option<Instant> {
         self.heap.peek().map(|Reverse(e)| e.at)
     }
@@ -73,7 +73,7 @@ impl SeatQueue {
         self.heap.push(Reverse(entry));
     }
 
-    /// Notes what its thread runs now.
+    /// Notes which world its thread runs now.
     pub fn begin(&mut self, entry: &DueWorld) {
         self.running = Some(entry.slot.clone());
         self.rounds += 1;
@@ -85,7 +85,7 @@ impl SeatQueue {
 pub(super) struct WorkerSeat {
     pub queue: Mutex<SeatQueue>,
     wake: Condvar,
-    /// When the first world is due that its worker may have no time for, ns after the start.
+    /// Time when the first world is due for which its worker may be too busy, ns after the start.
     hint: AtomicU64,
     idle: AtomicBool,
 }
@@ -102,30 +102,30 @@ impl Default for WorkerSeat {
 }
 
 impl WorkerSeat {
-    /// Notes whose seat it is now.
+    /// Notes that this thread has the seat now.
     pub fn name_thread(&self, priority: WorkerPriority) {
         lock(&self.queue).thread = Some((Id::own(), priority));
     }
 
-    /// Its worker sleeps, or looks for something to do.
+    /// Whether its worker sleeps, or looks for work.
     pub fn is_idle(&self) -> bool {
         self.idle.load(Ordering::SeqCst)
     }
 
-    /// Its worker looks for something to do, or has found it. What others tell after it began to look reaches it: they
-    /// tell first, then see who is idle; it does both the other way round.
+    /// Notes whether its worker is looking for work. News that others give after the search began cannot be missed:
+    /// others first give their news, then check which worker is idle; the worker does both in the opposite order.
     pub fn set_idle(&self, idle: bool) {
         self.idle.store(idle, Ordering::SeqCst);
     }
 
-    /// Lets an idle worker look again.
+    /// Makes an idle worker look again.
     pub fn nudge(&self) {
         let _sleeps = lock(&self.queue);
         self.wake.notify_one();
     }
 
-    /// Tells other workers what they may find here. A single world that does not run is its worker's own affair.
-    /// Whether there was none before.
+    /// Tells other workers what they may find here. A single world that is not running is left to its own worker.
+    /// Returns whether there was no hint before.
     pub fn hint(&self, queue: &SeatQueue, start: Instant) -> bool {
         let shared = queue.running.is_some() || queue.heap.len() > 1;
         let at = queue.top().filter(|_| shared);
@@ -133,20 +133,21 @@ impl WorkerSeat {
         self.hint.swap(ns, Ordering::SeqCst) == NONE && ns != NONE
     }
 
-    /// The hint that the seat has given.
+    /// The current hint of the seat.
     pub fn hinted(&self, start: Instant) -> Option<Instant> {
         let ns = self.hint.load(Ordering::SeqCst);
         (ns != NONE).then(|| start + Duration::from_nanos(ns))
     }
 
-    /// Its worker runs nothing: the entry was void.
+    /// Notes that its worker runs nothing, because the entry was void.
     pub fn rest(&self, start: Instant) {
         let mut queue = lock(&self.queue);
         queue.running = None;
         self.hint(&queue, start);
     }
 
-    /// Adds a world, and wakes the worker if that sleeps for longer. Whether the worker may be too busy for it.
+    /// Adds a world, and wakes the worker if it would sleep for longer. Returns whether the worker may be too busy for
+    /// it.
     pub fn push(&self, entry: DueWorld, start: Instant) -> bool {
         let mut queue = lock(&self.queue);
         let late = queue
@@ -160,7 +161,7 @@ impl WorkerSeat {
         news || queue.running.is_some()
     }
 
-    /// Takes the first world if it was due before some time.
+    /// Takes the first world if it was due before this time.
     pub fn steal(&self, before: Instant, start: Instant) -> Option<DueWorld> {
         let mut queue = lock(&self.queue);
         let overdue = queue.top().is_some_and(|at| at <= before);
@@ -169,7 +170,7 @@ impl WorkerSeat {
         entry
     }
 
-    /// Sleeps until then, or until something comes.
+    /// Sleeps until then, or until news arrives.
     pub fn wait<'a>(
         &self,
         mut queue: MutexGuard<'a, SeatQueue>,

@@ -9,15 +9,15 @@ use sinew_wire::types::{EventKind, WorldCondition, WorldEvent};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::sync::watch;
 
-/// Locks a mutex of the scheduler: its value is changed by steps that cannot panic half-way.
+/// Locks a mutex of the scheduler. Its value is changed by steps that cannot panic half-way.
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Where a world is.
+/// The place of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SlotState {
-    /// In no heap: a command wakes it.
+    /// In no heap; a command wakes it.
     Idle,
     /// In a heap. `eager`: a command makes it due at once.
     Queued { eager: bool },
@@ -31,11 +31,11 @@ pub(super) enum SlotState {
 #[derive(Debug)]
 pub(super) struct SlotPlace {
     pub state: SlotState,
-    /// Which entry of a heap is meant: those with an earlier stamp are void.
+    /// The valid entry of a heap: entries with an earlier stamp are void.
     pub stamp: u64,
-    /// The seat that has it, in either lane.
+    /// Its seat in either lane.
     pub seat: usize,
-    /// It is in the long lane.
+    /// Whether it is in the long lane.
     pub long: bool,
 }
 
@@ -67,10 +67,10 @@ impl std::fmt::Debug for WorldSlot {
 }
 
 impl WorldSlot {
-    /// Ends it for all who wait.
+    /// Ends it for all waiters.
     pub(super) fn gone(&self) {
         lock(&self.place).state = SlotState::Gone;
-        // Nobody looks at commands any more: those that wait are dropped, with what they hold, and later ones refused.
+        // No more commands are taken: waiting ones are dropped with everything they hold, and later ones are refused.
         self.outside.commands.close();
         lock(&self.alive).take();
     }
@@ -93,7 +93,7 @@ impl WorldSlot {
         outlet.lost.send_replace(Some(fault.clone()));
         commands.close();
         mailboxes.close_all(&fault);
-        // Less than before is never refused.
+        // A lower need is never refused.
         let _ = budget.set_pace(account, 0.0);
         metrics::counter!("sinew_worlds_failed_total").increment(1);
         outlet.described.send_modify(|described| {
@@ -108,6 +108,6 @@ impl WorldSlot {
             figure: String::new(),
             kind: EventKind::Failed(why.to_owned()),
         };
-        let _ = outlet.events.send(Arc::new(vec![event])); // nobody may listen
+        let _ = outlet.events.send(Arc::new(vec![event])); // there may be no listener
     }
 }

@@ -15,7 +15,7 @@ fn rounds(scheduler: &Scheduler) -> u64 {
     seats.map(|s| lock(&s.queue).rounds).sum()
 }
 
-/// Waits until something is so.
+/// Waits until a condition holds.
 fn until(what: impl Fn() -> bool) {
     let begun = Instant::now();
     while !what() {
@@ -83,15 +83,15 @@ fn worlds_go_to_another_worker_when_theirs_is_held_up() {
     }
 }
 
-/// Four worlds whose rounds are of 10 ms fill their worker; one that needs microseconds is on time all the same, with
-/// one worker in each lane.
+/// Four worlds with rounds of 10 ms fill their worker. One that needs microseconds is still on time, with one worker in
+/// each lane.
 #[test]
 fn worlds_that_need_little_do_not_wait_for_those_that_need_much() {
     let scheduler = Scheduler::start(workers(1)).unwrap();
     let small = Running::start(&scheduler, 100.0);
     let large: Vec<_> = (0..4).map(|_| Running::start(&scheduler, 20.0)).collect();
     let over = Arc::new(AtomicBool::new(false));
-    /// A command that takes 10 ms and leaves another one for the next round.
+    /// A command that takes 10 ms and queues another one for the next round.
     fn again(over: Arc<AtomicBool>, queue: Arc<CommandQueue>) -> WorldCommand {
         let origin = CommandOrigin {
             client: "c".into(),
@@ -118,7 +118,7 @@ fn worlds_that_need_little_do_not_wait_for_those_that_need_much() {
     eprintln!("late by {median:.0} µs (median), {most:.0} µs (most)");
     assert!(median < 1500.0, "late by {median} µs");
     assert!(!lock(&small.added.ticket.slot.place).long);
-    // Those that need little again come back.
+    // The worlds that need little come back again.
     until(|| large.iter().all(|w| !lock(&w.added.ticket.slot.place).long));
 }
 
@@ -133,7 +133,7 @@ fn a_world_whose_clock_stands_still_costs_nothing_and_wakes_at_once() {
     pause(Duration::from_millis(200));
     assert_eq!(rounds(&scheduler), before);
     for _ in 0..1000 {
-        world.ask(|_| ()); // a command that is missed would wait for ever
+        world.ask(|_| ()); // a missed command would wait for ever
     }
     let ticks = world.ticks();
     world.ask(|s| s.resume().unwrap());
@@ -163,7 +163,7 @@ fn a_round_that_does_not_end_keeps_its_world_and_no_other() {
     until(|| !scheduler.stuck().is_empty());
     assert_eq!(scheduler.stuck(), ["w".into()]);
     until(|| held.outlet.lost.borrow().is_some());
-    // Who waits learns of it, who reads sees it, and nothing more is taken.
+    // Waiters are told, readers see it, and no more commands are taken.
     assert!(answered.recv().is_err());
     let condition = &held.outlet.described.borrow().world.condition.clone();
     let failed = |c: &WorldCondition| matches!(c, WorldCondition::Failed(why) if why.contains("did not end"));
@@ -171,18 +171,18 @@ fn a_round_that_does_not_end_keeps_its_world_and_no_other() {
     let event = events.blocking_recv().unwrap();
     assert!(matches!(event[0].kind, EventKind::Failed(_)));
     assert!(!held.send(|_| ()));
-    // A fresh thread goes on with the other one.
+    // A fresh thread continues with the other one.
     assert_eq!(scheduler.0.threads.load(Ordering::Relaxed), 3);
     let before = other.ticks();
     until(|| other.ticks() > before + 20);
-    // It comes back: its thread ends, and nothing else does.
+    // The stuck round ends: so does its thread, and nothing else.
     go.send(()).unwrap();
     until(|| scheduler.stuck().is_empty());
     let (before, still) = (other.ticks(), held.ticks());
     until(|| other.ticks() > before + 20);
     assert_eq!(held.ticks(), still);
     assert!(failed(&held.outlet.described.borrow().world.condition));
-    // It ends when it is let go, as others do.
+    // The world ends when it is abandoned, like any other.
     assert!(held.added.closed.has_changed().is_ok());
     held.added.ticket.abandon();
     assert!(held.added.closed.has_changed().is_err());
@@ -206,7 +206,7 @@ fn a_world_that_has_ended_takes_no_commands_and_holds_none() {
     let scheduler = Scheduler::start(workers(1)).unwrap();
     let world = Running::start(&scheduler, 100.0);
     let held = Arc::new(());
-    // Both come while a round ends the world: too late for it, and before anybody can see that it has ended.
+    // Both arrive while a round ends the world: too late for it, and before others can see that it has ended.
     let (queue, late) = (world.commands().clone(), held.clone());
     world.send(move |s| {
         s.close(Fault::Draining, None);
@@ -241,7 +241,7 @@ fn what_a_thread_is_given_is_what_the_system_says() {
         {
             let (real, nice) = thread::spawn(move || {
                 priority::raise(Duty::Short, most);
-                // A thread that takes its place, for long rounds, is never in real time.
+                // A replacement thread for long rounds is never in real time.
                 let child = thread::spawn(move || {
                     priority::raise(Duty::Long, most);
                     thread_priority::thread_schedule_policy().unwrap()

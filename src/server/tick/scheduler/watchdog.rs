@@ -1,7 +1,7 @@
-//! Looks after rounds that do not end: reports them, then gives their worlds up, and lets a fresh thread go on with the
-//! others.
+//! Watches for rounds that do not end: reports them, then gives their worlds up, and lets a fresh thread continue with
+//! the others.
 //!
-//! Time counts while this thread runs: after a pause of the whole process no world counts as stuck.
+//! Time only counts while this thread runs: after a pause of the whole process no world counts as stuck.
 
 use super::priority::{self, Duty, WorkerPriority};
 use super::slot::lock;
@@ -11,16 +11,16 @@ use std::sync::{Arc, Weak};
 use std::thread;
 use std::time::Duration;
 
-/// Parts of the shorter limit in which it looks.
+/// Number of checks within the shorter limit.
 const LOOKS: u32 = 8;
-/// Least and most time between two looks.
+/// Least and most time between two checks.
 const EVERY: (Duration, Duration) = (Duration::from_millis(1), Duration::from_millis(250));
 
-/// The round that it saw on one seat.
+/// The round last seen on one seat.
 #[derive(Clone, Copy, Debug, Default)]
 struct SeatWatch {
     round: u64,
-    /// For how long it has seen this round.
+    /// How long this round has been seen.
     time: Duration,
     reported: bool,
 }
@@ -78,7 +78,7 @@ fn look(shared: &Arc<Workers>, seat: usize, seen: &mut SeatWatch, every: Duratio
     let tick = slot.outside.outlet.latest.borrow().tick + 1;
     let (world, seconds) = (&*slot.world, seen.time.as_secs_f64());
     if seen.time >= shared.plan.stuck {
-        // The thread keeps this world. It sees at its end that it has no seat any more.
+        // The thread keeps this world. When it ends the round it sees that it has lost its seat.
         let lost = queue.epoch;
         if let Some((thread, had)) = queue.thread {
             priority::lower(thread, had); // for good
@@ -107,8 +107,8 @@ fn look(shared: &Arc<Workers>, seat: usize, seen: &mut SeatWatch, every: Duratio
         if let Some((thread, had)) = queue.thread
             && had != WorkerPriority::Plain
         {
-            // It has the seat, so it lives. In real time it could keep all others from theirs. A plain thread might not
-            // be allowed to come back.
+            // The thread has the seat, so it is alive. In real time it could keep all others from theirs. A plain
+            // thread is not lowered, because raising it again may not be allowed.
             priority::lower(thread, had);
             queue.lowered = true;
         }

@@ -1,4 +1,4 @@
-//! The workers: each runs the worlds of its seat, and helps others.
+//! The workers: each runs the worlds of its seat and helps others.
 
 use super::news::News;
 use super::priority::{self, Duty, WorkerPriority};
@@ -11,18 +11,18 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Processor time of one round from which on a world is in the long lane. It comes back when its mean is half of that.
+/// Processor time of one round from which a world belongs to the long lane. It returns when its mean is half of that.
 const LONG: Duration = Duration::from_millis(1);
-/// How long a world is overdue before another worker takes it: its own worker is to have the time to wake up.
+/// How long a world is overdue before another worker takes it, so that its own worker has time to wake up.
 const STEAL_AFTER: Duration = Duration::from_micros(200);
-/// Least time between two looks of an idle worker at the seats of others.
+/// Least time between two checks by an idle worker of the seats of others.
 const STEAL_EVERY: Duration = Duration::from_millis(1);
 /// How worlds are run.
 #[derive(Clone, Copy, Debug)]
 pub struct SchedulerPlan {
     /// Workers in each lane; 0: one less than there are processors, and at least one.
     pub workers: usize,
-    /// As urgent as workers may be.
+    /// Highest priority of workers.
     pub priority: WorkerPriority,
     /// A round that takes longer is reported.
     pub slow: Duration,
@@ -49,7 +49,7 @@ pub(super) struct Workers {
     pub start: Instant,
     pub next: AtomicU64,
     pub ending: AtomicBool,
-    /// The priority of the least urgent worker of the short lane.
+    /// The lowest priority among the workers of the short lane.
     pub obtained: Mutex<Option<WorkerPriority>>,
     /// Worlds whose rounds do not end, by the number of their thread.
     pub stuck: Mutex<Vec<(u64, Arc<str>)>>,
@@ -57,7 +57,7 @@ pub(super) struct Workers {
 }
 
 impl Workers {
-    /// Starts a thread for a seat; one that had it before leaves it.
+    /// Starts a thread for a seat. A thread that had the seat before leaves it.
     pub(super) fn spawn(self: Arc<Self>, seat: usize) -> std::io::Result<()> {
         let epoch = self.threads.fetch_add(1, Ordering::Relaxed) + 1;
         lock(&self.seats[seat].queue).epoch = epoch;
@@ -112,7 +112,7 @@ impl Workers {
                 tracing::warn!(world, tick, seconds, "a tick took long");
             }
             let next = next.unwrap_or_else(|_| {
-                // Code that may panic is guarded where it is called: this is an error of the loop itself.
+                // Code that may panic is guarded where it is called, so this is an error of the loop itself.
                 entry.slot.give_up("a round of its loop panicked");
                 Next::Ended
             });
@@ -125,14 +125,14 @@ impl Workers {
                 tracing::warn!(world, seconds, "a tick that was given up has ended");
                 return;
             }
-            // The next tick of the long lane may take long: nothing waits for it.
+            // The next tick of the long lane may take long, and no frame should wait for it.
             if duty == Duty::Long || news.is_due() {
                 news.tell();
             }
         }
     }
 
-    /// Waits for the next world to run; tells the news before. None: the thread is to end.
+    /// Waits for the next world to run, and announces the news before. `None`: the thread has to end.
     fn next_entry(&self, own: usize, epoch: u64, news: &mut News) -> Option<DueWorld> {
         let seat = &self.seats[own];
         let mut queue = lock(&seat.queue);
@@ -142,7 +142,7 @@ impl Workers {
             }
             seat.set_idle(true);
             let now = Instant::now();
-            // The one that is due the longest, of its own and of those that others leave overdue.
+            // The world that has been due for the longest, among its own and those that others leave overdue.
             let due = queue.top().filter(|at| *at <= now);
             let hint = self.others(own);
             let overdue = hint.filter(|(at, _)| *at + STEAL_AFTER <= now);
@@ -154,7 +154,7 @@ impl Workers {
                 queue = lock(&seat.queue);
                 if let Some(entry) = stolen {
                     metrics::counter!("sinew_worlds_stolen_total").increment(1);
-                    queue.push(entry); // it is the first, or this one is not the right thread any more
+                    queue.push(entry); // it is the first, or this thread no longer has the seat
                     seat.hint(&queue, self.start);
                 }
                 continue;
@@ -180,9 +180,9 @@ impl Workers {
         found
     }
 
-    /// The seat of another worker with the world that is due first while its worker may be busy.
+    /// The seat of another worker with the world that is due first while that worker may be busy.
     fn others(&self, own: usize) -> Option<(Instant, usize)> {
-        // Workers for long rounds help with short ones, and not the other way round.
+        // Workers for long rounds help with short ones, but not the other way round.
         let reach = if own < self.width {
             self.width
         } else {
@@ -205,7 +205,7 @@ impl Workers {
         lock(&entry.slot.runner).take()
     }
 
-    /// Puts a world back after a round: whether the thread was not given up during it.
+    /// Puts a world back after a round. Returns whether the thread has not been given up during it.
     fn give_back(
         &self,
         slot: &Arc<WorldSlot>,
@@ -273,7 +273,7 @@ impl Workers {
         place.seat + if place.long { self.width } else { 0 }
     }
 
-    /// Makes a world due that waits for commands.
+    /// Makes a waiting world due.
     pub(super) fn wake(&self, slot: &Arc<WorldSlot>) {
         let mut place = lock(&slot.place);
         match place.state {
@@ -294,7 +294,7 @@ impl Workers {
             stamp: place.stamp,
             slot: slot.clone(),
         };
-        // A worker that has nothing to do takes it at once.
+        // An idle worker takes it at once.
         let home = self.seat(place);
         let lane = home - place.seat;
         let mut lane = lane..lane + self.width;
@@ -306,7 +306,7 @@ impl Workers {
         }
     }
 
-    /// Lets an idle worker see what a seat has.
+    /// Makes an idle worker look at a seat.
     fn call_help(&self, seat: usize) {
         let helpers = if seat < self.width { 0 } else { self.width }..self.seats.len();
         let idle = helpers
