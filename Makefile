@@ -92,7 +92,7 @@ pages: setup ## the viewer's page in a browser where pictures are compared or ti
 	cd $(ROOT)/clients/web && npm test --silent -- --grep @nightly
 
 surveys: ## all stored surveys: of tests/corpus, and of recordings where SINEW_MOCAP_DIR has them
-	$(ROOT)/tests/survey.sh corpus $(if $(SINEW_MOCAP_DIR),strict)
+	$(ROOT)/tests/survey.sh corpus $(if $(SINEW_MOCAP_DIR),strict noise loads live live-30 assisted)
 
 soak: ## a million figure-ticks of everything that can be asked for, about twenty minutes; then a server, half an hour
 	cd $(ROOT) && SINEW_SOAK_TICKS=1000000 \

@@ -4,17 +4,25 @@
 #     tests/survey.sh [--store] SETTING...
 #
 # A SETTING is a line of the table below; its survey is stored as docs/survey/SETTING.json. --store stores the surveys
-# of this build instead, for a commit that says why they moved. Ends with 1 if a clip got worse or is missing. Settings
-# on recordings need both folders in SINEW_MOCAP_DIR, separated by ':' (docs/corpus.md).
+# of this build instead, for a commit that says why they moved, and writes their pages. Ends with 1 if a clip got worse
+# or is missing. Settings on recordings need both folders in SINEW_MOCAP_DIR, separated by ':' (docs/corpus.md).
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 
-# Options of `sinew survey` by setting. `corpus` reads tests/corpus, all others read the recordings.
-options() {
+# Options of `sinew survey` by setting, and the section of docs/limits.md that shows it, if there is one. `corpus` reads
+# tests/corpus, all others read the recordings.
+setting() {
+    options="" section=""
     case $1 in
-    corpus | strict) ;;
+    corpus) section=own-corpus ;;
+    strict) section=recordings ;;
+    noise) options="--copies 20 --noise 1mm,0.2deg" section=noise ;;
+    loads) options="--load 10@r_hand" section=loads ;;
+    live) options="--live-window 1" section=live ;;
+    live-30) options="--live-window 1 --follow assisted" ;;
+    assisted) options="--follow assisted" ;;
     *)
-        echo "survey: no setting $1; there are: corpus strict" >&2
+        echo "survey: no setting $1; there are: corpus strict noise loads live live-30 assisted" >&2
         exit 2
         ;;
     esac
@@ -29,29 +37,29 @@ binary=$("$root/tests/programs.sh")
 results=${CARGO_TARGET_DIR:-$root/target}/survey
 mkdir -p "$results"
 status=0
-for setting in "$@"; do
-    options "$setting" >/dev/null
-    if [ "$setting" = corpus ]; then
-        folders=$root/tests/corpus
+cd "$root"
+for name in "$@"; do
+    setting "$name"
+    if [ "$name" = corpus ]; then
+        folders=tests/corpus
     else
-        folders=${SINEW_MOCAP_DIR:?survey: $setting needs recordings (docs/corpus.md)}
+        folders=${SINEW_MOCAP_DIR:?survey: $name needs recordings (docs/corpus.md)}
     fi
     old=$IFS
     IFS=:
-    # shellcheck disable=SC2086 # a list of folders and one of words
+    # shellcheck disable=SC2086 # a list of folders
     set -- $folders
     IFS=$old
-    new=$results/$setting.json
-    stored=$root/docs/survey/$setting.json
-    # shellcheck disable=SC2046
+    stored=docs/survey/$name.json
+    # shellcheck disable=SC2086 # words
     if [ -n "$store" ]; then
-        "$binary" survey "$@" $(options "$setting") --out "$new"
-        cp "$new" "$stored"
+        "$binary" survey "$@" $options --out "$stored" --summary docs/survey \
+            ${section:+--page docs/limits.md#$section}
     elif ! [ -f "$stored" ]; then
-        echo "survey: nothing is stored for $setting: tests/survey.sh --store $setting" >&2
+        echo "survey: nothing is stored for $name: tests/survey.sh --store $name" >&2
         status=1
     else
-        "$binary" survey "$@" $(options "$setting") --out "$new" --compare "$stored" || status=1
+        "$binary" survey "$@" $options --out "$results/$name.json" --compare "$stored" || status=1
     fi
 done
 exit $status

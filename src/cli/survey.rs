@@ -57,8 +57,8 @@ pub fn run(args: &SurveyArgs) -> Result<()> {
         counted(rows.len(), "clip"),
         args.out.display()
     ));
-    if let Some(spec) = &args.summary {
-        summary::put(spec, &rows, std::env::args())?;
+    if let Some(folder) = &args.summary {
+        summary::write_page(folder)?;
     }
     if let Some(page) = &args.page {
         page.fill(&tables::summary(&rows), std::env::args())?;
@@ -97,8 +97,8 @@ fn check(args: &SurveyArgs) -> Result<()> {
         within(name, value, range)?;
     }
     check_folder("--out", Some(&args.out))?;
-    if let Some(spec) = &args.summary {
-        check_folder("--summary", Some(&spec.file.join("summary.json")))?;
+    if let Some(folder) = &args.summary {
+        check_folder("--summary", Some(&folder.join("README.md")))?;
     }
     // Streams are not rehearsed.
     if args.follow == FollowArg::Strict || args.live_window.is_some() {

@@ -186,7 +186,8 @@ pub struct FigureOptions {
     /// Help towards the desired pose of the pelvis, 0…1: [`Assist`](crate::stepper::pelvis_wrench::Assist). 0: none.
     pub assist: f64,
     /// Largest force over the weight of the help while a motion is being lost, 0…2:
-    /// [`Help`](crate::figure::balance::live_help::LiveHelp). 0: none. It needs the modern controller, and no `assist`.
+    /// [`LiveHelp`](crate::figure::balance::live_help::LiveHelp). 0: none. It needs the modern controller, and no
+    /// `assist`.
     pub max_help: f64,
     /// Keeps the body from passing through itself: [`self_contact`](crate::figure::self_contact). It does not act
     /// within a rehearsed motion. Off by default, because controllers do not account for it, and recover balance

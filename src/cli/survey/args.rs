@@ -92,9 +92,9 @@ pub struct SurveyArgs {
     /// Runs at the same time; the result does not depend on it. Default: one for each core.
     #[arg(long, value_name = "N")]
     pub jobs: Option<usize>,
-    /// Puts the survey under a name into FOLDER/summary.json, and writes FOLDER/README.md about all surveys there.
-    #[arg(long, value_name = "FOLDER#NAME")]
-    pub summary: Option<PageSpec>,
+    /// Writes FOLDER/README.md about all surveys (*.json) in FOLDER.
+    #[arg(long, value_name = "FOLDER")]
+    pub summary: Option<PathBuf>,
     /// Puts the table by kind of motion, what came of the forecasts, and the command that makes them between the marks
     /// of a section in a file: `<!-- survey SECTION begin: … -->` and `<!-- survey SECTION end -->`.
     #[arg(long, value_name = "FILE#SECTION")]

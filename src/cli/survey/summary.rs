@@ -1,154 +1,70 @@
-//! `--summary`: one page about all stored surveys, and the few numbers of each clip from which it is made.
+//! `--summary`: one page about all surveys of a folder, made from their files alone.
 
-use super::page::{PageSpec, command};
+use super::file::{self, Survey};
 use crate::output::write;
 use anyhow::{Context, Result};
-use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use sinew_evaluate::survey::stats::median;
 use sinew_evaluate::survey::tables::SurveyTable;
-use sinew_evaluate::survey::{MeasuredClip, MotionKind, SurveyRow};
+use sinew_evaluate::survey::{MeasuredClip, TrackingErrors};
 use sinew_physics::rehearsal::follow::FollowWay;
 use std::path::Path;
 
-/// File of the numbers, in the folder.
-const NUMBERS: &str = "summary.json";
-/// File of the page, in the folder.
+/// The page, in the folder.
 const PAGE: &str = "README.md";
-/// Survey whose clips are listed, with the way in which each is kept.
+/// The survey whose settings the others are compared with.
+const USUAL: &str = "strict";
+/// The survey whose clips are listed, because it says how each of them is kept.
 const LISTED: &str = "assisted";
 
-/// A survey in short.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct SurveyDigest {
-    /// Its name.
+/// A survey of the folder.
+struct NamedSurvey {
+    /// File name without its extension.
     name: String,
-    /// The command that reproduces it.
-    command: String,
-    /// Its clips.
-    clips: Vec<ClipDigest>,
+    survey: Survey,
 }
 
-/// A clip in short. Numbers are rounded as tables show them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct ClipDigest {
-    clip: String,
-    kind: MotionKind,
-    /// Whether it was never further than 0.5 m from the recording (PHC).
-    completed: bool,
-    /// Whether height and tilt of the pelvis were kept.
-    upright: bool,
-    fell: bool,
-    /// Mean distance from the recording relative to the pelvis, mm.
-    root_mm: Option<f64>,
-    /// Mean distance from the recording in the world, mm.
-    global_mm: Option<f64>,
-    joints_deg: Option<f64>,
-    touch_down_ms: Option<f64>,
-    /// Impulse of help over weight × time, %.
-    help_percent: f64,
-    /// In what way the clip was followed, if rehearsals were allowed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    way: Option<FollowWay>,
-    /// Copies completed, and run.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    copies: Option<[usize; 2]>,
-}
-
-fn rounded(x: f64, decimals: i32) -> f64 {
-    let unit = 10f64.powi(decimals);
-    (x * unit).round() / unit
-}
-
-impl ClipDigest {
-    fn of(name: &str, m: &MeasuredClip) -> Self {
-        let o = &m.outcome;
-        let errors = o.to_recorded();
-        Self {
-            clip: name.to_owned(),
-            kind: m.kind,
-            completed: o.completed,
-            upright: o.anchor_lost_at_s.is_none() && o.frozen_at_s.is_none(),
-            fell: o.fell_at_s.is_some(),
-            root_mm: errors.map(|e| rounded(e.mpjpe_root_mm, 0)),
-            global_mm: errors.map(|e| rounded(e.mpjpe_global_mm, 0)),
-            joints_deg: errors.map(|e| rounded(e.joint_rms_deg, 1)),
-            touch_down_ms: o.touch_downs.median_ms.map(|t| rounded(t, 0)),
-            help_percent: rounded(100.0 * o.assist_share, 1),
-            way: m.followed.as_ref().map(|f| f.way),
-            copies: m.copies.as_ref().map(|c| [c.completed, c.count]),
-        }
+impl NamedSurvey {
+    /// The clips that could be read, with their names.
+    fn clips(&self) -> impl Iterator<Item = (&str, &MeasuredClip)> {
+        let rows = self.survey.rows.iter();
+        rows.filter_map(|r| Some((r.clip.as_str(), r.result.as_ref()?)))
     }
 }
 
-/// Digests of the clips that could be read.
-fn clips(rows: &[SurveyRow]) -> Vec<ClipDigest> {
-    let read = rows.iter().filter_map(|r| Some((r, r.result.as_ref()?)));
-    read.map(|(row, m)| ClipDigest::of(&row.clip, m)).collect()
-}
-
-/// Puts a survey under the name of `spec` into its folder, and writes the page of the folder.
+/// Writes the page of `folder` from all surveys in it.
 ///
 /// # Errors
-/// Files that cannot be read or written.
-pub(super) fn put(
-    spec: &PageSpec,
-    rows: &[SurveyRow],
-    arguments: impl Iterator<Item = String>,
-) -> Result<()> {
-    let mut all = read(&spec.file)?;
-    let digest = SurveyDigest {
-        name: spec.section.clone(),
-        command: command(arguments),
-        clips: clips(rows),
-    };
-    match all.iter_mut().find(|d| d.name == digest.name) {
-        Some(old) => *old = digest,
-        None => all.push(digest),
-    }
-    write(&spec.file.join(NUMBERS), numbers(&all)?)?;
-    write(&spec.file.join(PAGE), page(&all))
+/// A file that cannot be read or is no survey; a page that cannot be written.
+pub(super) fn write_page(folder: &Path) -> Result<()> {
+    write(&folder.join(PAGE), page(&read(folder)?))
 }
 
-/// The surveys of a folder; empty if the folder has no file of surveys.
-fn read(folder: &Path) -> Result<Vec<SurveyDigest>> {
-    let path = folder.join(NUMBERS);
-    if !path.exists() {
-        return Ok(Vec::new());
-    }
-    let text = std::fs::read_to_string(&path)
-        .with_context(|| format!("cannot read {}", path.display()))?;
-    serde_json::from_str(&text).with_context(|| format!("{} is no summary", path.display()))
-}
-
-/// All surveys as JSON, one clip per line.
-fn numbers(all: &[SurveyDigest]) -> Result<String> {
-    let mut surveys = Vec::new();
-    for d in all {
-        let mut lines = Vec::new();
-        for clip in &d.clips {
-            lines.push(serde_json::to_string(clip).context("a clip cannot be written as JSON")?);
+/// The surveys of a folder by name.
+fn read(folder: &Path) -> Result<Vec<NamedSurvey>> {
+    let cannot = || format!("cannot read {}", folder.display());
+    let mut all = Vec::new();
+    for entry in std::fs::read_dir(folder).with_context(cannot)? {
+        let path = entry.with_context(cannot)?.path();
+        if path.extension().is_some_and(|e| e == "json") {
+            let stem = path.file_stem().unwrap_or_default();
+            all.push(NamedSurvey {
+                name: stem.to_string_lossy().into_owned(),
+                survey: file::read(&path)?,
+            });
         }
-        surveys.push(format!(
-            "{{\"name\": {}, \"command\": {}, \"clips\": [\n{}\n]}}",
-            serde_json::json!(d.name),
-            serde_json::json!(d.command),
-            lines.join(",\n")
-        ));
     }
-    Ok(format!("[\n{}\n]\n", surveys.join(",\n")))
+    all.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(all)
 }
 
-fn page(all: &[SurveyDigest]) -> String {
-    let mut out = "# Surveys\n\nEach survey that is stored, in short. `sinew survey … --summary docs/survey#NAME` puts \
-        one into\n[summary.json](summary.json) and writes this page. [survey.md](../survey.md) defines the columns; \
-        errors are medians\nagainst the recordings.\n\n"
+fn page(all: &[NamedSurvey]) -> String {
+    let mut out = "# Surveys\n\nWritten by `sinew survey … --summary` from the surveys in this folder; \
+        `tests/survey.sh --store NAME` makes one again.\n[survey.md](../survey.md) defines the columns. Errors are \
+        medians against the recordings.\n\n"
         .to_owned();
     out += &surveys(all).markdown();
-    out += "\n| survey | command |\n|---|---|\n";
-    for d in all {
-        out += &format!("| {} | `{}` |\n", d.name, d.command);
-    }
-    if let Some(listed) = all.iter().find(|d| d.name == LISTED) {
+    if let Some(listed) = all.iter().find(|s| s.name == LISTED) {
         out += &format!(
             "\n## Clips\n\nHow each clip of the survey *{LISTED}* is kept, and with how much help.\n\n{}",
             kept(listed).markdown()
@@ -157,39 +73,60 @@ fn page(all: &[SurveyDigest]) -> String {
     out
 }
 
+/// The settings of a survey that differ from the usual ones.
+fn differing(settings: &Map<String, Value>, usual: &Map<String, Value>) -> String {
+    let show = |v: &Value| match v {
+        Value::Array(values) => {
+            let texts = values.iter().map(|v| v.as_str().unwrap_or_default());
+            texts.collect::<Vec<_>>().join(", ")
+        }
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    };
+    let parts: Vec<String> = (settings.iter())
+        .filter(|(name, value)| usual.get(*name) != Some(value))
+        .map(|(name, value)| format!("`{name}` {}", show(value)))
+        .collect();
+    parts.join(", ")
+}
+
 /// One row per survey.
-fn surveys(all: &[SurveyDigest]) -> SurveyTable {
-    let row = |d: &SurveyDigest| {
-        let of = |yes: &dyn Fn(&ClipDigest) -> bool| {
-            d.clips.iter().filter(|c| yes(c)).count().to_string()
+fn surveys(all: &[NamedSurvey]) -> SurveyTable {
+    let none = Map::new();
+    let usual = all.iter().find(|s| s.name == USUAL);
+    let usual = usual.map_or(&none, |s| &s.survey.settings);
+    let row = |s: &NamedSurvey| {
+        let of = |yes: &dyn Fn(&MeasuredClip) -> bool| {
+            s.clips().filter(|(_, m)| yes(m)).count().to_string()
         };
-        let middle = |value: &dyn Fn(&ClipDigest) -> Option<f64>, decimals: usize| {
-            let values: Vec<f64> = d.clips.iter().filter_map(value).collect();
+        let middle = |value: &dyn Fn(&TrackingErrors) -> f64, decimals: usize| {
+            let errors = s.clips().filter_map(|(_, m)| m.outcome.to_recorded());
+            let values: Vec<f64> = errors.map(value).collect();
             median(&values).map_or("–".to_owned(), |m| format!("{m:.decimals$}"))
         };
-        let copies = d.clips.iter().filter_map(|c| c.copies);
-        let [kept, run] = copies.fold([0, 0], |[k, n], c| [k + c[0], n + c[1]]);
-        let copies = if run == 0 {
-            "–".to_owned()
-        } else {
-            format!("{kept} of {run}")
-        };
+        let copies = s.clips().filter_map(|(_, m)| m.copies.as_ref());
+        let (kept, run) = copies.fold((0, 0), |(kept, run), c| (kept + c.completed, run + c.count));
         vec![
-            d.name.clone(),
-            d.clips.len().to_string(),
-            of(&|c| c.completed),
-            copies,
-            of(&|c| c.upright),
-            of(&|c| !c.fell),
-            middle(&|c| c.root_mm, 0),
-            middle(&|c| c.global_mm, 0),
-            middle(&|c| c.joints_deg, 1),
-            middle(&|c| c.touch_down_ms, 0),
+            s.name.clone(),
+            differing(&s.survey.settings, usual),
+            s.clips().count().to_string(),
+            of(&|m| m.outcome.completed),
+            if run == 0 {
+                "–".to_owned()
+            } else {
+                format!("{kept} of {run}")
+            },
+            of(&|m| m.outcome.anchor_lost_at_s.is_none() && m.outcome.frozen_at_s.is_none()),
+            of(&|m| m.outcome.fell_at_s.is_none()),
+            middle(&|e| e.mpjpe_root_mm, 0),
+            middle(&|e| e.mpjpe_global_mm, 0),
+            middle(&|e| e.joint_rms_deg, 1),
         ]
     };
     SurveyTable {
         head: vec![
             "survey",
+            "settings other than of *strict*",
             "clips",
             "kept (PHC)",
             "copies kept",
@@ -198,74 +135,60 @@ fn surveys(all: &[SurveyDigest]) -> SurveyTable {
             "root-rel., mm",
             "global, mm",
             "joints, °",
-            "touch-down, ms",
         ],
         rows: all.iter().map(row).collect(),
     }
 }
 
 /// One row per clip: how it is kept.
-fn kept(survey: &SurveyDigest) -> SurveyTable {
-    let row = |c: &ClipDigest| {
-        let by = match c.way {
+fn kept(survey: &NamedSurvey) -> SurveyTable {
+    let row = |(name, m): (&str, &MeasuredClip)| {
+        let by = match m.followed.as_ref().map(|f| f.way) {
+            _ if !m.outcome.completed => "lost",
+            Some(FollowWay::Lost) => "lost",
             Some(FollowWay::Rehearsed) => "rehearsal",
             Some(FollowWay::Helped) => "help",
-            Some(FollowWay::Lost) => "lost",
             Some(FollowWay::Tracked) | None => "tracking",
         };
-        let by = if c.completed { by } else { "lost" };
         vec![
-            c.clip.clone(),
-            c.kind.name().to_owned(),
+            name.to_owned(),
+            m.kind.name().to_owned(),
             by.to_owned(),
-            format!("{:.1}", c.help_percent),
+            format!("{:.1}", 100.0 * m.outcome.assist_share),
         ]
     };
     SurveyTable {
         head: vec!["clip", "kind", "kept by", "help, % of weight × time"],
-        rows: survey.clips.iter().map(row).collect(),
+        rows: survey.clips().map(row).collect(),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::file;
     use super::*;
+    use serde_json::json;
 
-    fn folder() -> &'static Path {
-        Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/survey"))
-    }
-
-    /// `SINEW_REWRITE=1` writes the page instead.
     #[test]
-    fn the_page_is_that_of_the_stored_numbers() {
-        let all = read(folder()).unwrap();
-        assert!(all.len() >= 7, "surveys are missing");
-        let path = folder().join(PAGE);
-        if std::env::var_os("SINEW_REWRITE").is_some() {
-            std::fs::write(&path, page(&all)).unwrap();
-            std::fs::write(folder().join(NUMBERS), numbers(&all).unwrap()).unwrap();
-        }
+    fn the_page_is_that_of_the_stored_surveys() {
+        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/survey"));
+        let all = read(folder).unwrap();
+        assert!(all.iter().any(|s| s.name == USUAL) && all.iter().any(|s| s.name == LISTED));
         assert!(
-            std::fs::read_to_string(path).unwrap() == page(&all),
-            "SINEW_REWRITE=1 cargo test summary writes docs/survey/README.md"
+            std::fs::read_to_string(folder.join(PAGE)).unwrap() == page(&all),
+            "tests/survey.sh --store writes docs/survey/{PAGE}"
         );
     }
 
-    /// A survey whose measures are all stored as well has the same numbers there.
     #[test]
-    fn the_summary_agrees_with_the_stored_surveys() {
-        let all = read(folder()).unwrap();
-        let stored = |name: &str| clips(&file::read(&folder().join(name)).unwrap().rows);
-        for (name, mut full) in [
-            ("own-corpus", stored("corpus.json")),
-            ("recordings", stored("strict.json")),
-        ] {
-            let digest = all.iter().find(|d| d.name == name).unwrap();
-            let mut short = digest.clips.clone();
-            short.sort_by(|a, b| a.clip.cmp(&b.clip));
-            full.sort_by(|a, b| a.clip.cmp(&b.clip));
-            assert_eq!(short, full, "{name}");
-        }
+    fn settings_are_shown_where_they_differ() {
+        let map = |v: Value| v.as_object().unwrap().clone();
+        let usual = map(json!({ "loads": [], "copies": 0, "strength": 1.0 }));
+        let new = map(
+            json!({ "loads": ["10@r_hand"], "copies": 20, "strength": 1.0, "follow": "assisted" }),
+        );
+        assert_eq!(
+            differing(&new, &usual),
+            "`copies` 20, `follow` assisted, `loads` 10@r_hand"
+        );
     }
 }
