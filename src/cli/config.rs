@@ -14,7 +14,7 @@ pub struct ConfigArgs {
     action: ConfigAction,
 }
 
-/// What is asked.
+/// Commands of `sinew config`.
 #[derive(Clone, Debug, clap::Subcommand)]
 enum ConfigAction {
     /// Check the settings and what they name: certificates, keys, directories, the address; takes the flags of `serve`

@@ -22,7 +22,7 @@ pub struct TokenArgs {
     /// Write a new secret to that file first; there must be none yet
     #[arg(long)]
     new_key: bool,
-    /// Who the token is for; grants call it `user:NAME`
+    /// The user for whom the token is; grants call it `user:NAME`
     #[arg(long = "for", value_name = "NAME", required_unless_present = "new_key")]
     subject: Option<String>,
     /// Role: viewer, perturber, driver, director, owner or creator (repeatable) [default: none but those of grants]

@@ -8,7 +8,7 @@
 pub struct Param {
     /// Name of the constant.
     pub name: &'static str,
-    /// What it is, as its documentation says.
+    /// Its documentation.
     pub what: &'static str,
     /// Its value, in its unit.
     pub value: f64,

@@ -1,6 +1,6 @@
 //! The table that leads from each equation to its code and its tests, `docs/equations.md`, held against the source.
 //!
-//! Goal: a reader who looks for an equation finds the functions that compute it and the tests that check it, and both
+//! Goal: readers in search of an equation find the functions that compute it and the tests that check it, and both
 //! name the equation. Method: the rows of the tables are read; each path in them is looked up among the items of
 //! `src/`, each test among the tests of the repository, and the comments above them must name the subject of the row.
 

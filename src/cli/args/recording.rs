@@ -65,7 +65,7 @@ fn unit(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What a BVH file does not state, or states wrongly, and the pace at which it is played.
+/// Facts that a BVH file does not state, or states wrongly, and the pace at which it is played.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct RecordingArgs {
     /// Unit and axes.

@@ -40,7 +40,7 @@ pub struct BenchArgs {
     pub(super) credentials: CredentialArgs,
 }
 
-/// What is sent to each server.
+/// The traffic to each server.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct Traffic {
     /// Frames of desired motion per second and driver
@@ -106,7 +106,7 @@ pub(super) enum Storing {
     Off,
     /// States at orderly ends
     None,
-    /// What comes within 10 ms together
+    /// All inputs of 10 ms together
     Group,
     /// Each input at once
     Each,

@@ -73,8 +73,8 @@ pub struct SurveyArgs {
     /// Streams each recording through a preparation window of 0.3 to 1 s instead of preparing it as a whole.
     #[arg(long, value_name = "S")]
     pub live_window: Option<f64>,
-    /// What may be done with a clip that plain tracking loses: nothing (strict), a rehearsal, or a rehearsal and as
-    /// little help as will do. Noise is then on the state that a rehearsed clip begins in.
+    /// Treatment of a clip that plain tracking loses: none (strict), a rehearsal, or a rehearsal and as little help as
+    /// will do. Noise is then on the state in which a rehearsed clip begins.
     #[arg(long, value_enum, default_value_t = FollowArg::Strict, conflicts_with = "assist")]
     pub follow: FollowArg,
     /// Help and random numbers of rehearsals.

@@ -206,7 +206,7 @@ settings! {
     tls_cert: text = "", (), ();
     /// PEM file with its private key.
     tls_key: text = "", (), ();
-    /// PEM file with the roots that issue certificates of clients; such a certificate says who a client is.
+    /// PEM file with the roots that issue certificates of clients; such a certificate names the client.
     tls_client_ca: text = "", (), ();
     /// Refuses connections without a client certificate, also those for health.
     tls_require_client_cert: flag = false, (), ();
@@ -222,7 +222,7 @@ settings! {
     jwt_refresh_s: float = 300.0, 10.0, 86_400.0;
     /// File with the secret of tokens that `sinew token` makes.
     jwt_secret_file: text = "", (), ();
-    /// Who must have issued a token (`iss`); empty: anyone with the key.
+    /// Required issuer of a token (`iss`); empty: anyone with the key.
     jwt_issuer: text = "", (), ();
     /// For whom a token must be (`aud`).
     jwt_audience: text = "sinew", (), ();
@@ -268,7 +268,7 @@ settings! {
     /// Logs as JSON lines.
     log_json: flag = false, (), ();
     /// Address of an OpenTelemetry collector that takes traces by gRPC (for example `http://127.0.0.1:4317`); empty:
-    /// nobody. Needs a server that is built with the feature `otlp`.
+    /// none. Needs a server that is built with the feature `otlp`.
     otlp_endpoint: text = "", (), ();
     /// Share of calls that are traced.
     otlp_call_share: float = 1.0, 0.0, 1.0;
@@ -284,7 +284,7 @@ settings! {
     tick_priority: text = "fifo", (), ();
     /// A tick that takes longer is reported, s.
     slow_tick_s: float = 0.5, 0.001, 3600.0;
-    /// A tick that takes longer is given up, s: its world has failed, and another thread goes on with the others.
+    /// A tick that takes longer is given up, s: its world has failed, and another thread runs the others.
     stuck_tick_s: float = 10.0, 0.01, 86_400.0;
     /// Figures in one world; 60 of them fill one core at 60 Hz.
     max_figures_per_world: int = 64, 1, 1000;
@@ -373,8 +373,8 @@ settings! {
     max_connection_age_s: float = 0.0, 0.0, 604_800.0;
     /// How long the streams of such a connection may go on before it is closed, s.
     connection_age_grace_s: float = 30.0, 0.0, 86_400.0;
-    /// How long the server goes on when it is told to shut down, s: health and `/readyz` say that it ends, so that load
-    /// balancers send nobody any more, and no new world is created.
+    /// Time for which the server keeps serving after it is told to shut down, s: health and `/readyz` say that it ends,
+    /// so that load balancers send no more clients, and no new world is created.
     lame_duck_s: float = 1.0, 0.0, 600.0;
     /// How long calls that are worked on get to end when the server shuts down, and then connections to close, s.
     shutdown_grace_s: float = 5.0, 0.0, 600.0;

@@ -34,12 +34,12 @@ pub mod staged {
 /// Whether balance is lost for good.
 pub mod balance {
     crate::params::params! {
-        /// Arms and trunk bring the capture point back from so far outside the support.
+        /// Largest distance outside the support from which arms and trunk bring the capture point back.
         BODY_REACH: f64 = 0.04, "m", 0..=0.1, "docs/locomotion.md#recovery";
-        /// What does not step keeps trying up to here: on an edge of the feet. A centre of mass farther than this
-        /// from where the motion has it makes a loss of balance a fall.
+        /// The same for a figure that does not step: it keeps trying on an edge of the feet. Lost balance becomes a
+        /// fall once the centre of mass is farther than this from its place in the motion.
         PAPER_REACH: f64 = 0.15, "m", 0.04..=0.3, "docs/tick.md";
-        /// Steps bring the capture point back from so far outside the support.
+        /// Largest distance outside the support from which steps bring the capture point back.
         STEP_REACH: f64 = 0.6, "m", 0.2..=1.0, "docs/locomotion.md#recovery";
         /// A body with its centre of mass below this share of its standing height does not step any more.
         LOWEST_STEP: f64 = 0.7, "1", 0.5..=0.9, "docs/locomotion.md#recovery";
@@ -87,15 +87,15 @@ pub mod get_up {
         LEVEL: f64 = 0.7, "1", 0.3..=0.9, "docs/locomotion.md#getting-up";
         /// A body lies still below this speed of its centre of mass.
         STILL_SPEED: f64 = 0.3, "m/s", 0.05..=1.0, "docs/locomotion.md#getting-up";
-        /// Getting up goes on at full pace below this error: root mean square of the joints.
+        /// Getting up keeps its full pace below this error: root mean square of the joints.
         FULL_PACE_JOINTS: f64 = 0.08, "rad", 0.01..=1.0, "docs/locomotion.md#getting-up";
         /// It waits above this error: root mean square of the joints.
         NO_PACE_JOINTS: f64 = 0.2, "rad", 0.02..=2.0, "docs/locomotion.md#getting-up";
-        /// Getting up goes on at full pace below this error: turn of the pelvis.
+        /// Getting up keeps its full pace below this error: turn of the pelvis.
         FULL_PACE_TURN: f64 = 0.15, "rad", 0.01..=1.0, "docs/locomotion.md#getting-up";
         /// It waits above this error: turn of the pelvis.
         NO_PACE_TURN: f64 = 0.4, "rad", 0.02..=2.0, "docs/locomotion.md#getting-up";
-        /// Getting up goes on at full pace below this error: distance of the centre of mass over the floor.
+        /// Getting up keeps its full pace below this error: distance of the centre of mass over the floor.
         FULL_PACE_COM: f64 = 0.03, "m", 0.01..=1.0, "docs/locomotion.md#getting-up";
         /// It waits above this error: distance of the centre of mass over the floor.
         NO_PACE_COM: f64 = 0.08, "m", 0.02..=2.0, "docs/locomotion.md#getting-up";
@@ -103,7 +103,7 @@ pub mod get_up {
         FULL_PACE_LYING_TURN: f64 = 0.25, "rad", 0.05..=1.0, "docs/locomotion.md#getting-up";
         /// `NO_PACE_TURN` of a body that lies.
         NO_PACE_LYING_TURN: f64 = 0.6, "rad", 0.1..=2.0, "docs/locomotion.md#getting-up";
-        /// A body that lies goes on at least at this pace: it does not wait for ever.
+        /// Least pace of a body that lies, so that it does not wait for ever.
         LEAST_PACE: f64 = 0.25, "1", 0.05..=1.0, "docs/locomotion.md#getting-up";
         /// Getting up stalls below this pace.
         STALLED_PACE: f64 = 0.05, "1", 0..=0.5, "docs/locomotion.md#getting-up";
@@ -163,20 +163,19 @@ pub mod load {
         RATE_SPAN: f64 = 5e-4, "s", 1e-5..=5e-3, "numerical";
         /// Load with which an arm swings half as far: about the mass of an arm.
         HALF_SWING: f64 = 4.0, "kg", 1..=10, "docs/locomotion.md#loads";
-        /// What an arm does within this time counts as quick.
+        /// A movement of an arm that takes less time than this counts as quick.
         QUICK: f64 = 0.7, "s", 0.2..=2, "docs/locomotion.md#loads";
         /// An arm hangs whose hand is less than this before or behind its shoulder.
         HANGS_SWING: f64 = 0.7, "rad", 0.3..=1.2, "docs/locomotion.md#loads";
-        /// It does not hang from this angle on. What its swing had less comes back while it is raised from the one
-        /// to the other.
+        /// It no longer hangs beyond this angle. Between the two angles the swing that the load took away returns.
         RAISED_SWING: f64 = 1.6, "rad", 1.0..=2.5, "docs/locomotion.md#loads";
         /// An arm hangs whose elbow is bent by less than this.
         HANGS_ELBOW: f64 = 0.9, "rad", 0.3..=1.2, "docs/locomotion.md#loads";
         /// It does not hang from this angle on: a forearm that is held level carries something in front of the
         /// body.
         BENT_ELBOW: f64 = 1.5, "rad", 1.0..=2.5, "docs/locomotion.md#loads";
-        /// Time constant with which an arm gets used to hanging: one that comes down between two movements goes on
-        /// as the motion has it.
+        /// Time constant with which an arm gets used to hanging, so that an arm that only comes down between two
+        /// movements follows the motion.
         HABIT_TIME: f64 = 0.7, "s", 0.2..=2, "docs/locomotion.md#loads";
     }
 }
@@ -235,7 +234,7 @@ pub mod constraints {
         /// How far ahead of the present place the centre of mass is asked for: 2.5 m/s² and 0.25 m/s with the
         /// controllers' law.
         COM_LEASH: f64 = 0.1, "m", 0.02..=0.3, "docs/tick.md";
-        /// Places that are given anew within this time are one place that moves.
+        /// Places given one after the other within this time are one place that moves.
         STREAM_INTERVAL: f64 = 0.1, "s", 0.02..=0.5, "docs/tick.md";
         /// A place that moves faster than this has jumped.
         STREAM_SPEED: f64 = 5.0, "m/s", 1..=10, "docs/tick.md";
@@ -249,7 +248,7 @@ pub mod help {
     crate::params::params! {
         /// How far the forecast looks ahead: by what a fall that begins needs to become one (1/ω of a standing body).
         FORECAST_TIME: f64 = 0.3, "s", 0.1..=0.6, "docs/rehearsal.md#live-help";
-        /// Turns of the pelvis count as the way of a part of the body so far from it.
+        /// Distance from the pelvis at which its turns are measured as displacements.
         ARM: f64 = 0.5, "m", 0.2..=1.0, "docs/rehearsal.md#live-help";
         /// A motion is being lost from this forecast on: half of what counts as lost.
         BEGIN: f64 = 0.25, "m", 0.1..=0.5, "docs/rehearsal.md#live-help";

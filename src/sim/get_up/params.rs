@@ -32,7 +32,7 @@ pub mod layout {
 /// Weights of the goals, squared errors in m, rad and their rates.
 pub mod weights {
     crate::params::params! {
-        /// What carries.
+        /// Firmness of a part that carries.
         FIRM: f64 = 10.0, "1", 1..=100, "docs/locomotion.md#getting-up";
         /// Hands that lie flat.
         HAND: f64 = 5.0, "1", 1..=50, "docs/locomotion.md#getting-up";

@@ -26,7 +26,7 @@ pub mod prescribed_step {
         /// Torques give back to prescribed accelerations after the figure has stood so long on flat feet with
         /// strength to spare.
         CALM_TIME: f64 = 0.5, "s", 0.1..=2, "docs/adr/0012-kinematic-stepper.md";
-        /// A part other than a foot arrives that would reach the floor within so many ticks.
+        /// A part other than a foot arrives if it would reach the floor within this number of ticks.
         ARRIVAL_TICKS: f64 = 2.0, "1", 1..=5, "docs/adr/0012-kinematic-stepper.md";
     }
 }

@@ -92,7 +92,7 @@ pub mod stance {
         STRAY_ANGLE: f64 = 0.40, "rad", 0.1..=0.8, "docs/locomotion.md#foot-lock";
         /// Part of a stance at either end that does not decide on its place.
         PLACE_MARGIN: usize = 15, "%", 0..=40, "docs/locomotion.md#foot-lock";
-        /// One part in so many at either end of a stance may stray without splitting it.
+        /// Inverse of the share of a stance, at either end, that may stray without splitting it.
         SPLIT_MARGIN: usize = 12, "1", 4..=50, "docs/locomotion.md#foot-lock";
         /// Half of the time that a shuffle is given; the first of three that fits.
         HALF_SHUFFLE: f64 = 0.14, "s", 0.08..=0.3, "docs/locomotion.md#foot-lock";
@@ -106,13 +106,13 @@ pub mod stance {
         OVERLAP: f64 = 0.04, "s", 0..=0.15, "docs/locomotion.md#foot-lock";
         /// `OVERLAP` of a stream.
         STREAM_OVERLAP: i64 = 4, "samples", 0..=9, "docs/locomotion.md#streams";
-        /// One part in so many of a stance, at either end, may be trimmed.
+        /// Inverse of the share of a stance that may be trimmed at either end.
         TRIM_SHARE: usize = 8, "1", 4..=50, "docs/locomotion.md#foot-lock";
         /// Longest time that is trimmed from an end of a stance.
         TRIM_TIME: f64 = 0.15, "s", 0..=0.4, "docs/locomotion.md#foot-lock";
-        /// What is trimmed strays further than this, in units of the stray distance and angle.
+        /// Samples are trimmed if they stray further than this, in units of the stray distance and angle.
         TRIM_STRAY: f64 = 0.4, "1", 0.1..=1.0, "docs/locomotion.md#foot-lock";
-        /// What is left after trimming strays by no more than this, in the same units.
+        /// Largest stray of the samples left after trimming, in the same units.
         STEADY_STRAY: f64 = 0.6, "1", 0.1..=1.0, "docs/locomotion.md#foot-lock";
         /// Shortest stance that a split or a longer swing leaves.
         SHORTEST: f64 = 0.15, "s", 0.05..=0.3, "docs/locomotion.md#foot-lock";
@@ -264,7 +264,7 @@ pub mod balance {
         ROUNDS: usize = 8, "rounds", 1..=20, "docs/locomotion.md#balance";
         /// The same of what joins two motions, which are prepared already.
         SEAM_ROUNDS: usize = 4, "rounds", 1..=20, "docs/locomotion.md#transitions";
-        /// Feet that their legs do not reach cease to carry so many rounds before the last.
+        /// Rounds before the last from which on feet that their legs do not reach no longer carry.
         REACH_ROUND: usize = 5, "rounds", 1..=8, "docs/locomotion.md#balance";
         /// Most alternations between the trajectory and the polygons.
         ALTERNATIONS: usize = 150, "rounds", 20..=1000, "numerical";
@@ -340,7 +340,7 @@ pub mod leg {
         MOST_RAISE: f64 = 0.2, "m", 0.05..=0.4, "docs/locomotion.md#foot-lock";
         /// Bisections of that raise.
         RAISE_HALVINGS: usize = 7, "rounds", 4..=30, "numerical";
-        /// What unloads an ankle is held for so long before and after.
+        /// Time before and after for which the unloading of an ankle is held.
         UNLOAD_TIME: f64 = 0.1, "s", 0.02..=0.3, "docs/locomotion.md#foot-lock";
         /// The same in a run, whose whole stance takes 0.2 s.
         RUN_UNLOAD_TIME: f64 = 0.025, "s", 0.01..=0.1, "docs/locomotion.md#runs";
@@ -356,7 +356,7 @@ pub mod leg {
         MOST_YAW: f64 = 0.35, "rad", 0.1..=0.8, "docs/locomotion.md#foot-lock";
         /// A hip this far ahead of its foot lets the foot of a stream rise on its toes; one that is not ahead does not.
         STREAM_TRAILING: f64 = 0.15, "m", 0.05..=0.4, "docs/locomotion.md#streams";
-        /// What a leg lacks of its reach then, the pelvis gives up to this much.
+        /// Most that the pelvis gives of the reach that a leg lacks then.
         STREAM_SPARED: f64 = 0.1, "m", 0..=0.2, "docs/locomotion.md#streams";
         /// The pelvis of a stream comes down so long before it has to.
         STREAM_AHEAD: i64 = 20, "samples", 0..=50, "docs/locomotion.md#streams";
@@ -370,7 +370,7 @@ pub mod leg {
 /// Runs as they were recorded: flights, pushes and feet that roll off.
 pub mod run {
     crate::params::params! {
-        /// What flies and is faster than this runs.
+        /// A motion with flights that is faster than this is a run.
         SPEED: f64 = 2.0, "m/s", 1.5..=3.0, "docs/locomotion.md#runs";
         /// Least ground force over weight of a stance.
         STANCE_LOAD: f64 = 0.45, "1", 0.1..=0.9, "docs/locomotion.md#runs";
@@ -394,11 +394,11 @@ pub mod run {
         LEAST_RAISE: f64 = 0.2, "rad", 0..=0.5, "docs/locomotion.md#runs";
         /// Step in which the heel is raised or lowered.
         HEEL_STEP: f64 = 0.04, "rad", 0.01..=0.1, "numerical";
-        /// So many steps either way are tried.
+        /// Steps that are tried either way.
         HEEL_STEPS: i32 = 10, "rounds", 2..=50, "numerical";
         /// Step in which the toes are turned up about their tip.
         TIP_STEP: f64 = 0.05, "rad", 0.01..=0.1, "numerical";
-        /// So many steps are tried.
+        /// Steps that are tried.
         TIP_STEPS: i32 = 12, "rounds", 2..=50, "numerical";
         /// Price of turning the foot as a whole, against the distance of its ankle.
         TURN_PRICE: f64 = 0.03, "m/rad", 0..=0.2, "docs/locomotion.md#runs";
@@ -436,7 +436,7 @@ pub mod likeness {
         WHOLE_CYCLE: f64 = 0.06, "rad", 0.01..=0.2, "docs/locomotion.md#transitions";
         /// Unlikeness up to which a stretch of a motion is closed to a cycle.
         CLOSED_CYCLE: f64 = 0.12, "rad", 0.02..=0.4, "docs/locomotion.md#transitions";
-        /// Unlikeness up to which a step that breaks off goes on as one before it did.
+        /// Unlikeness up to which a step that breaks off is continued like an earlier one.
         SAME_STEP: f64 = 0.3, "rad", 0.05..=0.6, "docs/locomotion.md#stops";
         /// Unlikeness of trunk and legs up to which a motion passes into another one.
         TRANSITION: f64 = 0.35, "rad", 0.05..=0.6, "docs/locomotion.md#transitions";
@@ -446,7 +446,7 @@ pub mod likeness {
         SHORTEST_CYCLE: f64 = 0.6, "s", 0.3..=2.0, "docs/locomotion.md#transitions";
         /// Shortest cycle as a share of the motion: less would no longer be the motion that was asked for.
         SHORTEST_CYCLE_SHARE: f64 = 0.45, "1", 0.1..=1.0, "docs/locomotion.md#transitions";
-        /// What a longer cycle is worth, per share of the motion.
+        /// Worth of a longer cycle, per share of the motion.
         LENGTH_WORTH: f64 = 0.25, "rad", 0..=1.0, "docs/locomotion.md#transitions";
         /// How far balance looks ahead and back in a cycle.
         CYCLE_AHEAD: f64 = 1.0, "s", 0.5..=3.0, "docs/locomotion.md#transitions";
@@ -470,7 +470,7 @@ pub mod stop {
         LONGEST_FLIGHT: f64 = 0.5, "s", 0.2..=1.0, "docs/locomotion.md#stops";
         /// The centre of mass lands this much lower than it stands.
         LANDING_DROP: f64 = 0.03, "m", 0..=0.1, "docs/locomotion.md#stops";
-        /// Fastest rate of a joint that goes on.
+        /// Fastest rate of a joint that continues to move.
         MOST_RATE: f64 = 4.0, "rad/s", 1.0..=15, "docs/locomotion.md#stops";
         /// Time constant with which the rates of the joints die away.
         RATE_DECAY: f64 = 0.2, "s", 0.05..=0.6, "docs/locomotion.md#stops";
@@ -520,7 +520,7 @@ pub mod stop {
         CAUGHT_INSET: f64 = 0.015, "m", 0..=0.06, "docs/locomotion.md#stops";
         /// A foot that catches a body of 1 m/s lands this far beyond the capture point.
         BEYOND_CAPTURE: f64 = 0.1, "m", 0..=0.3, "docs/locomotion.md#stops";
-        /// What a body of 1 m/s should have in hand where the moment is given and not chosen.
+        /// Time that a body of 1 m/s should have in hand where the moment is given and not chosen.
         SPARE_TIME: f64 = 0.03, "s", 0..=0.1, "docs/locomotion.md#stops";
         /// Gain of the zero-moment point on the way to a place.
         LEAN_GAIN: f64 = 2.0, "1", 1.1..=5.0, "docs/locomotion.md#stops";
@@ -544,7 +544,7 @@ pub mod stop {
         MOST_ASIDE: f64 = 1.2, "rad", 0.3..=1.6, "docs/locomotion.md#stops";
         /// Most steps of a stop.
         MOST_STEPS: usize = 8, "1", 2..=20, "docs/locomotion.md#stops";
-        /// Time that the motion goes on after the feet have come to rest.
+        /// Time for which the motion continues after the feet have come to rest.
         REST_TIME: f64 = 0.8, "s", 0.2..=2.0, "docs/locomotion.md#stops";
         /// A foot that is faster costs the square of what it is faster by.
         UNHURRIED_SPEED: f64 = 1.5, "m/s", 0.5..=3.0, "docs/locomotion.md#stops";
@@ -574,13 +574,13 @@ pub mod stop {
         SEARCH_STRIDE: usize = 14, "samples", 4..=60, "docs/locomotion.md#stops";
         /// A stop that asks for less force and moment from nothing, in weights, is not worth bettering.
         EASY: f64 = 0.03, "1", 0..=0.2, "docs/locomotion.md#stops";
-        /// Time of the motion so far that a stop is planned with.
+        /// Length of the past motion with which a stop is planned.
         RUN_UP: f64 = 1.4, "s", 0.5..=3.0, "docs/locomotion.md#stops";
-        /// Time of the motion so far that is prepared with a stop or a begin.
+        /// Length of the past motion that is prepared together with a stop or a begin.
         PREPARED_TIME: f64 = 0.4, "s", 0.1..=1.0, "docs/locomotion.md#stops";
         /// Time over which a prepared motion replaces the one that is played.
         BLEND_TIME: f64 = 0.3, "s", 0.1..=1.0, "docs/locomotion.md#stops";
-        /// A step that is taken again began at least so many samples ago.
+        /// Least number of samples since the beginning of a step that is taken again.
         LEAST_STEP: usize = 48, "samples", 10..=120, "docs/locomotion.md#stops";
         /// Samples per second of what is prepared for stops, begins and transitions.
         RATE: f64 = 120.0, "Hz", 60..=240, "docs/locomotion.md#stops";
@@ -590,12 +590,12 @@ pub mod stop {
 /// From a motion, or a stand, into a clip.
 pub mod transition {
     crate::params::params! {
-        /// Time of the motion so far that is taken along: what is prepared with the seam, and some more. The pelvis may
-        /// be shifted for what comes for as long before it.
+        /// Length of the past motion that is taken along: the part prepared with the seam, and some more. The pelvis
+        /// may be shifted this long before the event that needs it.
         RUN_UP: f64 = 0.5, "s", 0.2..=2.0, "docs/locomotion.md#transitions";
         /// A place to leave a motion is looked for this far ahead: more than a stride.
         AHEAD: f64 = 1.5, "s", 0.5..=3.0, "docs/locomotion.md#transitions";
-        /// What of the motion is needed beyond the last such place.
+        /// Length of the motion that is needed beyond the last such place.
         BEYOND: f64 = 0.05, "s", 0.02..=0.3, "docs/locomotion.md#transitions";
         /// Most of a clip that is skipped.
         MOST_SKIPPED: f64 = 0.4, "s", 0..=1.0, "docs/locomotion.md#transitions";
@@ -631,7 +631,7 @@ pub mod transition {
         LEAST_BLEND_TIME: f64 = 0.1, "s", 0.03..=0.3, "docs/locomotion.md#transitions";
         /// Time in which a shift of the pelvis comes in, and goes out.
         SHIFT_EDGE: f64 = 0.25, "s", 0.05..=0.6, "docs/locomotion.md#transitions";
-        /// What is known before and after that, for accelerations and filters.
+        /// Length of the known motion before and after that, for accelerations and filters.
         MARGIN: f64 = 0.3, "s", 0.1..=1.0, "docs/locomotion.md#transitions";
         /// Feet have stood, or swung, for so long when the clip takes over, and go on.
         STEADY: usize = 6, "samples", 1..=30, "docs/locomotion.md#transitions";
@@ -667,7 +667,7 @@ pub mod stream {
         SIGMA: f64 = 1.6, "samples", 0.5..=4.0, "docs/locomotion.md#streams";
         /// Samples between the one whose feet are posed and the one that is put together.
         POSED: i64 = 2, "samples", 2..=6, "docs/locomotion.md#streams";
-        /// The posture is put together up to so many samples before the output, if the window is long.
+        /// Most samples before the output at which the posture is put together, if the window is long.
         FORESEEN: i64 = 16, "samples", 0..=40, "docs/locomotion.md#streams";
         /// Samples behind the output that are kept: balance looks back on them, and a late figure asks for them.
         PAST: i64 = 90, "samples", 30..=240, "docs/locomotion.md#streams";
@@ -675,7 +675,7 @@ pub mod stream {
         JUMP_ANGLE: f64 = 0.25, "rad", 0.1..=0.6, "docs/locomotion.md#streams";
         /// A pelvis that is this far from where it was leading has jumped.
         JUMP_DISTANCE: f64 = 0.06, "m", 0.02..=0.2, "docs/locomotion.md#streams";
-        /// So many coordinates of the joints jump together; one alone is a glitch.
+        /// Least number of coordinates of the joints that jump together; one alone is a glitch.
         JUMP_JOINTS: usize = 4, "1", 2..=20, "docs/locomotion.md#streams";
         /// A coordinate that changes by less from sample to sample does not change, in radians or metres.
         SAME: f64 = 1e-6, "rad", 1e-9..=1e-4, "docs/locomotion.md#streams";
@@ -683,7 +683,7 @@ pub mod stream {
         REPEATED_TIME: f64 = 0.1, "s", 0.05..=0.5, "docs/locomotion.md#streams";
         /// Samples over which the speed of the pelvis is averaged, about.
         SPEED_AVERAGED: f64 = 4.0, "samples", 1..=20, "docs/locomotion.md#streams";
-        /// What a second of delay costs where a stream is taken up: it matters where all moments are alike.
+        /// Cost of a second of delay where a stream is taken up: it matters where all moments are alike.
         DELAY_COST: f64 = 0.3, "1/s²", 0..=3.0, "docs/locomotion.md#streams";
     }
 }

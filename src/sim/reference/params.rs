@@ -7,7 +7,7 @@ pub mod run_detection {
     crate::params::params! {
         /// People run above this speed: half of that at which a leg of 0.9 m would leave the floor, squared.
         RUN_SPEED: f64 = 2.2, "m/s", 1.8..=3.0, "docs/locomotion.md#runs";
-        /// What is faster than this before or after a run belongs to it; a run that is walked goes at this speed.
+        /// Motion before or after a run that is faster than this belongs to it; a run that is walked gets this speed.
         WALK_SPEED: f64 = 1.05, "m/s", 0.6..=1.8, "docs/locomotion.md#runs";
         /// Cut-off of the path of the body, for its direction, its speed and its pace.
         PATH_CUTOFF: f64 = 2.0, "Hz", 0.5..=5.0, "docs/locomotion.md#runs";
@@ -37,7 +37,7 @@ pub mod run_detection {
         UPRIGHT: f64 = 0.5, "1", 0..=0.9, "docs/locomotion.md#runs";
         /// Least share of the samples that are so upright.
         UPRIGHT_SHARE: f64 = 0.95, "1", 0.5..=1.0, "docs/locomotion.md#runs";
-        /// A run gets at least so far from where it began.
+        /// Least distance between the ends of a run.
         LEAST_WAY: f64 = 1.0, "m", 0.3..=3.0, "docs/locomotion.md#runs";
     }
 }
@@ -85,7 +85,7 @@ pub mod recording {
         LEAST_JUMP: f64 = 0.15, "rad", 0.05..=0.5, "cargo test --test motion corpus";
         /// Most that a held pose has strayed from its first frame, in the same measure.
         MOST_DRIFT: f64 = 0.3, "rad", 0.1..=1.0, "cargo test --test motion corpus";
-        /// A jump is so many times as large as any change after it.
+        /// Least ratio of a jump to any change after it.
         JUMP_RATIO: f64 = 3.0, "1", 1.5..=10, "cargo test --test motion corpus";
         /// Time after a jump that it is compared with.
         AFTER_JUMP: f64 = 0.1, "s", 0.03..=0.5, "cargo test --test motion corpus";
@@ -93,9 +93,9 @@ pub mod recording {
         AFTER_JUMP_FRAMES: usize = 3, "frames", 1..=10, "cargo test --test motion corpus";
         /// Longest blend from the rest pose into the motion.
         LONGEST_BLEND: f64 = 0.06, "s", 0..=0.3, "cargo test --test motion corpus";
-        /// At its end a change is so many times as large as the next one.
+        /// Least ratio of the change at its end to the next one.
         BLEND_END_RATIO: f64 = 2.0, "1", 1.2..=5.0, "cargo test --test motion corpus";
-        /// A jump is so many times as large as 95 of 100 changes of the clip.
+        /// Least ratio of a jump to the 95th percentile of the changes of the clip.
         USUAL_RATIO: f64 = 2.5, "1", 1.2..=10, "cargo test --test motion corpus";
         /// Least fourth largest turn of a bone, or turn of the root, of a jump out of a pose held for several frames.
         POSE_JUMP: f64 = 0.12, "rad", 0.03..=0.4, "cargo test --test motion corpus";

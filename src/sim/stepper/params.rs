@@ -82,7 +82,7 @@ pub mod assist {
         LARGEST_MOMENT: f64 = 0.5, "1", 0.1..=2, "docs/tick.md";
         /// Inertia about the pelvis over mass times stature squared.
         INERTIA: f64 = 0.05, "1", 0.02..=0.1, "derivation";
-        /// What half the largest force or moment costs a plan at assist 1.
+        /// Cost to a plan of half the largest force or moment, at assist 1.
         PLANNED_COST: f64 = 10.0, "1", 1..=100, "docs/tick.md";
     }
 }

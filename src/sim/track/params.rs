@@ -186,7 +186,7 @@ pub mod recovery {
         HOPELESS_MARGIN: f64 = 0.6, "m", 0.3..=1.0, "docs/locomotion.md#recovery";
         /// A capture point this far from where the clip has it is not meant to be there.
         ASTRAY: f64 = 0.06, "m", 0.02..=0.15, "docs/locomotion.md#recovery";
-        /// Length of a recovery step. People who are pushed take 0.15–0.3 s; with 0.35 s a push to the side is lost
+        /// Length of a recovery step. People take 0.15–0.3 s after a push; with 0.35 s a push to the side is lost
         /// before the foot lands.
         STEP_TIME: f64 = 0.25, "s", 0.15..=0.5, "docs/locomotion.md#recovery";
         /// Length of a step with a raised foot, whose way to the floor is longer.
@@ -233,13 +233,13 @@ pub mod support_recovery {
         ERROR: f64 = 0.045, "m", 0.02..=0.1, "docs/locomotion.md#one-foot";
         /// And outside the sole by more than this.
         OUTSIDE: f64 = 0.005, "m", 0.0..=0.03, "docs/locomotion.md#one-foot";
-        /// What passes within this time is a jolt: a heel that comes down, a leg that is braked.
+        /// A disturbance that passes within this time is a jolt: a heel that comes down, a leg that is braked.
         PASSING_TIME: f64 = 0.09, "s", 0.0..=0.3, "docs/locomotion.md#one-foot";
         /// A planned step that is nearer than this is made instead.
         PLANNED_STEP_TIME: f64 = 0.6, "s", 0.3..=1.0, "docs/locomotion.md#one-foot";
         /// A planned step that would leave more than this of the error does not catch the body.
         PLANNED_STEP_ERROR: f64 = 0.1, "m", 0.03..=0.3, "docs/locomotion.md#one-foot";
-        /// Time in which a plan that is held stops, and in which it goes on.
+        /// Time in which a plan that is held stops, and in which it starts again.
         SLOWING_TIME: f64 = 0.2, "s", 0.05..=0.5, "docs/locomotion.md#one-foot";
         /// Least pace at which the plan's velocity at full pace is computed from its present one.
         OBSERVED_PACE: f64 = 0.1, "1", 0.01..=0.5, "numerical";
