@@ -32,6 +32,7 @@ mod swing;
 
 pub use capture_point::Capture;
 pub use flight_phase::Flight;
+pub use foot_places::FootPlace;
 pub use recovery_step::{Purpose, RecoveryStep};
 pub use step_plan::{Footfall, StepPlan};
 

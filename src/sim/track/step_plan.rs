@@ -4,14 +4,13 @@ use super::params::step_plan::{
     FALLING_LOAD, LOAD_SAMPLES, NEAR_FLOOR, PAUSE_AFTER, PAUSE_BEFORE, STREAM_REST_AFTER,
     STREAM_REST_BEFORE,
 };
-use crate::body::topology::FEET;
 use crate::body::{Body, Posture};
 use crate::math::Vec3;
 use crate::math::runs::{remove_short, stretches};
 use crate::motion::Clip;
 use crate::motion::clip::{MAX_SAMPLES, PlanarTransform};
 use crate::motion::leg_ik::forward;
-use crate::plan::foot_lock::Sole;
+use crate::plan::foot_lock::{AnklePose, Sole};
 use crate::plan::motion_transition::TransitionClip;
 use crate::plan::params::contact::SHORTEST_TOLD;
 use crate::plan::pelvis_shift::mass_track;
@@ -127,7 +126,7 @@ impl StepPlan {
             let stance = |(start, end): (usize, usize)| {
                 // The middle of a stance is its flattest part.
                 let poses = forward(body, samples[(start + end - 1) / 2].0);
-                let at = sole.footing(poses[FEET[side].index()]);
+                let at = sole.footing(AnklePose::of(&poses, side));
                 // A sample represents the half-interval on either side of it.
                 let time = |sample: usize| begin + (sample as f64 - 0.5) / rate;
                 Footfall {

@@ -3,13 +3,12 @@
 use crate::body::{Body, Posture};
 use crate::figure::motion::plan_task::{PlanRequest, PlanTask};
 use crate::figure::motion::rehearsed::{RehearsedMotion, RehearsedPlayback};
-use crate::math::Vec3;
 use crate::motion::clip::{Clip, PlanarTransform};
 use crate::motion::{Target, TargetPair};
 use crate::plan::StreamPlan;
 use crate::plan::motion_transition::{NextClip, TransitionClip};
-use crate::track::StepPlan;
 use crate::track::planned_to_world::Anchor;
+use crate::track::{FootPlace, StepPlan};
 use serde::{Deserialize, Serialize, Serializer};
 use std::sync::Arc;
 
@@ -140,9 +139,8 @@ pub(in crate::figure) struct QueuedClip {
     pub first: f64,
     /// World time before which it does not begin, s.
     pub from: f64,
-    /// Stance of its feet at that time, in clip coordinates: the middle between them, and their heading. `None`: the
-    /// caller fixed its origin.
-    pub stance: Option<(Vec3, f64)>,
+    /// Stance of its feet at that time, in clip coordinates. `None`: the caller fixed its origin.
+    pub stance: Option<FootPlace>,
     /// Time at which the figure should stand, s.
     pub due: f64,
     /// Whether it begins standing, at the place of its figure.
@@ -214,7 +212,7 @@ impl QueuedClip {
     }
 
     /// Begins at world time `time`, for a figure whose feet stand at `stance`.
-    pub fn begin(mut self, time: f64, stance: (Vec3, f64)) -> (ClipPlayback, StepPlan) {
+    pub fn begin(mut self, time: f64, stance: FootPlace) -> (ClipPlayback, StepPlan) {
         self.play.start = time - self.first / self.play.speed;
         if let Some(planned) = self.stance {
             self.play.origin = Anchor::between(planned, stance).transform();

@@ -77,7 +77,7 @@ fn feet_of(body: &Body, posture: &Posture) -> [FootPose; 2] {
 }
 
 fn stood(sole: &Sole, pose: &FootPose) -> FootPlacement {
-    sole.footing((pose.ankle, pose.rotation))
+    sole.footing(pose.without_toes())
 }
 
 /// The place at which one motion turns into the next.
@@ -319,8 +319,8 @@ impl SeamMotion<'_> {
         for (i, p) in postures.iter().enumerate() {
             let is = feet_of(self.body, p);
             for s in (0..2).filter(|s| self.label[i][*s]) {
-                let pose = (is[s].ankle, is[s].rotation);
-                worst = worst.max(self.soles[s].stray(pose, &self.feet[s].poses[i]));
+                let stray = self.soles[s].stray(is[s].without_toes(), &self.feet[s].poses[i]);
+                worst = worst.max(stray);
             }
         }
         worst

@@ -4,11 +4,10 @@
 
 use super::*;
 use crate::body::Posture;
-use crate::body::topology::{L_FOOT, R_FOOT};
 use crate::math::Vec3;
 use crate::motion::builtin::{at_ease, builtin};
 use crate::motion::leg_ik::forward;
-use crate::plan::foot_lock::Sole;
+use crate::plan::foot_lock::{AnklePose, Sole};
 
 const NOW: usize = 70;
 
@@ -99,9 +98,8 @@ fn no_foot_slides(body: &Body, way: &TransitionClip) {
     let mut stood: [Option<Vec3>; 2] = [None; 2];
     for (posture, planted) in way.clip.samples() {
         let poses = forward(body, posture);
-        let feet = [L_FOOT, R_FOOT];
         for s in 0..2 {
-            let at = soles[s].footing(poses[feet[s].index()]).place;
+            let at = soles[s].footing(AnklePose::of(&poses, s)).place;
             let before = if planted[s] { stood[s] } else { None };
             let slid = before.map_or(0.0, |b| (at - b).norm());
             assert!(slid < 2e-4, "{slid} m in a sample");

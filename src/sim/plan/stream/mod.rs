@@ -18,7 +18,7 @@ mod repeated_samples;
 mod whole_body;
 
 use super::ankle_torque_limit::AnkleTorqueLimit;
-use super::foot_lock::{FootPose, Sole};
+use super::foot_lock::{AnklePose, FootPose, Sole};
 use crate::body::topology::{FEET, NV, SEGMENT_COUNT, TOES};
 use crate::body::{Body, Posture};
 use crate::math::curve::smootherstep;
@@ -585,13 +585,13 @@ impl StreamPlan {
 
     /// Place, heading and pitch of a foot of a smoothed sample, and how fast its place moves, m/s.
     fn standing(&self, side: usize, i: i64) -> foot::StandingSample {
-        let pose = |i: i64| self.at(i).poses[FEET[side].index()];
+        let pose = |i: i64| AnklePose::of(&self.at(i).poses, side);
         let [before, at] = [i - 1, i].map(|i| self.soles[side].footing(pose(i)));
         foot::StandingSample {
             place: at.place,
             yaw: at.yaw,
             pitch: at.pitch,
-            steep: foot::steepness(pose(i).1, at.pitch),
+            steep: foot::steepness(pose(i).rotation, at.pitch),
             speed: (at.place - before.place).norm() * RATE,
         }
     }

@@ -78,9 +78,10 @@ fn planted_feet_do_not_slide_and_the_motion_is_its_own_derivative() {
             );
         }
         let poses = forward(&body, &pair[1].posture);
-        for (side, foot) in FEET.into_iter().enumerate() {
-            let (ankle, rotation) = poses[foot.index()];
-            let at = Sole::new(&body, side).footing((ankle, rotation)).place;
+        for side in 0..2 {
+            let at = Sole::new(&body, side)
+                .footing(AnklePose::of(&poses, side))
+                .place;
             if !pair[1].planted[side] {
                 steps += usize::from(stands[side].is_some());
                 stands[side] = None;
