@@ -26,6 +26,7 @@ use crate::plan::prepare::{
 };
 use crate::plan::splice::Sample;
 use crate::plan::toe_hinge;
+use crate::time::MotionTime;
 
 /// A difference before, at and after the seam, which fades from there on.
 struct FadingOffset<const N: usize>([[f64; N]; 3]);
@@ -84,8 +85,8 @@ fn stood(sole: &Sole, pose: &FootPose) -> FootPlacement {
 #[derive(Clone, Copy)]
 pub(super) struct ClipEntry<'a> {
     pub(super) moment: &'a Moment,
-    /// Clip time at which the next motion is entered, s.
-    pub(super) enters: f64,
+    /// Time of the next motion at which it is entered.
+    pub(super) enters: MotionTime,
 }
 
 impl MotionSeam {
