@@ -20,8 +20,8 @@ oracle load python viewer pages proto generate fmt: export PATH := $(ROOT)/.venv
 shipped acceptance soak run: export RUSTC_WORKSPACE_WRAPPER :=
 
 .DEFAULT_GOAL := help
-.PHONY: help run test recordings ci nightly prepare build setup lint proto rust survey shipped oracle python viewer load deploy \
-	acceptance abuse chaos notebooks pages surveys benches soak fuzz generate fmt
+.PHONY: help run test recordings ci nightly prepare build setup lint proto rust survey shipped oracle python \
+	viewer load deploy acceptance abuse chaos notebooks pages surveys benches soak fuzz generate fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile

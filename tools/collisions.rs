@@ -111,7 +111,7 @@ fn main() -> std::io::Result<()> {
                 let others = world.figures().filter(|(k, _)| *k != key);
                 let others = others.flat_map(|(_, f)| Thing::figure(f.body(), &f.state().posture));
                 let things = world.obstacles().map(|(_, o)| Thing::obstacle(o.setup()));
-                let frame = StripFrame::of(&tick, world.time(), Vec::new());
+                let frame = StripFrame::of(&tick, world.time().0, Vec::new());
                 frames.push(frame.among(others.chain(things)));
             }
         }

@@ -10,6 +10,7 @@ use sinew_physics::dynamics::{
 use sinew_physics::figure::ControllerKind;
 use sinew_physics::math::{F64x8, Lane};
 use sinew_physics::motion::builtin::builtin;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, FigureSetup, MotionSource, World, WorldParams};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -37,7 +38,7 @@ fn squatting(controller: ControllerKind) -> World {
     let figure = world.figure_mut(key).expect("just added");
     figure.set_drive(MotionSource::Clip(ClipPlayback {
         looped: true,
-        ..ClipPlayback::new(clip, 0.0)
+        ..ClipPlayback::new(clip, WorldTime(0.0))
     }));
     world
 }

@@ -27,6 +27,7 @@ use sinew_physics::motion::{Clip, write_bvh};
 use sinew_physics::plan::cycle;
 use sinew_physics::reference::{Preparation, RetargetOptions};
 use sinew_physics::strength::fatigue::MAX_TIME_SCALE;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{
     ClipPlayback, Figure, FigureEvent, FigureKey, FigureSetup, MotionSource, World, WorldError,
     WorldParams,
@@ -321,7 +322,7 @@ fn ask_for_clips(scenario: &Scenario<'_>, world: &mut World, key: FigureKey) {
     let (time, dt) = (world.time(), world.dt());
     let figure = world.figure_mut(key).expect("the figure is never removed");
     for (at, clip) in &scenario.then {
-        if (time - 0.5 * dt..time + 0.5 * dt).contains(at) {
+        if (time - 0.5 * dt..time + 0.5 * dt).contains(&WorldTime(*at)) {
             let play = ClipPlayback::new(Arc::clone(clip), time + clip.lead_in());
             figure.play(play, false, time);
         }
@@ -379,7 +380,7 @@ fn scene(
     let figure = world.figure_mut(key).expect("the figure was just added");
     figure.set_drive(MotionSource::Clip(ClipPlayback {
         looped: args.looped,
-        ..ClipPlayback::new(Arc::new(clip.clone()), -first)
+        ..ClipPlayback::new(Arc::new(clip.clone()), WorldTime(-first))
     }));
     Ok((world, key))
 }

@@ -3,6 +3,7 @@
 //! The rest of the server goes through the types and functions named here, so that the seam between clock and physics
 //! is one file.
 
+use crate::ingest::time::SourceTime;
 use crate::workers::Turn;
 use sinew_physics::body::palm::load_point;
 use sinew_physics::body::provenance::Provenance;
@@ -21,6 +22,7 @@ use sinew_physics::plan::{PreparedRecording, ReadingReport, prepare_recording_un
 use sinew_physics::reference::{FileFacts, Preparation, RetargetError, RetargetOptions, UpAxis};
 use sinew_physics::setup::MAX_PERTURBATIONS;
 use sinew_physics::strength::Strength;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{FigureSetup, WorldError, WorldParams};
 use sinew_wire::status::Fault;
 use sinew_wire::types::{
@@ -250,16 +252,16 @@ pub fn check_obstacle(world: &World, setup: &ObstacleSetup, new: bool) -> Result
     checked.map_err(|e| refused_obstacle(&e))
 }
 
-/// World time of the first frame of the clip that a figure plays at `time` (s). `None` before that frame, and in the
-/// stand after the clip.
-pub fn playing_since(figure: &Figure, time: f64) -> Option<f64> {
+/// World time of the first frame of the clip that a figure plays at `time`. `None` before that frame, and in the stand
+/// after the clip.
+pub fn playing_since(figure: &Figure, time: WorldTime) -> Option<WorldTime> {
     let Motion::Clip(play) = figure.drive() else {
         return None;
     };
     if figure.next_clip().is_some() {
         return None; // it is coming to a stand, or in a transition
     }
-    let at = play.clip_time(time);
+    let at = play.motion_time(time).0;
     let plays = at >= 0.0 && (play.looped || at <= play.clip.duration());
     plays.then_some(play.start)
 }
@@ -351,7 +353,7 @@ pub fn set_constraints(
     key: FigureKey,
     all: &[ConstraintSettings],
 ) -> Result<(), Fault> {
-    let now = world.time();
+    let now = world.time().0;
     let figure = world.figure(key);
     let body = Arc::clone(figure.expect("members are in the world").body());
     let all: Vec<_> = all
@@ -375,7 +377,8 @@ pub fn set_constraints(
 }
 
 /// The constraints that are active at world time `now`.
-pub fn constraints(figure: &Figure, now: f64) -> Vec<ConstraintSettings> {
+pub fn constraints(figure: &Figure, now: WorldTime) -> Vec<ConstraintSettings> {
+    let now = now.0;
     let holds = figure.constraints().iter().filter(|c| c.to > now);
     holds
         .map(|c| ConstraintSettings {
@@ -452,7 +455,7 @@ pub fn add_figure(
 /// begins there.
 pub fn playback(
     clip: Arc<Clip>,
-    start: f64,
+    start: WorldTime,
     speed: f64,
     looped: bool,
     (at, standing): (Place, bool),
@@ -587,8 +590,8 @@ pub fn event_kind(e: &FigureEvent, name: impl Fn(Other) -> String) -> EventKind 
 /// name of a touched object.
 pub fn snapshot(
     figure: &Figure,
-    (start, dt): (f64, f64),
-    applied: (i64, i64),
+    (start, dt): (WorldTime, f64),
+    applied: (i64, SourceTime),
     name: impl Fn(Other) -> String,
 ) -> FigureSnapshot {
     let soon = start + 1e-9 * dt; // as in the physics: a time on a tick boundary belongs to the tick that it begins
@@ -601,7 +604,7 @@ pub fn snapshot(
         report: report.cloned(),
         desired: figure.target().next.clone(),
         applied_sequence: applied.0,
-        applied_source_ns: applied.1,
+        applied_source_ns: applied.1.0,
         loads: figure.held(soon).collect(),
         follows: follows(figure),
     }

@@ -329,7 +329,7 @@ impl FileWriter for CsvFileWriter {
             upper: &report.joints.torque_upper,
         };
         let time = scene.world().time();
-        row(&mut self.lines, time, &f.state().posture, Some(torques));
+        row(&mut self.lines, time.0, &f.state().posture, Some(torques));
         Ok(())
     }
 

@@ -14,6 +14,7 @@ use sinew_physics::rehearsal::follow::{FollowResult, FollowWay, RehearsalOptions
 use sinew_physics::rehearsal::{Conditions, Progress, TrackingReference};
 use sinew_physics::stepper::pelvis_wrench::RootStep;
 use sinew_physics::strength::Strength;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{Figure, RehearsedMotion, WorldParams};
 use sinew_wire::status::Fault;
 use sinew_wire::types::{BvhReading, FollowSettings, MotionSource, RehearsalInfo};
@@ -37,7 +38,8 @@ impl Performer {
     ///
     /// # Errors
     /// It holds one load in both hands, or may do so.
-    pub fn of(figure: &Figure, world: &WorldParams, time: f64) -> Result<Self, Fault> {
+    pub fn of(figure: &Figure, world: &WorldParams, time: WorldTime) -> Result<Self, Fault> {
+        let time = time.0;
         let holds = |p: &Perturbation| p.load().filter(|l| l.from <= time && time < l.to);
         let held: Vec<HeldLoad> = figure.perturbations().filter_map(holds).collect();
         let helped = |p: &Perturbation| matches!(p, Perturbation::Helped { .. });

@@ -2,12 +2,14 @@
 
 use super::encoded::{Encoded, List};
 use super::engine::{self, Clip, FigureKey, Motion, World};
+use super::ingest::time::SourceTime;
 use super::progress::WorkProgress;
 use super::tick::stage_times::percentiles;
 use super::workers::Turn;
 use sinew_physics::body::{Body, DOF_COUNT};
 use sinew_physics::figure::{Flags, TickReport};
 use sinew_physics::motion::GRAVITY;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::WorldParams;
 use sinew_wire::frame::world_frame;
 use sinew_wire::pb;
@@ -166,7 +168,7 @@ pub fn run(
         world.step();
         merit.micros.push(start.elapsed().as_secs_f32() * 1e6);
         let figure = world.figure(key).expect("it is still there");
-        let (tick, time) = (world.tick(), world.time());
+        let (tick, time) = (world.tick(), world.time().0);
         if let Some(r) = figure.report() {
             merit.count(r, time);
         }
@@ -226,7 +228,7 @@ fn scene(
     let state = engine::first_state(&clip, place);
     figure.set_drive(Motion::Clip(engine::playback(
         clip,
-        0.0,
+        WorldTime(0.0),
         1.0,
         s.looped,
         (place, false),
@@ -260,15 +262,21 @@ impl EncodedFrames {
         }
     }
 
-    /// The world after a tick that began at `before` (s).
-    fn frame(&self, world: &World, key: FigureKey, before: f64, view: &ViewSpec) -> pb::WorldFrame {
+    /// The world after a tick that began at `before`.
+    fn frame(
+        &self,
+        world: &World,
+        key: FigureKey,
+        before: WorldTime,
+        view: &ViewSpec,
+    ) -> pb::WorldFrame {
         let figure = world.figure(key).expect("it is still there");
         let snapshot = Snapshot {
             world: "".into(),
             rate_hz: world.params().rate_hz,
             gravity: GRAVITY,
             tick: world.tick(),
-            time: world.time(),
+            time: world.time().0,
             hash: world.state_hash(),
             epoch: 1,
             server_ns: 0,
@@ -277,7 +285,7 @@ impl EncodedFrames {
             figures: vec![engine::snapshot(
                 figure,
                 (before, world.dt()),
-                (-1, 0),
+                (-1, SourceTime(0)),
                 |_| String::new(),
             )],
             obstacles: Vec::new(),

@@ -52,6 +52,7 @@ pub mod stepper;
 pub mod strength;
 pub mod support;
 pub mod tick_context;
+pub mod time;
 pub mod touch;
 pub mod track;
 pub mod world;

@@ -1,5 +1,7 @@
 //! The part of a world that every stage of a tick reads.
 
+use crate::time::WorldTime;
+
 /// The reaction of a tick to a missing plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Planning {
@@ -26,8 +28,8 @@ pub struct TickContext {
 }
 
 impl TickContext {
-    /// Time at which it begins, s.
-    pub fn time(&self) -> f64 {
-        self.tick as f64 * self.dt
+    /// Time at which it begins.
+    pub fn time(&self) -> WorldTime {
+        WorldTime(self.tick as f64 * self.dt)
     }
 }

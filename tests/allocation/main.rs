@@ -15,6 +15,7 @@ use sinew_physics::figure::{
 };
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::plan::stream::{RATE, StreamPlan};
+use sinew_physics::time::{StreamTime, WorldTime};
 use sinew_physics::world::{ClipPlayback, LivePlayback, MotionSource, World};
 use std::sync::Arc;
 
@@ -234,7 +235,7 @@ fn getting_up_allocates_nothing() {
     let mut scene = Scene::of(figure(&body, ControllerKind::Modern, still(prone)));
     scene
         .figure_mut()
-        .set_drive(MotionSource::Clip(ClipPlayback::new(clip, -4.5)));
+        .set_drive(MotionSource::Clip(ClipPlayback::new(clip, WorldTime(-4.5))));
     // Whether it comes to its feet is not the subject here; that it tries is.
     let mut tries = 0;
     for _ in 0..40 {
@@ -298,7 +299,7 @@ fn a_prepared_stream_allocates_nothing() {
         motion.push(&posture(fed), None);
         fed += 1.0;
     }
-    motion.advance(1.0 / RATE);
+    motion.advance(StreamTime(1.0 / RATE));
     let mut scene = Scene::of(figure(&body, ControllerKind::Modern, still(posture(0.0))));
     let live = LivePlayback {
         motion,

@@ -17,6 +17,7 @@ use sinew_physics::motion::{Bvh, Clip};
 use sinew_physics::plan::cycle;
 use sinew_physics::plan::prepare_recording;
 use sinew_physics::reference::RetargetOptions;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{
     ClipPlayback, Figure, FigureKey, FigureSetup, MotionSource, World, WorldParams,
 };
@@ -92,7 +93,7 @@ pub fn figure(body: &Arc<Body>, controller: ControllerKind, state: State) -> Fig
 
 /// `clip` from world time 0 on, once.
 pub fn play(clip: &Arc<Clip>) -> MotionSource {
-    MotionSource::Clip(ClipPlayback::new(Arc::clone(clip), 0.0))
+    MotionSource::Clip(ClipPlayback::new(Arc::clone(clip), WorldTime(0.0)))
 }
 
 /// A world (60 ticks/s, two substeps) with one figure.

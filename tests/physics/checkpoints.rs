@@ -27,6 +27,7 @@ use sinew_physics::plan::prepare_recording;
 use sinew_physics::plan::stream::{RATE, StreamPlan};
 use sinew_physics::reference::RetargetOptions;
 use sinew_physics::rehearsal::{Problem, Settings, rehearse};
+use sinew_physics::time::{StreamTime, WorldTime};
 use sinew_physics::world::checkpoint::{
     Checkpoint, CheckpointError, DefinitionHash, Definitions, FORMAT,
 };
@@ -277,7 +278,7 @@ fn transitions() -> Scenario {
         .figure_mut()
         .set_drive(MotionSource::Clip(ClipPlayback {
             looped: true,
-            ..ClipPlayback::new(Arc::clone(&cycle), 0.0)
+            ..ClipPlayback::new(Arc::clone(&cycle), WorldTime(0.0))
         }));
     Scenario::new("transitions", scene.world, 520, 23).with(
         &[60, 61, 62, 70, 71, 200, 201, 203, 330, 331, 333, 480],
@@ -328,7 +329,7 @@ fn a_rehearsed_motion_and_what_comes_after_it() {
     let found = rehearse(&problem, &clip, &settings, 2, &mut |_| true).unwrap();
     let motion = Arc::new(found.motion);
     let mut scene = Scene::of(figure(&body, ControllerKind::Modern, motion.start()));
-    let play = RehearsedPlayback::new(Arc::clone(&motion), 0.0);
+    let play = RehearsedPlayback::new(Arc::clone(&motion), WorldTime(0.0));
     scene.figure_mut().set_drive(MotionSource::Rehearsed(play));
     // Held back on its path, then pushed out of reach.
     let gentle = push(vec3(60.0, 0.0, 0.0), 0.2);
@@ -359,7 +360,7 @@ fn streamed() -> Scenario {
     let mut motion = StreamPlan::new(Arc::clone(&body), 0.4);
     let lead = (motion.window() * RATE) as u64 + 6;
     (0..lead).for_each(|i| motion.push(&sample(i as f64), None));
-    motion.advance(1.0 / RATE);
+    motion.advance(StreamTime(1.0 / RATE));
     let mut scene = Scene::of(figure(&body, ControllerKind::Modern, still(first)));
     let live = LivePlayback {
         motion,

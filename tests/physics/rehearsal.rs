@@ -10,6 +10,7 @@ use sinew_physics::math::Vec3;
 use sinew_physics::motion::Clip;
 use sinew_physics::motion::builtin::builtin;
 use sinew_physics::rehearsal::{Problem, ProblemError, Reference, Rehearsal, Settings, rehearse};
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{
     ClipPlayback, FigureKey, FigureSetup, MotionSource, RehearsedMotion, RehearsedPlayback, World,
     WorldParams,
@@ -76,7 +77,7 @@ fn playing(motion: &Arc<RehearsedMotion>, state: State) -> (World, FigureKey) {
     let key = world
         .add_figure(FigureSetup::new(body, ControllerKind::Modern, state))
         .unwrap();
-    let play = RehearsedPlayback::new(Arc::clone(motion), 0.0);
+    let play = RehearsedPlayback::new(Arc::clone(motion), WorldTime(0.0));
     let figure = world.figure_mut(key).unwrap();
     figure.set_drive(MotionSource::Rehearsed(play));
     (world, key)
@@ -213,7 +214,7 @@ fn a_world_of_another_stage_does_not_play_it() {
     let mut world = World::new(params).unwrap();
     let setup = FigureSetup::new(Arc::new(Body::adult_man()), ControllerKind::Modern, state);
     let key = world.add_figure(setup).unwrap();
-    let play = RehearsedPlayback::new(Arc::clone(&motion), 0.0);
+    let play = RehearsedPlayback::new(Arc::clone(&motion), WorldTime(0.0));
     world
         .figure_mut(key)
         .unwrap()
@@ -225,9 +226,9 @@ fn a_world_of_another_stage_does_not_play_it() {
 #[test]
 fn it_plays_wherever_its_origin_lies() {
     let motion = motion(true);
-    let mut play = RehearsedPlayback::new(Arc::clone(&motion), 0.0);
+    let mut play = RehearsedPlayback::new(Arc::clone(&motion), WorldTime(0.0));
     (play.origin.x, play.origin.y, play.origin.yaw) = (2.0, -1.0, 2.0);
-    let state = play.sample(0.0).state();
+    let state = play.sample(WorldTime(0.0)).state();
     let (mut world, key) = playing(&motion, state);
     let origin = play.origin;
     world
@@ -252,16 +253,16 @@ fn a_figure_that_stands_plays_a_clip_as_it_was_rehearsed() {
     assert!(found.completed(), "{:?}", found.errors);
     let (motion, clip) = (Arc::new(found.motion), Arc::new(clip));
     let played = |off: f64| {
-        let mut play = ClipPlayback::new(Arc::clone(&clip), 0.0);
+        let mut play = ClipPlayback::new(Arc::clone(&clip), WorldTime(0.0));
         (play.origin.x, play.origin.y, play.origin.yaw) = (2.0, -1.0, 2.0);
-        let mut state = State::at_rest(play.sample(0.0).posture);
+        let mut state = State::at_rest(play.sample(WorldTime(0.0)).posture);
         state.posture.hinge[0] += off;
         let mut world = World::new(WorldParams::default()).unwrap();
         let setup = FigureSetup::new(Arc::clone(&p.body), ControllerKind::Modern, state);
         let key = world.add_figure(setup).unwrap();
         let figure = world.figure_mut(key).unwrap();
         let origin = play.origin;
-        figure.play(play, false, 0.0);
+        figure.play(play, false, WorldTime(0.0));
         figure.rehearse(Arc::clone(&motion));
         world.step();
         let rehearsed = is_rehearsed(&world, key);

@@ -195,7 +195,7 @@ impl Chaos {
             world.figure_mut(key).unwrap().set_drive(drive);
         }
         if self.often(0.03) {
-            match world.perturb(key, self.perturbation(world.time())) {
+            match world.perturb(key, self.perturbation(world.time().0)) {
                 Ok(()) | Err(WorldError::TooManyPerturbations) => {}
                 Err(e) => panic!("{e}"),
             }

@@ -90,7 +90,7 @@ fn a_figure_sits_down_and_gets_up() {
             world.step();
             m.observe(&world);
             let f = world.figure(key).unwrap();
-            assert!(!f.is_fallen(), "{text}: fell at {:.2} s", world.time());
+            assert!(!f.is_fallen(), "{text}: fell at {:.2} s", world.time().0);
             let r = f.report().unwrap();
             let carried: f64 = r.touches.iter().map(|t| t.force.z).sum();
             seated += u64::from(carried > 0.1 * 75.0 * 9.81);

@@ -13,6 +13,7 @@ use sinew_physics::motion::leg_ik::forward;
 use sinew_physics::plan::cycle;
 use sinew_physics::plan::stream::{RATE, StreamPlan};
 use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::time::{StreamTime, WorldTime};
 use sinew_physics::world::{ClipPlayback, LivePlayback, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
@@ -37,10 +38,10 @@ fn prepared(
     let mut out = (Vec::new(), Vec::new());
     for i in 0..n {
         live.push(&posture(i as f64 / RATE), None);
-        let t = (i as f64 + 1.0) / RATE - live.window();
+        let t = StreamTime((i as f64 + 1.0) / RATE - live.window());
         live.advance(t);
-        if t > -1e-9 {
-            let s = live.sample(t.max(0.0));
+        if t.0 > -1e-9 {
+            let s = live.sample(t.max(StreamTime(0.0)));
             out.0.push(s.posture);
             out.1.push(s.planted);
         }
@@ -106,7 +107,7 @@ fn watch(world: &mut World, seconds: f64, mut each: impl FnMut(&mut World, f64))
 /// A world with a figure in the state in which a motion begins.
 fn beginning(body: &Arc<Body>, drive: MotionSource) -> World {
     let mut world = World::new(WorldParams::default()).unwrap();
-    let first = drive.targets(0.0, 1.0 / RATE).now;
+    let first = drive.targets(WorldTime(0.0), 1.0 / RATE).now;
     let state = first.state();
     let key = world
         .add_figure(figure(body, ControllerKind::Modern, state))
@@ -139,7 +140,7 @@ fn follow_pushed(
         motion.push(&posture(fed / RATE).unwrap(), None);
         fed += 1.0;
     }
-    motion.advance(1.0 / RATE);
+    motion.advance(StreamTime(1.0 / RATE));
     let live = Box::new(LivePlayback {
         motion,
         offset: 0.0,
@@ -154,7 +155,7 @@ fn follow_pushed(
         if let Some(live) = f.stream_mut() {
             match posture(fed / RATE) {
                 Some(p) => live.motion.push(&p, None),
-                None => f.stop(time),
+                None => f.stop(WorldTime(time)),
             }
         }
         fed += 1.0;
@@ -323,7 +324,7 @@ fn a_clip_that_is_stopped_ends_in_a_stand() {
             &body,
             MotionSource::Clip(ClipPlayback {
                 looped: true,
-                ..ClipPlayback::new(Arc::clone(&walk), 0.0)
+                ..ClipPlayback::new(Arc::clone(&walk), WorldTime(0.0))
             }),
         );
         let mut told = false;
@@ -331,7 +332,7 @@ fn a_clip_that_is_stopped_ends_in_a_stand() {
             if !told && time >= stop {
                 told = true;
                 let key = world.figures().next().unwrap().0;
-                world.figure_mut(key).unwrap().stop(time);
+                world.figure_mut(key).unwrap().stop(WorldTime(time));
             }
         });
         let stands = f.fell.is_none() && f.speed < 0.1 && f.apart < 0.5;
@@ -358,7 +359,7 @@ fn a_stop_takes_over_at_its_tick_however_fast_it_is_worked_out() {
     let walking = || {
         let play = ClipPlayback {
             looped: true,
-            ..ClipPlayback::new(Arc::clone(&walk), 0.0)
+            ..ClipPlayback::new(Arc::clone(&walk), WorldTime(0.0))
         };
         let mut world = beginning(&body, MotionSource::Clip(play));
         let key = world.figures().next().unwrap().0;

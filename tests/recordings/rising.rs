@@ -10,6 +10,7 @@ use sinew_physics::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
 use sinew_physics::math::Vec3;
 use sinew_physics::plan::stream::{RATE, StreamPlan};
 use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::time::{StreamTime, WorldTime};
 use sinew_physics::world::{ClipPlayback, LivePlayback, MotionSource, WorldParams};
 use std::sync::Arc;
 
@@ -37,7 +38,7 @@ fn watch(mut scene: Scene, seconds: f64) -> Outcome {
         assert!(r.assist.iter().all(|a| *a == 0.0));
         (over, depth) = (over.max(r.joints.over_limit), depth.max(r.penetration));
         if f.events().contains(&FigureEvent::GotUp) {
-            up = Some(s.world.time());
+            up = Some(s.world.time().0);
         }
         if f.events().contains(&FigureEvent::Fell) {
             up = None;
@@ -94,7 +95,7 @@ fn who_lies_as_his_motion_lies_gets_up_when_it_does_and_stays_up() {
     let up = out.up.expect("it gets up");
     let f = out.scene.figure();
     let report = f.report().unwrap();
-    let standing = out.scene.world.time() - up;
+    let standing = out.scene.world.time().0 - up;
     println!(
         "up at {up:.2} s, {:.1e} over strength, {:.1} mm deep",
         out.over,
@@ -160,7 +161,7 @@ fn who_lies_on_the_back_rolls_over_and_gets_up() {
     let mut setup = figure(&man(), ControllerKind::Modern, clip.sample(-lead).state());
     setup.strength.all = 1.0;
     let mut scene = Scene::of(setup);
-    let clip = ClipPlayback::new(clip, lead);
+    let clip = ClipPlayback::new(clip, WorldTime(lead));
     scene.figure_mut().set_drive(MotionSource::Clip(clip));
     let mut on_back = false;
     scene.run(9.0, |s| {
@@ -229,7 +230,7 @@ fn who_lies_under_a_stream_gets_up_when_it_does() {
         motion.push(&clip.sample(fed / RATE).posture, None);
         fed += 1.0;
     }
-    motion.advance(1.0 / RATE);
+    motion.advance(StreamTime(1.0 / RATE));
     let setup = figure(&body, ControllerKind::Modern, clip.sample(0.0).state());
     let mut scene = Scene::of(setup);
     let live = LivePlayback {
@@ -249,7 +250,7 @@ fn who_lies_under_a_stream_gets_up_when_it_does() {
         }
         scene.world.step();
         if scene.figure().events().contains(&FigureEvent::GotUp) {
-            up = Some(scene.world.time());
+            up = Some(scene.world.time().0);
         }
     }
     println!("up at {up:?} s");

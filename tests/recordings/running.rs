@@ -68,7 +68,8 @@ fn who_runs_falls_freely_in_flight_and_the_step_plan_knows() {
         // Second differences feel a landing or leaving foot up to three samples away.
         if (i - 3..=i + 3).all(off) {
             air += 1;
-            let level = track.wrench[i].0.x.hypot(track.wrench[i].0.y) / weight;
+            let force = track.wrench[i].force;
+            let level = force.x.hypot(force.y) / weight;
             most = [most[0].max(track.load[i].abs()), most[1].max(level)];
         }
         if off(i) {

@@ -10,6 +10,7 @@ use sinew_physics::figure::ControllerKind;
 use sinew_physics::motion::Clip;
 use sinew_physics::plan::cycle;
 use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
@@ -42,7 +43,7 @@ fn over_and_over(clip: &Arc<Clip>) -> Played {
 
 impl Played {
     /// Playback from standing, at world time `time`.
-    fn playback(&self, time: f64) -> ClipPlayback {
+    fn playback(&self, time: WorldTime) -> ClipPlayback {
         ClipPlayback {
             looped: self.looped,
             speed: self.speed,
@@ -84,8 +85,8 @@ fn begun(body: &Arc<Body>, what: &Played, seconds: f64) -> (World, FigureKey) {
         .add_figure(figure(body, ControllerKind::Modern, start))
         .unwrap();
     let play = ClipPlayback {
-        start: -from,
-        ..what.playback(0.0)
+        start: WorldTime(-from),
+        ..what.playback(WorldTime::default())
     };
     world
         .figure_mut(key)
@@ -129,7 +130,7 @@ fn passes(body: &Arc<Body>, first: &Played, second: Option<&Played>, at: f64) ->
     if second.is_none() {
         figure.stop(time);
     }
-    let mut until = f64::INFINITY;
+    let mut until = WorldTime(f64::INFINITY);
     let mut out = Passed {
         fell: None,
         began: f64::NAN,

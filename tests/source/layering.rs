@@ -53,7 +53,7 @@ const SIM: &[&[&str]] = &[
     &["report"],
     &["touch"],
     &["body"],
-    &["math", "params"],
+    &["math", "params", "time"],
     &["saved"],
 ];
 

@@ -6,6 +6,7 @@ use sinew_physics::figure::ControllerKind;
 use sinew_physics::motion::builtin::builtin;
 use sinew_physics::plan::StreamPlan;
 use sinew_physics::plan::stream::RATE;
+use sinew_physics::time::{StreamTime, WorldTime};
 use sinew_physics::world::checkpoint::{Checkpoint, Definitions};
 use sinew_physics::world::{
     ClipPlayback, FigureSetup, LivePlayback, MotionSource, World, WorldParams,
@@ -32,13 +33,13 @@ fn world(live: bool) -> World {
             for k in 0..120 {
                 motion.push(&clip.sample(f64::from(k) / RATE).posture, None);
             }
-            motion.advance(1.0 / RATE);
+            motion.advance(StreamTime(1.0 / RATE));
             MotionSource::Live(Box::new(LivePlayback {
                 motion,
                 offset: 0.0,
             }))
         } else {
-            let mut play = ClipPlayback::new(Arc::clone(&clip), 0.0);
+            let mut play = ClipPlayback::new(Arc::clone(&clip), WorldTime(0.0));
             play.origin.y = 3.0 * i as f64;
             MotionSource::Clip(play)
         };

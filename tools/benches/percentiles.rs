@@ -11,6 +11,7 @@ use sinew_physics::control::Modern;
 use sinew_physics::figure::{ControllerKind, Perturbation};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::builtin::builtin;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, FigureSetup, MotionSource, World, WorldParams};
 use std::hint::black_box;
 use std::sync::Arc;
@@ -39,7 +40,7 @@ fn run(scene: &Scene) -> [Vec<f64>; 2] {
     let figure = world.figure_mut(key).expect("just added");
     figure.set_drive(MotionSource::Clip(ClipPlayback {
         looped: true,
-        ..ClipPlayback::new(Arc::clone(&clip), 0.0)
+        ..ClipPlayback::new(Arc::clone(&clip), WorldTime(0.0))
     }));
     if let Some((every, impulse)) = scene.push {
         for i in 0..(SECONDS / every) as u32 - 1 {

@@ -6,6 +6,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use sinew_physics::body::Body;
 use sinew_physics::figure::ControllerKind;
 use sinew_physics::motion::builtin::builtin;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, FigureSetup, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
@@ -26,7 +27,7 @@ fn world(controller: ControllerKind, count: usize) -> World {
         let figure = world.figure_mut(key).expect("just added");
         figure.set_drive(MotionSource::Clip(ClipPlayback {
             looped: true,
-            ..ClipPlayback::new(Arc::clone(&clip), -lead)
+            ..ClipPlayback::new(Arc::clone(&clip), WorldTime(-lead))
         }));
     }
     world

@@ -8,6 +8,7 @@ use sinew_physics::body::{Body, Links};
 use sinew_physics::figure::{Perturbation, StrengthScale};
 use sinew_physics::motion::Clip;
 use sinew_physics::strength::Strength;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, MotionSource};
 use std::sync::Arc;
 
@@ -73,7 +74,7 @@ pub fn again(body: &Arc<Body>, percentile: f64, did: &Did, panels: usize) -> Aga
         let figure = world.figure_mut(key).expect("it was just added");
         figure.set_drive(MotionSource::Clip(ClipPlayback::new(
             Arc::clone(&did.clip),
-            0.0,
+            WorldTime(0.0),
         )));
         let seconds = did.clip.duration() + 1.0;
         record(&mut world, key, seconds, panels, |_, _| {

@@ -7,6 +7,7 @@ use sinew_physics::collide::{Mobility, ObstacleSetup, Shape};
 use sinew_physics::figure::{StrengthScale, TickReport};
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::Clip;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World};
 use std::sync::Arc;
 
@@ -164,7 +165,7 @@ fn scene(
         world.add_obstacle(seat.clone()).expect("seats are valid");
     }
     let figure = world.figure_mut(key).expect("the figure was just added");
-    let play = ClipPlayback::new(Arc::clone(&motion.clip), 0.0);
+    let play = ClipPlayback::new(Arc::clone(&motion.clip), WorldTime(0.0));
     figure.set_drive(MotionSource::Clip(play));
     let what = match burden {
         Burden::Load(0.0, _) => Vec::new(),
@@ -193,7 +194,7 @@ pub fn compare(
         step(&mut world);
         let figure = world.figure(key).expect("nobody removes the figure");
         if figure.is_fallen() {
-            out.fell_s = Some(world.time());
+            out.fell_s = Some(world.time().0);
             break;
         }
         let report = figure.report().expect("a stepped figure has a report");

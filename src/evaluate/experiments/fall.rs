@@ -229,7 +229,7 @@ pub fn fall_on_toes(
         bent_deg: 0.0,
         record: ExperimentRecord::default(),
     };
-    while out.time_s.is_none() && world.time() < 3.0 {
+    while out.time_s.is_none() && world.time().0 < 3.0 {
         let (moved, energy, bent) = tick(&mut world, key, com);
         let gain = (energy - first) / first;
         out.energy = [out.energy[0].min(gain), out.energy[1].max(gain)];
@@ -238,7 +238,7 @@ pub fn fall_on_toes(
         let across = (moved - start.normal * along - Vec3::Z * moved.z).norm();
         out.off_course_deg = across.atan2(along).to_degrees();
         if com.z + moved.z < LOW {
-            out.time_s = Some(world.time());
+            out.time_s = Some(world.time().0);
         }
     }
     let (mut world, key) = pair.world(body, start.state, scale);

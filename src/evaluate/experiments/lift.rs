@@ -10,6 +10,7 @@ use sinew_physics::figure::{Perturbation, StrengthScale};
 use sinew_physics::motion::builtin::{LIFT_GRASP, builtin};
 use sinew_physics::motion::{Clip, GRAVITY};
 use sinew_physics::strength::Strength;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World};
 use std::sync::Arc;
 
@@ -107,7 +108,7 @@ pub(super) fn scene_of(
     };
     world.perturb(key, load).expect("loads are valid");
     let figure = world.figure_mut(key).expect("the figure was just added");
-    figure.set_drive(MotionSource::Clip(ClipPlayback::new(clip, 0.0)));
+    figure.set_drive(MotionSource::Clip(ClipPlayback::new(clip, WorldTime(0.0))));
     (world, key)
 }
 

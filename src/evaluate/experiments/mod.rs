@@ -214,7 +214,7 @@ fn record(
     let mut start = None;
     for n in 0..ticks {
         world.step();
-        let (time_s, gravity) = (world.time(), world.params().gravity);
+        let (time_s, gravity) = (world.time().0, world.params().gravity);
         let figure = world.figure(key).expect("nobody removes the figure");
         let r = figure.report().expect("a stepped figure has a report");
         let height = *start.get_or_insert(r.balance.com.z);

@@ -7,6 +7,7 @@ use sinew_physics::dynamics::Kinematics;
 use sinew_physics::figure::{FigureEvent, HeldLoad, Perturbation, SecondHand, StrengthScale};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::builtin::{LIFT_GRASP, builtin};
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, Figure, MotionSource};
 use std::sync::Arc;
 
@@ -80,7 +81,7 @@ pub fn rung(
     };
     world.perturb(key, load).expect("loads are valid");
     let figure = world.figure_mut(key).expect("the figure was just added");
-    figure.set_drive(MotionSource::Clip(ClipPlayback::new(clip, 0.0)));
+    figure.set_drive(MotionSource::Clip(ClipPlayback::new(clip, WorldTime(0.0))));
     let mut out = Rung::default();
     let mut kin = Kinematics::default();
     let (mut below, mut count) = (0.0, 0.0);

@@ -12,6 +12,7 @@ use sinew_physics::math::curve::ramp;
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::Clip;
 use sinew_physics::motion::builtin::at_ease;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, MotionSource};
 use std::sync::Arc;
 
@@ -411,7 +412,10 @@ pub fn reach(
     pair.params.protective_steps = false;
     let (mut world, key) = pair.world(body, State::at_rest(ease), strength);
     let figure = world.figure_mut(key).expect("it was just added");
-    figure.set_drive(MotionSource::Clip(ClipPlayback::new(Arc::new(clip), 0.0)));
+    figure.set_drive(MotionSource::Clip(ClipPlayback::new(
+        Arc::new(clip),
+        WorldTime(0.0),
+    )));
     // The full reach of the hand.
     let hand = segment_poses(&body.joint_offset, &raised(1.0))[R_HAND.index()];
     let mesh = &body.segment(R_HAND).mesh;

@@ -8,6 +8,7 @@ use sinew_physics::body::{Body, SegmentId};
 use sinew_physics::figure::{ContactPoint, ControllerKind, Perturbation, StrengthScale};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::Clip;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, FigureSetup, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
@@ -186,7 +187,7 @@ pub fn walk(walker: &Walker, walk: &WalkTrial) -> Walked {
     figure.set_drive(MotionSource::Clip(ClipPlayback {
         speed: walker.speed,
         looped: walk.looped,
-        ..ClipPlayback::new(Arc::clone(clip), lead / walker.speed)
+        ..ClipPlayback::new(Arc::clone(clip), WorldTime(lead / walker.speed))
     }));
     for what in perturbations(walker, walk) {
         world
@@ -205,7 +206,7 @@ pub fn walk(walker: &Walker, walk: &WalkTrial) -> Walked {
         let r = figure.report().expect("a stepped figure has a report");
         metrics.observe(Tick::of(figure, world.params().gravity), 0.0);
         if figure.is_fallen() {
-            fell_s = Some(world.time());
+            fell_s = Some(world.time().0);
             break;
         }
         seen += 1;

@@ -81,7 +81,7 @@ pub fn watched(
     }
     let (figure, world) = (trial.figure(), trial.world());
     let report = metrics.finish(world.state_hash());
-    let time = world.time();
+    let time = world.time().0;
     let mut out = course.outcome(course.judge.result(&trial), reference, world.dt());
     let (mass_after, after) = vertical(figure);
     let weight = mass_after * GRAVITY;

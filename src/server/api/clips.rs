@@ -362,12 +362,14 @@ impl MotionService for Api {
                         .await?
                 }
             };
-            let start_time_s = handle
+            let start = handle
                 .call(origin(&request), move |s| {
                     s.play(&figure, &clip_id, (clip, &rehearsed), playback, &who)
                 })
                 .await?;
-            Ok(pb::PlayClipResponse { start_time_s })
+            Ok(pb::PlayClipResponse {
+                start_time_s: start.0,
+            })
         })
         .await
     }

@@ -10,6 +10,7 @@
 
 pub use super::playout::Now;
 use super::playout::{Playout, PlayoutDue as Pace, is_time};
+use super::time::{PlayoutTime, ScheduledTime, SourceTime};
 pub use seam::StreamSeam;
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{Body, NV, Posture};
@@ -17,6 +18,7 @@ use sinew_physics::math::Quat;
 use sinew_physics::motion::{Target, TargetPair};
 use sinew_physics::plan::contact_labels::planted_between;
 use sinew_physics::plan::stream::is_same;
+use sinew_physics::time::WorldTime;
 use sinew_wire::types::{Delay, DriveSettings, Supply};
 use std::cell::Cell;
 use std::collections::VecDeque;
@@ -47,8 +49,8 @@ const JUMP: f64 = 0.02;
 pub struct BufferedFrame {
     /// Sequence.
     pub sequence: i64,
-    /// Source time, ns.
-    pub source_ns: i64,
+    /// When it was captured.
+    pub source: SourceTime,
     /// Desired posture.
     pub posture: Posture,
     /// Desired velocity.
@@ -68,7 +70,7 @@ pub struct BufferedFrame {
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Applied {
     sequence: i64,
-    source_ns: i64,
+    source: SourceTime,
     #[serde(skip, default = "Instant::now")]
     arrival: Instant,
     /// Whether a published frame of the world has shown it.
@@ -79,7 +81,7 @@ impl Applied {
     fn new(frame: &BufferedFrame) -> Self {
         Self {
             sequence: frame.sequence,
-            source_ns: frame.source_ns,
+            source: frame.source,
             arrival: frame.arrival,
             shown: false,
         }
@@ -134,22 +136,22 @@ struct Anew {
 /// The samples given to a window.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Grid {
-    /// Newest time, playout s.
-    head: Option<f64>,
+    /// Newest time.
+    head: Option<PlayoutTime>,
     /// The next sample of the grid.
     next: i64,
     /// Whether it continues from another stream, which supplied everything due before now.
     joins: bool,
     /// Frames that the window holds, with their playout times.
-    held: VecDeque<(f64, Applied)>,
+    held: VecDeque<(PlayoutTime, Applied)>,
 }
 
 /// Frames that may be the first of a clock that started again.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Restart {
     sequence: i64,
-    source_ns: i64,
-    since: f64,
+    source: SourceTime,
+    since: ScheduledTime,
     frames: u32,
 }
 
@@ -166,9 +168,9 @@ pub struct JitterBuffer {
     applied: Option<Applied>,
     /// The target at the end of the last tick.
     last: Target,
-    /// Difference that bridges a jump of the desired motion, and when it began to fade (world s).
+    /// Difference that bridges a jump of the desired motion, and when it began to fade.
     #[serde(with = "crate::ingest::saved::timed_array")]
-    blend: Option<(Box<[f64; NV]>, f64)>,
+    blend: Option<(Box<[f64; NV]>, WorldTime)>,
     /// Time over which it fades, s.
     blend_time: f64,
     /// Quiet standing.
@@ -185,6 +187,20 @@ pub enum DueSample<'a> {
     Sample(&'a Posture, Option<[bool; 2]>),
     /// No frame has arrived for too long, so guessing is impossible.
     Silence,
+}
+
+/// How far a window has been fed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GridEnd {
+    /// Time of the newest sample that is due.
+    pub head: PlayoutTime,
+    /// Number of samples of the grid that are past.
+    pub next: i64,
+}
+
+/// The time of sample `i` of a grid of `rate` per second.
+fn grid_time(i: i64, rate: f64) -> PlayoutTime {
+    PlayoutTime(i as f64 / rate)
 }
 
 /// Largest relative difference between the speed of a window's time and that of the world's while delays change; if
@@ -283,9 +299,8 @@ impl JitterBuffer {
             let square = |q: &Quat| q.to_xyzw().iter().map(|c| c * c).sum::<f64>();
             p.is_finite() && turns.map(square).all(|n| (0.998..1.002).contains(&n))
         };
-        let grows = |a: &BufferedFrame, b: &BufferedFrame| {
-            a.sequence < b.sequence && a.source_ns < b.source_ns
-        };
+        let grows =
+            |a: &BufferedFrame, b: &BufferedFrame| a.sequence < b.sequence && a.source < b.source;
         let frames = &self.frames;
         let mut pairs = frames.iter().zip(frames.iter().skip(1));
         let postures = frames.iter().map(|f| &f.posture);
@@ -309,8 +324,8 @@ impl JitterBuffer {
             && times.iter().all(|t| (0.0..=1e6).contains(t))
             && (1.0..=1e4).contains(&settings.rate_hz)
             && self.tick == tick
-            && self.grid.head.is_none_or(is_time)
-            && self.blend.as_ref().is_none_or(|b| is_time(b.1))
+            && self.grid.head.is_none_or(|head| is_time(head.0))
+            && self.blend.as_ref().is_none_or(|b| is_time(b.1.0))
             && self.grid.next.unsigned_abs() < 1 << 53
             && self.pace.is_valid();
         if is_whole {
@@ -341,9 +356,9 @@ impl JitterBuffer {
         self.supply
     }
 
-    /// Sequence and source time (ns) of the frame in use.
-    pub fn applied(&self) -> Option<(i64, i64)> {
-        self.applied.map(|a| (a.sequence, a.source_ns))
+    /// Sequence and source time of the frame in use.
+    pub fn applied(&self) -> Option<(i64, SourceTime)> {
+        self.applied.map(|a| (a.sequence, a.source))
     }
 
     /// Arrival time of the frame in use, once for each frame: the world has published its effect.
@@ -355,7 +370,7 @@ impl JitterBuffer {
 
     /// Notes which frame is in use.
     fn apply(&mut self, new: Applied) {
-        let same = |a: Applied| (a.sequence, a.source_ns) == (new.sequence, new.source_ns);
+        let same = |a: Applied| (a.sequence, a.source) == (new.sequence, new.source);
         if !self.applied.is_some_and(same) {
             self.applied = Some(new);
         }
@@ -399,22 +414,23 @@ impl JitterBuffer {
     /// Duration of the motion that is held but not used yet, s.
     pub fn buffered(&self) -> f64 {
         match (self.frames.back(), self.pace.played.is_finite()) {
-            (Some(f), true) => (self.seconds(f) - self.pace.played).max(0.0),
+            (Some(f), true) => (self.time_of(f) - self.pace.played).max(0.0),
             (Some(f), false) => {
-                self.seconds(f) - self.frames.front().map_or(0.0, |f| self.seconds(f))
+                let first = self.frames.front().map(|f| self.time_of(f));
+                self.time_of(f) - first.unwrap_or_default()
             }
             _ => 0.0,
         }
     }
 
-    fn seconds(&self, f: &BufferedFrame) -> f64 {
-        self.pace.seconds(f.source_ns)
+    fn time_of(&self, f: &BufferedFrame) -> PlayoutTime {
+        self.pace.playout_time(f.source)
     }
 
-    /// Takes a frame that arrived at scheduled time `now`. Frames whose sequence or source time does not grow are
+    /// Takes a frame that arrived `now`. Frames whose sequence or source time does not grow are
     /// dropped and counted, until it is clear that the driver's clock has started again. Returns whether this frame is
     /// the first one after a restart.
-    pub fn push(&mut self, frame: BufferedFrame, now: f64) -> bool {
+    pub fn push(&mut self, frame: BufferedFrame, now: ScheduledTime) -> bool {
         let order = self.order(&frame, now);
         match order {
             Order::Next => {}
@@ -431,7 +447,7 @@ impl JitterBuffer {
             self.frames.pop_front();
             self.counts.overflow += 1;
         }
-        let at = self.pace.arrive(frame.source_ns, now);
+        let at = self.pace.arrive(frame.source, now);
         if at < self.pace.played {
             self.counts.late += 1;
         }
@@ -439,12 +455,12 @@ impl JitterBuffer {
         order == Order::Anew
     }
 
-    fn order(&mut self, frame: &BufferedFrame, now: f64) -> Order {
+    fn order(&mut self, frame: &BufferedFrame, now: ScheduledTime) -> Order {
         let Some(last) = self.frames.back() else {
             return Order::Next;
         };
-        if frame.sequence > last.sequence && frame.source_ns > last.source_ns {
-            let passed = (i128::from(frame.source_ns) - i128::from(last.source_ns)) as f64 * 1e-9;
+        if frame.sequence > last.sequence && frame.source > last.source {
+            let passed = frame.source.since(last.source);
             let set = passed > CLOCK_LEAP && passed > 2.0 * self.pace.since_arrival(now);
             return if set { Order::Anew } else { Order::Next };
         }
@@ -456,15 +472,15 @@ impl JitterBuffer {
     }
 
     /// Whether a frame older than the newest one shows that the driver's clock has started again.
-    fn restarts(&mut self, frame: &BufferedFrame, now: f64) -> bool {
-        let (sequence, source_ns) = (frame.sequence, frame.source_ns);
+    fn restarts(&mut self, frame: &BufferedFrame, now: ScheduledTime) -> bool {
+        let (sequence, source) = (frame.sequence, frame.source);
         let (since, frames) = match self.anew.restart {
-            Some(r) if sequence > r.sequence && source_ns > r.source_ns => (r.since, r.frames + 1),
+            Some(r) if sequence > r.sequence && source > r.source => (r.since, r.frames + 1),
             _ => (now, 1),
         };
         self.anew.restart = Some(Restart {
             sequence,
-            source_ns,
+            source,
             since,
             frames,
         });
@@ -493,7 +509,7 @@ impl JitterBuffer {
         let (before, dt) = match i.checked_sub(1).map(|b| &self.frames[b]) {
             Some(b) => (
                 &b.posture,
-                (frame.source_ns as f64 - b.source_ns as f64) * 1e-9,
+                (frame.source.0 as f64 - b.source.0 as f64) * 1e-9,
             ),
             None => (&frame.posture, 1.0),
         };
@@ -502,8 +518,8 @@ impl JitterBuffer {
         guess
     }
 
-    /// Playout time in the tick that begins `now`, s since the first frame.
-    fn playout(&mut self, now: Now) -> Option<f64> {
+    /// Playout time in the tick that begins `now`.
+    fn playout(&mut self, now: Now) -> Option<PlayoutTime> {
         match self.pace.advance(now, self.tick, &self.settings) {
             Pace::At(p) => Some(p),
             Pace::Nothing => None,
@@ -519,24 +535,24 @@ impl JitterBuffer {
             return **v;
         }
         // Least-squares slope through the neighbours within SLOPE, at least the adjacent ones.
-        let t0 = self.seconds(&self.frames[i]);
+        let t0 = self.time_of(&self.frames[i]);
         let mut lo = i.saturating_sub(1);
         let mut hi = (i + 1).min(self.frames.len() - 1);
-        while lo > 0 && t0 - self.seconds(&self.frames[lo - 1]) <= SLOPE {
+        while lo > 0 && t0 - self.time_of(&self.frames[lo - 1]) <= SLOPE {
             lo -= 1;
         }
-        while hi + 1 < self.frames.len() && self.seconds(&self.frames[hi + 1]) - t0 <= SLOPE {
+        while hi + 1 < self.frames.len() && self.time_of(&self.frames[hi + 1]) - t0 <= SLOPE {
             hi += 1;
         }
         let n = (hi - lo + 1) as f64;
         let mean = (lo..=hi)
-            .map(|k| self.seconds(&self.frames[k]) - t0)
+            .map(|k| self.time_of(&self.frames[k]) - t0)
             .sum::<f64>()
             / n;
         let mut v = [0.0; NV];
         let mut square = 0.0;
         for k in lo..=hi {
-            let dt = self.seconds(&self.frames[k]) - t0 - mean;
+            let dt = self.time_of(&self.frames[k]) - t0 - mean;
             square += dt * dt;
             let x = self.frames[i].posture.difference(&self.frames[k].posture);
             for (v, x) in v.iter_mut().zip(x) {
@@ -552,8 +568,8 @@ impl JitterBuffer {
     }
 
     /// The answer for playout time `p`.
-    fn find(&self, p: f64) -> FrameSpan {
-        let after = self.frames.partition_point(|f| self.seconds(f) <= p + SAME);
+    fn find(&self, p: PlayoutTime) -> FrameSpan {
+        let after = self.frames.partition_point(|f| self.time_of(f) <= p + SAME);
         let Some(i) = after.checked_sub(1) else {
             return FrameSpan {
                 supply: Supply::Waiting,
@@ -561,7 +577,7 @@ impl JitterBuffer {
                 since: 0.0,
             };
         };
-        let since = (p - self.seconds(&self.frames[i])).max(0.0);
+        let since = (p - self.time_of(&self.frames[i])).max(0.0);
         let limit = self.settings.extrapolation;
         let supply = if since <= SAME {
             Supply::Present
@@ -582,12 +598,12 @@ impl JitterBuffer {
     }
 
     /// The desired motion at playout time `p`.
-    fn at(&self, p: f64) -> MotionAnswer {
+    fn at(&self, p: PlayoutTime) -> MotionAnswer {
         self.at_with(p, &mut Velocities::default())
     }
 
     /// The same, reusing velocities that are known already.
-    fn at_with(&self, p: f64, velocities: &mut Velocities) -> MotionAnswer {
+    fn at_with(&self, p: PlayoutTime, velocities: &mut Velocities) -> MotionAnswer {
         let FrameSpan {
             supply,
             frame: i,
@@ -606,7 +622,7 @@ impl JitterBuffer {
         let v0 = velocities.of(self, i);
         if let Some(to) = self.frames.get(i + 1) {
             // Cubic Hermite curve in the tangent space of the frame before.
-            let h = self.seconds(to) - self.seconds(from);
+            let h = self.time_of(to) - self.time_of(from);
             let u = (since / h).clamp(0.0, 1.0);
             let d = from.posture.difference(&to.posture);
             let v1 = velocities.of(self, i + 1);
@@ -673,7 +689,7 @@ impl JitterBuffer {
     }
 
     /// As [`JitterBuffer::at_with`], with planted feet.
-    fn target(&self, p: f64, velocities: &mut Velocities) -> MotionAnswer {
+    fn target(&self, p: PlayoutTime, velocities: &mut Velocities) -> MotionAnswer {
         let mut answer = self.at_with(p, velocities);
         answer.target.planted = answer.feet.map_or([true; 2], |i| self.planted(i));
         answer
@@ -724,7 +740,8 @@ impl JitterBuffer {
             }
         }
         if let Some((jump, since)) = &self.blend {
-            let fade = |target: &mut Target, t: f64| {
+            let since = *since;
+            let fade = |target: &mut Target, t: WorldTime| {
                 let over = self.blend_time;
                 let u = ((t - since) / over).clamp(0.0, 1.0);
                 // 1 at the start, 0 at the end, flat at both.
@@ -747,7 +764,7 @@ impl JitterBuffer {
         }
         self.last.clone_from(next);
         // Frames before the one in use serve only as neighbours of its velocity.
-        while self.frames.len() > 2 && self.seconds(&self.frames[1]) < p - 2.0 * SLOPE {
+        while self.frames.len() > 2 && self.time_of(&self.frames[1]) < p - 2.0 * SLOPE {
             self.frames.pop_front();
         }
         Some(pair)
@@ -772,32 +789,31 @@ impl JitterBuffer {
         let (Some(newest), Some(head)) = (self.frames.back(), self.grid.head) else {
             return false;
         };
-        self.seconds(newest) > head && !is_same(&self.at(head).target.posture, &newest.posture)
+        self.time_of(newest) > head && !is_same(&self.at(head).target.posture, &newest.posture)
     }
 
     /// Hands the samples of a grid of `rate` per second, up to those due in the tick that begins `now`, to a window
-    /// that lies `window` seconds behind them. Returns the playout time of the newest sample that is due then, s, and
-    /// the number of samples of the grid that are past; `None` while there is no motion.
+    /// that lies `window` seconds behind them. `None` while there is no motion.
     pub fn feed(
         &mut self,
         now: Now,
         (rate, window): (f64, f64),
         mut give: impl FnMut(DueSample<'_>),
-    ) -> Option<(f64, i64)> {
+    ) -> Option<GridEnd> {
         let p = self.playout(now)?;
         let p = match self.grid.head {
-            Some(head) if (p - head).abs() < LEAP => p.clamp(
-                head + (1.0 - SLEW) * self.tick,
-                head + (1.0 + SLEW) * self.tick,
-            ),
+            Some(head) if (p - head).abs() < LEAP => {
+                let [least, most] = [1.0 - SLEW, 1.0 + SLEW].map(|speed| head + speed * self.tick);
+                PlayoutTime(p.0.clamp(least.0, most.0))
+            }
             _ => p,
         };
-        if p < -self.tick {
+        if p.0 < -self.tick {
             self.supply = Supply::Waiting;
             return None;
         }
         self.grid.head = Some(p);
-        self.supply = self.find(p.max(0.0)).supply;
+        self.supply = self.find(p.max(PlayoutTime(0.0))).supply;
         let k = match self.supply {
             Supply::Present => 0,
             Supply::Interpolated => 1,
@@ -807,7 +823,7 @@ impl JitterBuffer {
             Supply::Waiting | Supply::None => return None,
         };
         self.counts.ticks[k] += 1;
-        let last = ((p + self.tick) * rate + SAME).floor() as i64;
+        let last = ((p + self.tick).0 * rate + SAME).floor() as i64;
         // A leap in time, or a silence, is not made up for sample by sample.
         if std::mem::take(&mut self.grid.joins) {
             self.grid.next = last;
@@ -815,7 +831,7 @@ impl JitterBuffer {
         let first = self.grid.next.max(last.saturating_sub(CAPACITY as i64));
         let mut velocities = Velocities::default();
         for g in first..=last {
-            let answer = self.at_with(g as f64 / rate, &mut velocities);
+            let answer = self.at_with(grid_time(g, rate), &mut velocities);
             match answer.supply {
                 Supply::Present | Supply::Interpolated | Supply::Extrapolated => {
                     let frame = &self.frames[answer.frame];
@@ -828,7 +844,7 @@ impl JitterBuffer {
                         if self.grid.held.len() == CAPACITY {
                             self.grid.held.pop_front();
                         }
-                        let entry = (self.seconds(frame), Applied::new(frame));
+                        let entry = (self.time_of(frame), Applied::new(frame));
                         self.grid.held.push_back(entry);
                     }
                 }
@@ -847,18 +863,19 @@ impl JitterBuffer {
             self.apply(entry);
             self.grid.held.pop_front();
         }
-        while self.frames.len() > 2 && self.seconds(&self.frames[1]) < p - 2.0 * SLOPE {
+        while self.frames.len() > 2 && self.time_of(&self.frames[1]) < p - 2.0 * SLOPE {
             self.frames.pop_front();
         }
-        Some((p, self.grid.next))
+        let next = self.grid.next;
+        Some(GridEnd { head: p, next })
     }
 
-    /// Playout time of the tick that begins `now`, s, if there is motion for it.
-    pub fn due(&mut self, now: Now) -> Option<f64> {
+    /// Playout time of the tick that begins `now`, if there is motion for it.
+    pub fn due(&mut self, now: Now) -> Option<PlayoutTime> {
         let p = self.playout(now)?;
         // At least two frames, so that its velocity is known, and none that would have to be guessed.
-        let newest = self.seconds(self.frames.back()?);
-        (p >= 0.0 && self.frames.len() >= 2 && newest >= p + self.tick).then_some(p)
+        let newest = self.time_of(self.frames.back()?);
+        (p.0 >= 0.0 && self.frames.len() >= 2 && newest >= p + self.tick).then_some(p)
     }
 
     /// Begins from the present desired motion of the figure, and changes to its own motion within `blend` seconds.

@@ -5,3 +5,4 @@ pub mod jitter_buffer;
 pub mod mailbox;
 pub mod playout;
 pub mod saved;
+pub mod time;

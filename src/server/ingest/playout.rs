@@ -1,10 +1,11 @@
 //! The pace of a stream: the part of its source time that is played in a tick.
 //!
-//! Arrivals are stamped with *scheduled time*: the world time if the clock had skipped no tick. It passes like the
-//! driver's own clock while the world's clock runs, and stands still with it. Motion is played in world time: in a
-//! world that skips ticks it falls behind, is never too fast for the body, and catches up slowly.
+//! Arrivals are stamped with *scheduled time* ([`ScheduledTime`]). Motion is played in world time: in a world that
+//! skips ticks it falls behind, is never too fast for the body, and catches up slowly.
 
+use super::time::{PlayoutTime, ScheduledTime, SourceTime};
 use serde::{Deserialize, Serialize};
+use sinew_physics::time::WorldTime;
 use sinew_wire::types::{Delay, DriveSettings};
 use std::collections::VecDeque;
 
@@ -25,10 +26,17 @@ const LARGEST_TIME: f64 = 1e12;
 /// An instant of a world.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Now {
-    /// World time, s.
-    pub time: f64,
-    /// World time that the clock has skipped until now, s: world time plus this is scheduled time.
+    /// World time.
+    pub time: WorldTime,
+    /// World time that the clock has skipped until now, s.
     pub lost: f64,
+}
+
+impl Now {
+    /// The same instant in scheduled time.
+    pub fn scheduled(self) -> ScheduledTime {
+        ScheduledTime(self.time.0 + self.lost)
+    }
 }
 
 /// The motion to play in a tick.
@@ -38,19 +46,19 @@ pub(super) enum PlayoutDue {
     Nothing,
     /// None any more: the stream is too far behind.
     TooFarBehind,
-    /// Playout time, s since the first frame.
-    At(f64),
+    /// The motion at this time.
+    At(PlayoutTime),
 }
 
 /// Source time against world time.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Playout {
     /// Source time and scheduled time of the first frame.
-    origin: Option<(i64, f64)>,
+    origin: Option<(SourceTime, ScheduledTime)>,
     /// Scheduled time minus (first arrival + source time since then) of recent frames.
     transit: VecDeque<f64>,
     /// Scheduled time of the last arrival.
-    arrived: f64,
+    arrived: ScheduledTime,
     /// p99 of the jitter; `None` if frames have arrived since it was measured.
     jitter: Option<f64>,
     /// Present delay of playout behind the ideal clock, s; may be negative when frames come early.
@@ -59,8 +67,8 @@ pub(super) struct Playout {
     /// over another one; negative: ahead.
     lost: Option<f64>,
     behind: f64,
-    /// Playout time of the last answer, s since the first frame.
-    pub(super) played: f64,
+    /// Playout time of the last answer.
+    pub(super) played: PlayoutTime,
 }
 
 impl Default for Playout {
@@ -68,12 +76,12 @@ impl Default for Playout {
         Self {
             origin: None,
             transit: VecDeque::new(),
-            arrived: 0.0,
+            arrived: ScheduledTime::default(),
             jitter: Some(0.0),
             delay: None,
             lost: None,
             behind: 0.0,
-            played: f64::NEG_INFINITY,
+            played: PlayoutTime(f64::NEG_INFINITY),
         }
     }
 }
@@ -86,35 +94,35 @@ pub(super) fn is_time(seconds: f64) -> bool {
 impl Playout {
     /// Whether this value is one that a checkpoint could hold.
     pub(super) fn is_valid(&self) -> bool {
-        let known = [self.arrived, self.behind];
-        let optional = [self.origin.map(|o| o.1), self.jitter, self.delay, self.lost];
+        let known = [self.arrived.0, self.behind];
+        let first = self.origin.map(|o| o.1.0);
+        let optional = [first, self.jitter, self.delay, self.lost];
         self.transit.len() <= WINDOW
             && known.iter().chain(&self.transit).all(|x| is_time(*x))
             && optional.iter().flatten().all(|x| is_time(*x))
-            && (is_time(self.played) || self.played == f64::NEG_INFINITY)
+            && (is_time(self.played.0) || self.played.0 == f64::NEG_INFINITY)
     }
 
-    /// A source time as seconds since the first frame.
-    pub(super) fn seconds(&self, source_ns: i64) -> f64 {
-        let (first, _) = self.origin.unwrap_or((source_ns, 0.0));
-        // Differences of hostile times must not overflow.
-        (i128::from(source_ns) - i128::from(first)) as f64 * 1e-9
+    /// The playout time of a source time.
+    pub(super) fn playout_time(&self, source: SourceTime) -> PlayoutTime {
+        let first = self.origin.map_or(source, |(first, _)| first);
+        PlayoutTime(source.since(first))
     }
 
     /// Scheduled time since the last arrival, s.
-    pub(super) fn since_arrival(&self, now: f64) -> f64 {
+    pub(super) fn since_arrival(&self, now: ScheduledTime) -> f64 {
         now - self.arrived
     }
 
-    /// Notes a frame that arrived at scheduled time `now`; returns its seconds.
-    pub(super) fn arrive(&mut self, source_ns: i64, now: f64) -> f64 {
+    /// Notes a frame that arrived `now`; returns its playout time.
+    pub(super) fn arrive(&mut self, source: SourceTime, now: ScheduledTime) -> PlayoutTime {
         self.arrived = now;
-        let (_, first) = *self.origin.get_or_insert((source_ns, now));
-        let at = self.seconds(source_ns);
+        let (_, first) = *self.origin.get_or_insert((source, now));
+        let at = self.playout_time(source);
         if self.transit.len() == WINDOW {
             self.transit.pop_front();
         }
-        self.transit.push_back(now - first - at);
+        self.transit.push_back(now - first - at.0);
         self.jitter = None;
         at
     }
@@ -177,7 +185,7 @@ impl Playout {
     pub(super) fn shift(&mut self, later: f64, renamed: f64, settings: &DriveSettings) {
         self.behind -= later + renamed;
         if let Some((first, _)) = &mut self.origin {
-            *first = first.saturating_sub((renamed * 1e9).round() as i64);
+            *first = first.earlier(renamed);
         }
         // Arrival times count from the first frame.
         self.transit.iter_mut().for_each(|t| *t -= renamed);
@@ -215,7 +223,7 @@ impl Playout {
             }
         };
         self.delay = Some(delay);
-        let p = now.time + now.lost - first - delay - self.behind;
+        let p = PlayoutTime(now.scheduled() - first - delay - self.behind);
         // Time may stand still while a delay grows, but does not run backwards.
         PlayoutDue::At(if self.played.is_finite() {
             p.max(self.played)
@@ -245,7 +253,8 @@ mod tests {
             } else {
                 random() * 1e-9
             };
-            playout.arrive(i * 16_666_667, i as f64 / 60.0 + late);
+            let arrival = ScheduledTime(i as f64 / 60.0 + late);
+            playout.arrive(SourceTime(i * 16_666_667), arrival);
             let base = playout.fastest();
             let mut sorted: Vec<f64> = playout.transit.iter().map(|t| t - base).collect();
             sorted.sort_by(f64::total_cmp);

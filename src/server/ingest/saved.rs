@@ -35,13 +35,14 @@ pub mod timed_array {
     use super::optional_array::Array;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
     use sinew_physics::body::NV;
+    use sinew_physics::time::WorldTime;
 
     /// Writes it.
     ///
     /// # Errors
     /// Same as those of the serializer.
     pub fn serialize<S: Serializer>(
-        array: &Option<(Box<[f64; NV]>, f64)>,
+        array: &Option<(Box<[f64; NV]>, WorldTime)>,
         to: S,
     ) -> Result<S::Ok, S::Error> {
         let written = array.as_ref().map(|(a, t)| (Array(**a), *t));
@@ -54,8 +55,8 @@ pub mod timed_array {
     /// Same as those of the deserializer.
     pub fn deserialize<'de, D: Deserializer<'de>>(
         from: D,
-    ) -> Result<Option<(Box<[f64; NV]>, f64)>, D::Error> {
-        let read = Option::<(Array, f64)>::deserialize(from)?;
+    ) -> Result<Option<(Box<[f64; NV]>, WorldTime)>, D::Error> {
+        let read = Option::<(Array, WorldTime)>::deserialize(from)?;
         Ok(read.map(|(a, t)| (Box::new(a.0), t)))
     }
 }

@@ -3,6 +3,7 @@
 use super::scene::{PlayerKey, PlayoutWindow, Scene};
 use crate::ingest::jitter_buffer::{BufferedFrame, Counts};
 use crate::ingest::mailbox::{DriverId, Mailbox};
+use crate::ingest::time::{ScheduledTime, SourceTime};
 use sinew_wire::status::Fault;
 use sinew_wire::types::{DriveSettings, Feedback, FigureFeedback, MotionSample};
 use std::cell::Cell;
@@ -106,12 +107,17 @@ impl DriverSession {
 
     /// Takes the motion that arrived since the last tick, in order of sequence: calls in the same tick overtake each
     /// other on their way. `scheduled` returns the scheduled time of an arrival.
-    pub fn collect(&mut self, scene: &mut Scene, scheduled: impl Fn(Instant) -> f64, now: Instant) {
+    pub fn collect(
+        &mut self,
+        scene: &mut Scene,
+        scheduled: impl Fn(Instant) -> ScheduledTime,
+        now: Instant,
+    ) {
         let taken = self.mailbox.take();
         if taken.pushed {
             self.touch(None, now);
         }
-        let mut samples: Vec<((f64, Instant), MotionSample)> = taken
+        let mut samples: Vec<((ScheduledTime, Instant), MotionSample)> = taken
             .deliveries
             .into_iter()
             .flat_map(|d| {
@@ -137,7 +143,7 @@ impl DriverSession {
                 }
                 let frame = BufferedFrame {
                     sequence: sample.sequence,
-                    source_ns: sample.source_ns,
+                    source: SourceTime(sample.source_ns),
                     posture,
                     velocity: f.velocity,
                     planted: f.planted,
@@ -175,7 +181,7 @@ impl DriverSession {
                     FigureFeedback {
                         figure: slot.figure.clone(),
                         applied_sequence: applied.map_or(-1, |a| a.0),
-                        applied_source_ns: applied.map_or(0, |a| a.1),
+                        applied_source_ns: applied.map_or(0, |a| a.1.0),
                         buffered: s.buffer.buffered(),
                         delay: s.buffer.delay()
                             + s.window.as_ref().map_or(0.0, |w| w.length + w.behind()),

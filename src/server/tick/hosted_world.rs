@@ -23,6 +23,7 @@ use crate::durable::marks::WorldMark;
 use crate::engine::{self, FigureKey, Planning};
 use crate::ingest::mailbox::Mailboxes;
 use bounds::Shares;
+use sinew_physics::time::WorldTime;
 use sinew_wire::status::Fault;
 use sinew_wire::types::{
     Described, EventKind, RosterEntry, Snapshot, WorldCondition, WorldEvent, WorldInfo,
@@ -51,8 +52,8 @@ pub struct StepRequest {
     pub abandoned: Box<dyn Fn() -> bool + Send>,
 }
 
-/// A clip that plays: its id, and the world time of its start, s.
-type PlayingClip = (String, f64);
+/// A clip that plays: its id, and when it started.
+type PlayingClip = (String, WorldTime);
 
 /// A world and what belongs to its clock.
 pub struct HostedWorld {
@@ -209,7 +210,7 @@ impl HostedWorld {
                 (None, false) => WorldCondition::Running,
             },
             tick: self.scene.world().tick(),
-            time: self.scene.world().time(),
+            time: self.scene.world().time().0,
             figures: self.scene.members().len(),
             epoch: self.epoch,
             created: self.created,
@@ -440,7 +441,7 @@ impl HostedWorld {
             );
         }
         self.offer_plans();
-        let (tick, time) = (self.scene.world().tick(), self.scene.world().time());
+        let (tick, time) = (self.scene.world().tick(), self.scene.world().time().0);
         let mut events = std::mem::take(&mut self.events);
         for m in self.scene.members() {
             let f = self.scene.figure(m.key);
@@ -464,7 +465,7 @@ impl HostedWorld {
     fn event(&mut self, figure: &str, kind: EventKind) {
         self.events.push(WorldEvent {
             tick: self.scene.world().tick(),
-            time: self.scene.world().time(),
+            time: self.scene.world().time().0,
             figure: figure.to_owned(),
             kind,
         });
@@ -492,7 +493,7 @@ impl HostedWorld {
             rate_hz: self.scene.settings().rate_hz,
             gravity: self.scene.settings().gravity,
             tick: self.scene.world().tick(),
-            time: self.scene.world().time(),
+            time: self.scene.world().time().0,
             hash: hash.unwrap_or_else(|| self.scene.world().state_hash()),
             epoch: self.epoch,
             server_ns: i64::try_from(since.as_nanos()).unwrap_or(i64::MAX),

@@ -6,9 +6,8 @@
 //! before anything is simulated, how hard the recording will be to follow. Pure, offline; nothing here changes a
 //! motion.
 
-use super::foot_lock::{FootPlacement, Sole};
-use super::pelvis_shift::mass_track;
-use crate::body::topology::FEET;
+use super::foot_lock::{AnklePose, FootPlacement, Sole};
+use super::pelvis_shift::{GroundWrench, mass_track};
 use crate::body::{Body, Posture};
 use crate::math::nnls::nnls;
 use crate::math::polygon::{hull, margin};
@@ -103,7 +102,10 @@ pub fn consistency(
         if !polygon.is_empty() && track.load[i] > balance::LEAST_LOAD {
             outside.push((-margin(&polygon, track.zmp[i])).max(0.0));
         }
-        let (f, m) = track.wrench[i];
+        let GroundWrench {
+            force: f,
+            moment: m,
+        } = track.wrench[i];
         let (f, m) = lacking(
             &polygon,
             track.com[i],
@@ -144,7 +146,7 @@ pub(crate) fn infeasibility(body: &Body, postures: &[Posture], label: &[[bool; 2
 fn standing(body: &Body, soles: &[Sole; 2], posture: &Posture) -> [(FootPlacement, f64); 2] {
     let poses = forward(body, posture);
     [0, 1].map(|side| {
-        let at = soles[side].footing(poses[FEET[side].index()]);
+        let at = soles[side].footing(AnklePose::of(&poses, side));
         (at, soles[side].lowest_at(&poses))
     })
 }
@@ -182,6 +184,7 @@ fn lacking(polygon: &[[f64; 2]], com: Vec3, force: Vec3, moment: Vec3) -> (f64, 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::topology::FEET;
     use crate::motion::builtin::at_ease;
     use crate::motion::leg_ik::center_of_mass;
 

@@ -9,7 +9,7 @@ mod sole;
 mod stances;
 
 pub(in crate::plan) use sole::FootOffset;
-pub use sole::{FootPlacement, FootPose, Sole, turn, yaw_pitch};
+pub use sole::{AnklePose, FootPlacement, FootPose, Sole, turn, yaw_pitch};
 pub use stances::{Stance, stances};
 
 use crate::body::topology::outward;

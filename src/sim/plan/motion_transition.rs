@@ -24,6 +24,7 @@ use crate::body::Body;
 use crate::motion::clip::{Clip, PlanarTransform};
 use crate::motion::target::Target;
 use crate::plan::params::{stop, transition};
+use crate::time::MotionTime;
 use candidates::{Features, moments};
 use seam::{ClipEntry, transition_at};
 use serde::{Deserialize, Serialize};
@@ -53,16 +54,16 @@ impl NextClip {
         (0.01..=100.0).contains(&self.speed)
     }
 
-    /// The motion at clip time `t`, s.
-    fn sample(&self, t: f64) -> Target {
+    /// The motion at its time `t`.
+    fn sample(&self, t: MotionTime) -> Target {
         if self.looped {
-            self.clip.sample_looped(t)
+            self.clip.sample_looped(t.0)
         } else {
-            self.clip.sample(t)
+            self.clip.sample(t.0)
         }
     }
 
-    /// Clip time up to which its beginning may be skipped, s.
+    /// How much of its beginning may be skipped, s of the clip.
     fn skipped(&self) -> f64 {
         let long = self.clip.duration();
         if self.looped {
@@ -77,8 +78,8 @@ impl NextClip {
         (self.skipped() / self.speed * stop::RATE) as usize
     }
 
-    /// Samples at [`stop::RATE`] of the world from clip time `from` (s) on.
-    fn samples(&self, from: f64, count: usize) -> Vec<Sample> {
+    /// Samples at [`stop::RATE`] of the world from time `from` of the clip on.
+    fn samples(&self, from: MotionTime, count: usize) -> Vec<Sample> {
         let at = |k: usize| from + k as f64 * self.speed / stop::RATE;
         let samples = (0..count).map(|k| self.sample(at(k)));
         samples.map(|t| (t.posture, t.planted)).collect()
@@ -91,13 +92,13 @@ impl NextClip {
 pub struct TransitionClip {
     /// The motion: it begins as the motion that is left and ends as the clip itself.
     pub clip: Clip,
-    /// Clip time of its first sample, s.
-    pub begin: f64,
-    /// Clip time at which the first motion turns into the second, s. A path from a stand leads towards the clip from
-    /// its first sample on.
-    pub enters: f64,
-    /// Clip time from which the path equals the clip, s.
-    pub until: f64,
+    /// Time of its first sample.
+    pub begin: MotionTime,
+    /// Time at which the first motion turns into the second. A path from a stand leads towards the clip from its first
+    /// sample on.
+    pub enters: MotionTime,
+    /// Time from which the path equals the clip.
+    pub until: MotionTime,
 }
 
 impl TransitionClip {
@@ -148,7 +149,8 @@ impl TransitionCandidates {
     ///   [`transition::BEYOND`] ahead, samples at [`stop::RATE`]; it continues at least up to sample `left.now`.
     pub fn new(body: &Arc<Body>, known: Vec<Sample>, left: LeavingSamples, next: NextClip) -> Self {
         // Includes one sample before and one after, for rates.
-        let beginning = next.samples(-next.speed / stop::RATE, next.skipped_samples() + 3);
+        let before = MotionTime(-next.speed / stop::RATE);
+        let beginning = next.samples(before, next.skipped_samples() + 3);
         let LeavingSamples { now, earliest } = left;
         let (left, entered) = (Features::new(body, &known), Features::new(body, &beginning));
         let moments = moments(&left, earliest.max(now), &entered);
@@ -184,9 +186,9 @@ impl TransitionCandidates {
         &self.moments
     }
 
-    /// Clip time at which the clip is entered at a moment, s.
-    pub fn enters(&self, moment: &Moment) -> f64 {
-        moment.entered as f64 * self.next.speed / stop::RATE
+    /// Time of the clip at which it is entered at a moment.
+    pub fn enters(&self, moment: &Moment) -> MotionTime {
+        MotionTime(moment.entered as f64 * self.next.speed / stop::RATE)
     }
 
     /// The path at the `k`-th moment, and where it puts the origin of the clip; `None` if a body cannot follow it, or

@@ -17,6 +17,16 @@ use crate::motion::filter::low_pass;
 use crate::motion::leg_ik::forward;
 use crate::plan::params::balance;
 
+/// The wrench that the ground gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundWrench {
+    /// Force, N.
+    pub force: Vec3,
+    /// Moment about the centre of mass, N·m. About the world origin it would be the small difference of moments that
+    /// grow with the distance from it, and differentiation makes them differ by more than the length of the sole.
+    pub moment: Vec3,
+}
+
 /// Centre of mass and zero-moment point of every sample of a motion.
 #[derive(Clone, Debug)]
 pub struct MassTrack {
@@ -28,8 +38,8 @@ pub struct MassTrack {
     pub omega2: Vec<f64>,
     /// Vertical ground force over weight.
     pub load: Vec<f64>,
-    /// The wrench that the ground has to give: force, N, and moment about the centre of mass, N·m.
-    pub wrench: Vec<(Vec3, Vec3)>,
+    /// The wrench that the ground has to give.
+    pub wrench: Vec<GroundWrench>,
 }
 
 /// Computes [`MassTrack`] by central differences of the postures.
@@ -73,7 +83,13 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
             .map(|c| GRAVITY / c.z.max(balance::LEAST_HEIGHT))
             .collect(),
         load: vec![1.0; n],
-        wrench: vec![(Vec3::Z * (mass * GRAVITY), Vec3::zero()); n],
+        wrench: vec![
+            GroundWrench {
+                force: Vec3::Z * (mass * GRAVITY),
+                moment: Vec3::zero(),
+            };
+            n
+        ],
         com,
     };
     if n < 5 {
@@ -84,7 +100,10 @@ pub fn mass_track(body: &Body, postures: &[Posture], rate_hz: f64) -> MassTrack 
         let acc = (out.com[i + 2] - c * 2.0 + out.com[i - 2]) * (0.25 / (h * h));
         let rate = (momentum[i + 1] - momentum[i - 1]) * (0.5 / h);
         out.load[i] = 1.0 + acc.z / GRAVITY;
-        out.wrench[i] = ((acc + Vec3::Z * GRAVITY) * mass, rate);
+        out.wrench[i] = GroundWrench {
+            force: (acc + Vec3::Z * GRAVITY) * mass,
+            moment: rate,
+        };
         out.omega2[i] = pendulum_omega2(c.z, acc.z);
         // Near flight the zero-moment point is not defined; the centre of mass is used instead.
         if out.load[i] > balance::LEAST_LOAD {
@@ -117,10 +136,8 @@ pub(super) fn lasts_outside(distance: f64) -> f64 {
 /// The point of the floor (z = 0) at which the ground force acts without a horizontal moment.
 ///
 /// * `com`: centre of mass, m.
-/// * `wrench`: force of the ground, N, and its moment about the centre of mass, N·m. About the world origin the moment
-///   would be the small difference of moments that grow with the distance from it, and differentiation makes them
-///   differ by more than the length of the sole.
-pub(crate) fn zero_moment_point(com: Vec3, (force, moment): (Vec3, Vec3)) -> [f64; 2] {
+pub(crate) fn zero_moment_point(com: Vec3, wrench: GroundWrench) -> [f64; 2] {
+    let GroundWrench { force, moment } = wrench;
     [
         com.x - (com.z * force.x + moment.y) / force.z,
         com.y - (com.z * force.y - moment.x) / force.z,

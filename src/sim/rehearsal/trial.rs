@@ -11,6 +11,7 @@ use crate::motion::{Clip, GRAVITY};
 use crate::plan::StreamPlan;
 use crate::plan::contact_labels::{ContactPhase, phases};
 use crate::plan::stream::RATE;
+use crate::time::{StreamTime, WorldTime};
 use crate::world::{
     ClipPlayback, Figure, FigureKey, FigureSetup, LivePlayback, MotionSource, RehearsedMotion,
     RehearsedPlayback, World, WorldError, WorldParams,
@@ -88,8 +89,8 @@ pub struct Trial<'a> {
     reference: &'a TrackingReference,
     world: World,
     key: FigureKey,
-    /// World time of the motion's first frame, s.
-    lead: f64,
+    /// When the motion's first frame is due.
+    lead: WorldTime,
     ticks_left: u64,
     /// Samples of the stream that have been fed.
     fed: usize,
@@ -104,7 +105,7 @@ impl<'a> Trial<'a> {
         let mut world = World::new(c.world)?;
         let (drive, lead, length) = match (&c.rehearsed, c.live_window) {
             (Some(run), _) => {
-                let play = RehearsedPlayback::new(Arc::clone(&run.motion), 0.0);
+                let play = RehearsedPlayback::new(Arc::clone(&run.motion), WorldTime(0.0));
                 let length = run.motion.duration() + AFTER;
                 (MotionSource::Rehearsed(play), run.motion.lead_in(), length)
             }
@@ -115,14 +116,14 @@ impl<'a> Trial<'a> {
             (None, None) => {
                 let clip = &reference.prepared;
                 let lead = clip.lead_in();
-                let play = ClipPlayback::new(Arc::clone(clip), lead);
+                let play = ClipPlayback::new(Arc::clone(clip), WorldTime(lead));
                 let length = lead + clip.duration() + clip.lead_out() + AFTER;
                 (MotionSource::Clip(play), lead, length)
             }
         };
         let state = match &c.rehearsed {
             Some(run) => run.from,
-            None => drive.targets(0.0, world.dt()).now.state(),
+            None => drive.targets(WorldTime(0.0), world.dt()).now.state(),
         };
         let key = world.add_figure(FigureSetup {
             strength: c.strength.clone(),
@@ -138,7 +139,7 @@ impl<'a> Trial<'a> {
             reference,
             world,
             key,
-            lead,
+            lead: WorldTime(lead),
             ticks_left: (length * c.world.rate_hz).round().max(1.0) as u64,
             fed: fed(c.live_window),
         })
@@ -161,7 +162,7 @@ impl<'a> Trial<'a> {
         let figure = self.world.figure_mut(self.key);
         if let Some(live) = figure.and_then(|f| f.stream_mut()) {
             // The stream arrives at its own rate, regardless of that of the world.
-            while (self.fed as f64) / RATE <= live.stream_time(end) + live.motion.window() {
+            while (self.fed as f64) / RATE <= live.stream_time(end).0 + live.motion.window() {
                 live.motion.push(&posture(self.reference, self.fed), None);
                 self.fed += 1;
             }
@@ -188,7 +189,7 @@ fn stream(c: &Conditions, reference: &TrackingReference, window: f64) -> MotionS
     for i in 0..fed(Some(window)) {
         motion.push(&posture(reference, i), None);
     }
-    motion.advance(1.0 / RATE);
+    motion.advance(StreamTime(1.0 / RATE));
     MotionSource::Live(Box::new(LivePlayback {
         motion,
         offset: 0.0,
@@ -322,7 +323,7 @@ impl Judge {
             root_relative_mm: mean(|d| d.root_relative),
             help: TrialHelp {
                 impulse: self.impulse,
-                share: short(self.impulse / (weight * trial.world.time())),
+                share: short(self.impulse / (weight * trial.world.time().0)),
                 most: short(self.most),
                 acts: self.helped as f64 / self.ticks.max(1) as f64,
             },

@@ -29,6 +29,7 @@ use crate::dynamics::{Kinematics, Terms, center_of_mass, momentum};
 use crate::math::exp::exp;
 use crate::math::{Quat, Vec3};
 use crate::motion::Target;
+use crate::plan::foot_lock::AnklePose;
 use crate::plan::params::common::ZMP_INSET;
 use crate::support::Polygon;
 use serde::{Deserialize, Serialize};
@@ -89,14 +90,12 @@ impl Capture {
         self.links = Links::new(body);
     }
 
-    /// Ankles and rotations of both feet in a posture.
-    pub(super) fn feet(&mut self, posture: &Posture) -> [(Vec3, Quat); 2] {
+    /// Poses of both feet in a posture.
+    pub(super) fn feet(&mut self, posture: &Posture) -> [AnklePose; 2] {
         self.kin.set_posture(&self.links, posture);
-        FEET.map(|s| {
-            (
-                posture.root_position + self.kin.position[s.index()],
-                Quat::from_mat3(&self.kin.rotation[s.index()]),
-            )
+        FEET.map(|s| AnklePose {
+            at: posture.root_position + self.kin.position[s.index()],
+            rotation: Quat::from_mat3(&self.kin.rotation[s.index()]),
         })
     }
 

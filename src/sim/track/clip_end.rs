@@ -1,7 +1,7 @@
 //! Stops after a motion that ends while the figure moves, or that is broken off. The present step is completed, and the
 //! last posture turns into standing at ease.
 
-use super::foot_places::{FootPlaces, middle};
+use super::foot_places::{FootPlace, FootPlaces, middle};
 use super::params::common::STOP_TIME;
 use super::planned_to_world::Anchor;
 use super::{Purpose, RecoveryStep, StepTracker};
@@ -88,10 +88,11 @@ impl StepTracker {
         let side = self.only_stance();
         let side = side.unwrap_or_else(|| usize::from(far(1) < far(0)));
         let before = self.anchor.transform();
-        self.anchor = Anchor::between(
-            (home[side].at, middle(&home).yaw),
-            (now[side].at, middle(&now).yaw),
-        );
+        let facing = |places: &FootPlaces| FootPlace {
+            yaw: middle(places).yaw,
+            ..places[side]
+        };
+        self.anchor = Anchor::between(facing(&home), facing(&now));
         // Express the same posture at the same place in the world in coordinates of the new anchor.
         let mut from = *last;
         let change = self.anchor.transform().power(-1.0).after(before);

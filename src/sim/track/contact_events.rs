@@ -115,7 +115,7 @@ impl StepTracker {
             self.anchor.transform().apply_to(&mut target);
             let poses = self.capture.feet(&target.posture);
             for side in (0..2).filter(|side| lifted[*side]) {
-                self.feet[side].release = Self::ankle(terms, side) - poses[side].0;
+                self.feet[side].release = Self::ankle(terms, side) - poses[side].at;
             }
         }
         pace.map_or(rate, |pace| rate.min(pace))

@@ -2,6 +2,7 @@
 
 use super::params::flight::LEANING_TIME;
 use super::{StepPlan, StepTracker};
+use crate::time::WorldTime;
 use serde::{Deserialize, Serialize};
 
 /// The next flight phase of the plan.
@@ -9,8 +10,8 @@ use serde::{Deserialize, Serialize};
 pub struct Flight {
     /// Time until the planned lift-off of the last foot, s.
     pub after: f64,
-    /// World time of its middle, if nothing delays the plan, s.
-    pub middle: f64,
+    /// When its middle is due, if nothing delays the plan.
+    pub middle: WorldTime,
 }
 
 impl StepTracker {
@@ -32,8 +33,8 @@ impl StepTracker {
         self.events.flight
     }
 
-    /// The next flight phase as planned, if a foot stands now; the plan is at world time `now`, s.
-    pub(super) fn planned_flight(&self, now: f64) -> Option<Flight> {
+    /// The next flight phase as planned, if a foot stands now; the plan is at world time `now`.
+    pub(super) fn planned_flight(&self, now: WorldTime) -> Option<Flight> {
         let (off, on) = self.plan()?.next_flight(self.clock.phase)?;
         (!self.is_airborne()).then(|| Flight {
             after: self.until(off).max(0.0),

@@ -8,16 +8,17 @@ use crate::control::FootTarget;
 use crate::dynamics::{Placement, Terms};
 use crate::math::{Quat, Vec3, trig};
 use crate::motion::leg_ik::forward;
-use crate::plan::foot_lock::FootPlacement;
+use crate::plan::foot_lock::{AnklePose, FootPlacement};
 use crate::support::Support;
+use serde::{Deserialize, Serialize};
 
-/// Point of the floor under the flat ankle of a foot, and the heading of the foot.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct FootPlace {
-    /// The point, world axes, m.
-    pub(super) at: Vec3,
-    /// Heading, rad.
-    pub(super) yaw: f64,
+/// The place of a foot, or of a stance on both feet.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FootPlace {
+    /// Point of the floor under the flat ankle, or the middle between those of both feet, m.
+    pub at: Vec3,
+    /// Heading of the foot, or the mean of both headings, rad.
+    pub yaw: f64,
 }
 
 impl FootPlace {
@@ -73,22 +74,20 @@ impl Legs {
 }
 
 impl StepTracker {
-    /// The stance of the feet: the middle between them (world, m) and the mean of their headings, rad.
-    pub fn stance(&self, placement: &Placement) -> (Vec3, f64) {
-        let FootPlace { at, yaw } = middle(&self.places(placement));
-        (at, yaw)
+    /// The stance of the feet.
+    pub fn stance(&self, placement: &Placement) -> FootPlace {
+        middle(&self.places(placement))
     }
 
     /// The stance of the feet in a posture.
-    pub fn stance_of(&self, body: &Body, posture: &Posture) -> (Vec3, f64) {
+    pub fn stance_of(&self, body: &Body, posture: &Posture) -> FootPlace {
         let poses = forward(body, posture);
-        let places = std::array::from_fn(|k| self.place_of(k, poses[FEET[k].index()]));
-        let FootPlace { at, yaw } = middle(&places);
-        (at, yaw)
+        let places = std::array::from_fn(|k| self.place_of(k, AnklePose::of(&poses, k)));
+        middle(&places)
     }
 
-    /// Place of a foot with this pose of the ankle.
-    pub(super) fn place_of(&self, side: usize, pose: (Vec3, Quat)) -> FootPlace {
+    /// Place of a foot with this pose.
+    pub(super) fn place_of(&self, side: usize, pose: AnklePose) -> FootPlace {
         let FootPlacement { place, yaw, .. } = self.legs.soles[side].footing(pose);
         FootPlace { at: place, yaw }
     }
@@ -98,13 +97,17 @@ impl StepTracker {
         [0, 1].map(|side| {
             let s = FEET[side].index();
             let rotation = Quat::from_mat3(&placement.segment_rotation(s));
-            self.place_of(side, (placement.segment_position(s), rotation))
+            let at = placement.segment_position(s);
+            self.place_of(side, AnklePose { at, rotation })
         })
     }
 
     /// Places of the feet in the desired motion.
     pub(super) fn planned_places(&self, feet: &[FootTarget; 2]) -> FootPlaces {
-        std::array::from_fn(|k| self.place_of(k, (feet[k].ankle.now, feet[k].rotation.now)))
+        std::array::from_fn(|k| {
+            let (at, rotation) = (feet[k].ankle.now, feet[k].rotation.now);
+            self.place_of(k, AnklePose { at, rotation })
+        })
     }
 
     /// Height of the lowest point of a sole, m.

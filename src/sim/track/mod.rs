@@ -32,6 +32,7 @@ mod swing;
 
 pub use capture_point::Capture;
 pub use flight_phase::Flight;
+pub use foot_places::FootPlace;
 pub use recovery_step::{Purpose, RecoveryStep};
 pub use step_plan::{Footfall, StepPlan};
 
@@ -46,6 +47,7 @@ use crate::math::exp::exp;
 use crate::motion::builtin::at_ease;
 use crate::motion::{PlanarTransform, TargetPair};
 use crate::support::Support;
+use crate::time::WorldTime;
 use clip_end::PlannedStand;
 use foot_places::{stance_points, turn};
 use params::common::{LEAST_SPEED, SETTLED_OFFSET};
@@ -422,17 +424,17 @@ impl StepTracker {
 
     /// Desired motion of the tick that starts at world time `time`.
     ///
-    /// * `terms`: those of the present state; `clip_time`: clip time at a world time; `pair(now, next)`: the motion as
-    ///   planned, at two world times.
+    /// * `terms`: those of the present state; `plan_time`: time of the plan (s) at a world time; `pair(now, next)`: the
+    ///   motion as planned, at two world times.
     /// * `carried`: stiff motors and a pull keep the figure with its motion. The clock, the lag and the place stay, and
     ///   contacts are ignored; they are looked up again afterwards.
     pub fn targets(
         &mut self,
-        time: f64,
+        time: WorldTime,
         dt: f64,
         terms: &Terms,
-        clip_time: impl Fn(f64) -> f64,
-        pair: impl Fn(f64, f64) -> TargetPair,
+        plan_time: impl Fn(WorldTime) -> f64,
+        pair: impl Fn(WorldTime, WorldTime) -> TargetPair,
         carried: bool,
     ) -> TargetPair {
         self.events = TickEvents::default();
@@ -445,7 +447,7 @@ impl StepTracker {
             self.anchor.settle(dt);
         }
         let now = time - self.clock.lag;
-        self.clock.phase = clip_time(now);
+        self.clock.phase = plan_time(now);
         let over = self.plan().is_some_and(|p| p.is_over(self.clock.phase));
         if over && !self.is_stopping() && self.clock.last_speed > REST_SPEED {
             let last = pair(now, now).now.posture;

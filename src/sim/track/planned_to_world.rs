@@ -6,7 +6,7 @@
 //! of heading moves nothing far away.
 
 use super::filter_gain;
-use super::foot_places::turn;
+use super::foot_places::{FootPlace, turn};
 use super::params::world_map::{HEADING_GAIN, HEADING_RETURN, SETTLING_TIME};
 use crate::math::{Vec3, trig};
 use crate::motion::PlanarTransform;
@@ -28,13 +28,13 @@ pub struct Anchor {
 }
 
 impl Anchor {
-    /// Maps a planned place (m) and heading (rad) to a real one at once.
-    pub fn between(planned: (Vec3, f64), real: (Vec3, f64)) -> Self {
-        let yaw = trig::wrapped(real.1 - planned.1);
+    /// Maps a planned place to a real one at once.
+    pub fn between(planned: FootPlace, real: FootPlace) -> Self {
+        let yaw = trig::wrapped(real.yaw - planned.yaw);
         Self {
-            planned: planned.0.horizontal(),
-            at: real.0.horizontal(),
-            goal: real.0.horizontal(),
+            planned: planned.at.horizontal(),
+            at: real.at.horizontal(),
+            goal: real.at.horizontal(),
             yaw,
             yaw_goal: yaw,
         }

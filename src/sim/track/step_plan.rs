@@ -4,14 +4,13 @@ use super::params::step_plan::{
     FALLING_LOAD, LOAD_SAMPLES, NEAR_FLOOR, PAUSE_AFTER, PAUSE_BEFORE, STREAM_REST_AFTER,
     STREAM_REST_BEFORE,
 };
-use crate::body::topology::FEET;
 use crate::body::{Body, Posture};
 use crate::math::Vec3;
 use crate::math::runs::{remove_short, stretches};
 use crate::motion::Clip;
 use crate::motion::clip::{MAX_SAMPLES, PlanarTransform};
 use crate::motion::leg_ik::forward;
-use crate::plan::foot_lock::Sole;
+use crate::plan::foot_lock::{AnklePose, Sole};
 use crate::plan::motion_transition::TransitionClip;
 use crate::plan::params::contact::SHORTEST_TOLD;
 use crate::plan::pelvis_shift::mass_track;
@@ -127,7 +126,7 @@ impl StepPlan {
             let stance = |(start, end): (usize, usize)| {
                 // The middle of a stance is its flattest part.
                 let poses = forward(body, samples[(start + end - 1) / 2].0);
-                let at = sole.footing(poses[FEET[side].index()]);
+                let at = sole.footing(AnklePose::of(&poses, side));
                 // A sample represents the half-interval on either side of it.
                 let time = |sample: usize| begin + (sample as f64 - 0.5) / rate;
                 Footfall {
@@ -160,20 +159,20 @@ impl StepPlan {
     /// This plan for a figure that enters the clip by the transition `way`. A transition into the lead-in is followed
     /// by the rest of the lead-in.
     pub fn entered_by(mut self, body: &Body, way: &TransitionClip) -> Self {
-        if let Some(mut lead) = self.lead.take_if(|l| way.until < l.until) {
+        if let Some(mut lead) = self.lead.take_if(|l| way.until.0 < l.until) {
             lead.plan = lead.plan.entered_by(body, way);
             self.lead = Some(lead);
             return self;
         }
         let mut plan = Self::new(body, &way.clip, false);
-        plan.begin += way.begin;
-        plan.duration += way.begin;
+        plan.begin += way.begin.0;
+        plan.duration += way.begin.0;
         for f in plan.stances.iter_mut().flatten() {
-            *f = f.later(way.begin);
+            *f = f.later(way.begin.0);
         }
         self.lead = Some(Box::new(Lead {
             plan,
-            until: way.until,
+            until: way.until.0,
             knows: f64::INFINITY,
         }));
         self
@@ -213,7 +212,7 @@ impl StepPlan {
 
     /// Updates the plan with the present knowledge of a stream. No allocation.
     pub fn refresh(&mut self, motion: &StreamPlan) {
-        self.seen = motion.seen();
+        self.seen = motion.seen().0;
         for (side, known) in self.stances.iter_mut().enumerate() {
             known.clear();
             let seconds = |sample: i64| (sample as f64 - 0.5) / stream::RATE;
@@ -377,6 +376,7 @@ impl StepPlan {
 mod tests {
     use super::*;
     use crate::motion::builtin::builtin;
+    use crate::time::StreamTime;
     use std::sync::Arc;
 
     fn stances(times: &[(f64, f64)]) -> Vec<Footfall> {
@@ -456,7 +456,7 @@ mod tests {
         for i in 0..(walk.duration() * stream::RATE) as usize {
             live.push(&walk.sample(i as f64 / stream::RATE).posture, None);
             let t = i as f64 / stream::RATE - live.window();
-            live.advance(t);
+            live.advance(StreamTime(t));
             plan.refresh(&live);
             for side in (0..2).filter(|s| t > 0.0 && plan.current(*s, t).is_none()) {
                 // It has left the floor, and will have landed half a second later.

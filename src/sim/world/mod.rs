@@ -21,6 +21,7 @@ use crate::math::hash::Fnv;
 use crate::motion::GRAVITY;
 use crate::setup::MAX_PERTURBATIONS;
 use crate::tick_context::{Planning, TickContext};
+use crate::time::WorldTime;
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 
@@ -241,9 +242,9 @@ impl World {
     pub fn dt(&self) -> f64 {
         1.0 / self.params.rate_hz
     }
-    /// Simulated time, s.
-    pub fn time(&self) -> f64 {
-        self.tick as f64 * self.dt()
+    /// Simulated time.
+    pub fn time(&self) -> WorldTime {
+        WorldTime(self.tick as f64 * self.dt())
     }
 
     /// Adds a figure.

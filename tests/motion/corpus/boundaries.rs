@@ -212,9 +212,9 @@ fn a_transition_begins_on_the_one_motion_and_ends_on_the_other() {
                 continues(&over.left, &what);
                 let way = &over.way;
                 for t in [way.until, way.until + 0.1] {
-                    let (is, shall) = (way.clip.sample(t - way.begin), entered.sample(t));
+                    let (is, shall) = (way.clip.sample(t - way.begin), entered.sample(t.0));
                     let off = apart(&is.posture, &shall.posture);
-                    assert!(off < SAME, "{what}: {off} m or rad off at {t} s");
+                    assert!(off < SAME, "{what}: {off} m or rad off at {t:?}");
                     as_fast(&is, &shall, &what);
                 }
             }

@@ -45,7 +45,7 @@ fn felled(body: &Arc<Body>, direction: Vec3, impulse: f64) -> Outcome {
     let posture = authored(body, "idle").posture(0).to_owned();
     let mut scene = Scene::of(figure(body, ControllerKind::Modern, still(posture)));
     scene.run(0.5, |_| ());
-    let start = scene.world.time();
+    let start = scene.world.time().0;
     let what = Perturbation::Force {
         segment: CHEST,
         point: vec3(0.0, 0.0, 0.1),
@@ -72,7 +72,7 @@ fn felled(body: &Arc<Body>, direction: Vec3, impulse: f64) -> Outcome {
     };
     scene.run(SECONDS, |s| {
         let now = place(s);
-        let (dt, t) = (s.world.dt(), s.world.time() - start);
+        let (dt, t) = (s.world.dt(), s.world.time().0 - start);
         out.fell |= s.figure().is_fallen();
         let com = s.figure().report().unwrap().balance.com;
         if com.z < LANDED {

@@ -11,6 +11,7 @@ use sinew_physics::collide::{Mobility, Shape};
 use sinew_physics::figure::{ControllerKind, FigureEvent, Perturbation};
 use sinew_physics::math::{Quat, Vec3};
 use sinew_physics::motion::{Clip, PlanarTransform};
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
@@ -97,7 +98,7 @@ fn add(world: &mut World, (body, clip): &Person, comer: Comer, back: f64) -> Fig
         let walk = ClipPlayback {
             looped: true,
             origin,
-            ..ClipPlayback::new(Arc::clone(clip), 0.0)
+            ..ClipPlayback::new(Arc::clone(clip), WorldTime(0.0))
         };
         world
             .figure_mut(key)

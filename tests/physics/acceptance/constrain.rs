@@ -12,6 +12,7 @@ use sinew_physics::figure::{
     Constrained, Constraint, ControllerKind, FigureOptions, Perturbation, StepperKind,
 };
 use sinew_physics::math::{Mat3, Quat, Vec3};
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, MotionSource, WorldError};
 use std::sync::Arc;
 
@@ -88,7 +89,7 @@ fn a_hand_is_held_at_a_point_while_the_body_squats() {
         let end = clip.duration();
         scene.run(end, |s| {
             let e = s.figure().report().unwrap().constraint_error[0];
-            if s.world.time() > 1.5 {
+            if s.world.time().0 > 1.5 {
                 worst = worst.max(e[0]);
                 low = low.min(s.figure().state().posture.root_position.z);
             }
@@ -158,7 +159,7 @@ fn a_hand_is_held_while_walking() {
         ));
         let playback = ClipPlayback {
             looped: true,
-            ..ClipPlayback::new(Arc::clone(&walk), 0.0)
+            ..ClipPlayback::new(Arc::clone(&walk), WorldTime(0.0))
         };
         scene.figure_mut().set_drive(MotionSource::Clip(playback));
         let (mut worst, mut nearest) = (0.0f64, f64::INFINITY);
@@ -167,7 +168,7 @@ fn a_hand_is_held_while_walking() {
         let mut way = Vec::new();
         let cycle_ticks = scene.ticks(walk.duration()) as usize;
         for _ in 0..scene.ticks(20.0) {
-            let now = scene.world.time();
+            let now = scene.world.time().0;
             let pelvis = scene.figure().target().next.posture;
             way.push(pelvis.root_position);
             let before = way[way.len().saturating_sub(cycle_ticks + 1)];

@@ -93,7 +93,7 @@ fn falls_like_a_pendulum(strength: f64, toes: f64) {
                     - pivot.dot(direction);
                 moved = now.com - start.com;
                 if now.com.z < LOW {
-                    fell = Some(s.world.time());
+                    fell = Some(s.world.time().0);
                 }
             }
         });
@@ -197,10 +197,10 @@ fn fall(
         let now = integrals(s.figure().links(), s.figure().state());
         let r = s.figure().report().unwrap();
         if r.flags.has(Flags::HANDED_OVER) && handed.is_none() {
-            handed = Some(s.world.time());
+            handed = Some(s.world.time().0);
         }
         if r.flags.has(Flags::BALANCE_LOST) && lost.is_none() {
-            lost = Some(s.world.time());
+            lost = Some(s.world.time().0);
         }
         let gain = (now.energy - start.energy) / start.energy;
         energy = (energy.0.min(gain), energy.1.max(gain));
@@ -213,7 +213,7 @@ fn fall(
         residual = residual.max(audit(t.links, &r.audit, t.gravity).relative);
         moved = now.com - start.com;
         if now.com.z < LOW {
-            time = Some(s.world.time());
+            time = Some(s.world.time().0);
         }
     });
     let time = time.expect("it falls");

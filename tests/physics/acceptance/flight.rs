@@ -51,7 +51,7 @@ fn flight(substeps: u32, moving: bool) -> [f64; 4] {
     let h = scene.world.dt() / f64::from(substeps);
     let mut worst = [0.0f64; 4];
     scene.run(0.3, |s| {
-        let t = s.world.time();
+        let t = s.world.time().0;
         assert!(s.figure().report().unwrap().flags.has(Flags::FLIGHT));
         let now = integrals(&links, s.figure().state());
         let com = start.com + p0 * (t / mass) - Vec3::Z * (0.5 * GRAVITY * t * t);

@@ -122,7 +122,7 @@ fn every_tick_closes_and_help_fades_after_a_push() {
     for _ in 0..480 {
         scene.world.step();
         if scene.figure().report().unwrap().assist != [0.0; 6] {
-            last = scene.world.time();
+            last = scene.world.time().0;
         }
     }
     println!("help acts until {last:.2} s");

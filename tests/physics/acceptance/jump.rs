@@ -146,7 +146,7 @@ fn leaps(kind: ControllerKind, stepper: StepperKind, allowed: f64) -> bool {
     scene.run(clip.duration(), |s| {
         let r = s.figure().report().unwrap();
         let now = integrals(s.figure().links(), s.figure().state());
-        let t = s.world.time();
+        let t = s.world.time().0;
         fell |= s.figure().is_fallen();
         let flies = r.flags.has(Flags::FLIGHT) && r.contacts.is_empty() && t > off - 0.1;
         if flies && down.is_none() {

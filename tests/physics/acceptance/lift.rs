@@ -90,7 +90,7 @@ fn lift(mass: f64, kind: ControllerKind, stepper: StepperKind, rate_hz: f64) -> 
             return;
         }
         if r.balance.com.z < LOW {
-            out.fell = Some(s.world.time());
+            out.fell = Some(s.world.time().0);
         }
         n += 1.0;
         out.rms += r.joints.joint_error.iter().map(|e| e * e).sum::<f64>() / DOF_COUNT as f64;

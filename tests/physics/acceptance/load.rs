@@ -125,7 +125,7 @@ fn a_load_taken_in_motion_conserves_momentum_and_dropping_it_changes_nothing() {
     let step_until = |scene: &mut Scene, wanted: fn(&FigureEvent) -> bool| loop {
         let before = (kinetic(scene), *scene.figure().state());
         scene.world.step();
-        assert!(scene.world.time() < 0.05, "the event is due");
+        assert!(scene.world.time().0 < 0.05, "the event is due");
         if scene.figure().events().iter().any(wanted) {
             return before;
         }
@@ -169,7 +169,7 @@ fn a_dropped_load_is_forgotten() {
         let mut scene = Scene::of(figure(&body, kind, still(forearm_level())));
         scene.run(2.0, |_| ());
         let before = scene.figure().report().unwrap().clone();
-        let now = scene.world.time();
+        let now = scene.world.time().0;
         scene
             .world
             .perturb(scene.key, load(now, now + 1.0))
@@ -264,7 +264,7 @@ fn a_flying_load_gives_its_momentum_to_who_catches_it() {
             let before = momenta(&scene);
             let posture = scene.figure().state().posture;
             scene.world.step();
-            assert!(scene.world.time() < 0.05);
+            assert!(scene.world.time().0 < 0.05);
             let taken = |e: &FigureEvent| matches!(e, FigureEvent::LoadTaken { .. });
             if !scene.figure().events().iter().any(taken) {
                 continue;
@@ -360,7 +360,7 @@ fn a_load_beyond_the_grip_slips_and_one_below_stays() {
         scene.run(1.0, |s| {
             let lost = |e: &FigureEvent| matches!(e, FigureEvent::LoadSlipped { mass: 5.0, .. });
             if s.figure().events().iter().any(lost) {
-                slipped = Some(s.world.time());
+                slipped = Some(s.world.time().0);
             }
         });
         (slipped, scene.figure().links().total_mass())

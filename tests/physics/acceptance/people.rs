@@ -111,7 +111,7 @@ fn an_outstretched_arm_tires_and_sags_when_the_model_says() {
         let left = r.joints.remaining[shoulder][0];
         assert!((0.0..=1.0).contains(&left));
         if sagged.is_none() && r.joints.torque[shoulder] > 0.999 * r.joints.torque_upper[shoulder] {
-            sagged = Some(s.world.time());
+            sagged = Some(s.world.time().0);
         }
     });
     let sagged = sagged.expect("the arm gives way");

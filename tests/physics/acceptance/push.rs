@@ -56,7 +56,7 @@ struct Outcome {
 fn push(kind: ControllerKind, direction: Vec3, impulse: f64, steps: bool) -> Outcome {
     let mut scene = standing(kind, steps);
     let start = scene.figure().report().unwrap().balance.com;
-    let now = scene.world.time();
+    let now = scene.world.time().0;
     let what = Perturbation::Force {
         segment: CHEST,
         point: vec3(0.0, 0.0, 0.1),
@@ -172,7 +172,7 @@ fn steps_catch_what_feet_in_place_cannot() {
 fn who_lies_on_the_ground_has_found_no_balance() {
     let mut scene = standing(ControllerKind::Modern, false);
     let direction = Vec3::X;
-    let now = scene.world.time();
+    let now = scene.world.time().0;
     let what = Perturbation::Force {
         segment: CHEST,
         point: vec3(0.0, 0.0, 0.1),

@@ -35,7 +35,7 @@ fn stands_with(
     let mut drift = 0.0f64;
     scene.run(10.0, |s| {
         let r = s.figure().report().unwrap();
-        assert!(!r.flags.has(Flags::HANDED_OVER), "{:?} s", s.world.time());
+        assert!(!r.flags.has(Flags::HANDED_OVER), "{:?} s", s.world.time().0);
         let z = r.balance.zmp.expect("it stands");
         let f: f64 = r.contacts.iter().map(|c| c.force.z).sum();
         ticks += 1.0;
@@ -46,7 +46,7 @@ fn stands_with(
             .joint_error
             .iter()
             .fold(drift, |m, e| m.max(e.abs()));
-        if s.world.time() > 1.0 {
+        if s.world.time().0 > 1.0 {
             (least, most) = (least.min(f), most.max(f));
         }
     });

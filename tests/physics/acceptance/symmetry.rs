@@ -235,7 +235,7 @@ fn agree(case: &Case, what: &str, plain: &mut Scene, other: &mut Scene, back: &B
         let d = difference(plain, other, back);
         assert!(!d.0.is_nan(), "{}: {what}: {}", case.name, d.1);
         if d.0 > worst.0 {
-            worst = (d.0, format!("{:.3} s {}", plain.world.time(), d.1));
+            worst = (d.0, format!("{:.3} s {}", plain.world.time().0, d.1));
         }
     }
     let text = format!("{}: {what}: {:.1e} at {}", case.name, worst.0, worst.1);

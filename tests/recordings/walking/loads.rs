@@ -121,10 +121,10 @@ fn who_waves_a_load_about_does_not_fall_over_it() {
         // The arm that carries gives way; everything else follows the motion.
         let arm = DOF_START[R_UPPER_ARM.index()]..DOF_START[L_THIGH.index()];
         let (mut sum, mut count, mut capture) = (0.0, 0, 0.0f64);
-        while world.time() < seconds {
+        while world.time().0 < seconds {
             world.step();
             let figure = world.figure(key).unwrap();
-            assert!(!figure.is_fallen(), "{name} falls at {} s", world.time());
+            assert!(!figure.is_fallen(), "{name} falls at {} s", world.time().0);
             let error = figure.report().unwrap().joints.joint_error;
             let others = error.iter().enumerate().filter(|(j, _)| !arm.contains(j));
             for (_, e) in others {
@@ -170,10 +170,10 @@ fn an_arm_too_weak_for_its_load_gives_way_and_not_the_trunk_under_it() {
             world.perturb(key, load).unwrap();
         }
         let mut bent: f64 = 0.0;
-        while world.time() < seconds {
+        while world.time().0 < seconds {
             world.step();
             let figure = world.figure(key).unwrap();
-            assert!(!figure.is_fallen(), "{mass} kg at {} s", world.time());
+            assert!(!figure.is_fallen(), "{mass} kg at {} s", world.time().0);
             // Waist and thorax.
             let error = &figure.report().unwrap().joints.joint_error[..6];
             bent = error.iter().fold(bent, |most, e| most.max(e.abs()));

@@ -23,6 +23,7 @@ use sinew_physics::motion::{Bvh, Clip};
 use sinew_physics::plan::cycle;
 use sinew_physics::plan::prepare_recording;
 use sinew_physics::reference::{Preparation, RetargetOptions};
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::{ClipPlayback, FigureKey, MotionSource, World, WorldParams};
 use std::sync::Arc;
 
@@ -38,7 +39,7 @@ fn playing(body: &Arc<Body>, clip: Arc<Clip>, from: f64, looped: bool) -> (World
     let figure = world.figure_mut(key).unwrap();
     figure.set_drive(MotionSource::Clip(ClipPlayback {
         looped,
-        ..ClipPlayback::new(clip, -from)
+        ..ClipPlayback::new(clip, WorldTime(-from))
     }));
     (world, key)
 }

@@ -85,7 +85,7 @@ fn hard_pushes_to_the_side_are_caught_by_quick_steps() {
             };
             world.perturb(key, push).unwrap();
             let (mut hurried, mut lean, mut kin) = (false, 0.0f64, Kinematics::default());
-            while world.time() < at + 4.0 && !world.figure(key).unwrap().is_fallen() {
+            while world.time().0 < at + 4.0 && !world.figure(key).unwrap().is_fallen() {
                 world.step();
                 let figure = world.figure(key).unwrap();
                 hurried |= figure.tracker().lag() < -0.02;
@@ -163,7 +163,7 @@ fn feet_that_cross_go_around_the_other_leg() {
             };
             world.perturb(key, push).unwrap();
             let mut most = 0.0f64;
-            while world.time() < at + 2.5 && !world.figure(key).unwrap().is_fallen() {
+            while world.time().0 < at + 2.5 && !world.figure(key).unwrap().is_fallen() {
                 world.step();
                 most = most.max(legs_within(world.figure(key).unwrap()));
             }
@@ -186,9 +186,9 @@ fn puts_down(body: &Arc<Body>, clip: &Arc<Clip>, looped: bool, seconds: f64, pus
     let (mut world, key) = playing(body, Arc::clone(clip), -lead, looped);
     let (mut count, mut under_way) = (0, false);
     let (mut alone_since, mut pushed) = (f64::INFINITY, push.norm() == 0.0);
-    while world.time() < seconds {
+    while world.time().0 < seconds {
         world.step();
-        let now = world.time();
+        let now = world.time().0;
         let figure = world.figure(key).unwrap();
         assert!(
             !figure.is_fallen(),

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use sinew_physics::body::{Body, NV};
 use sinew_server::engine;
 use sinew_server::ingest::jitter_buffer::BufferedFrame;
+use sinew_server::ingest::time::{ScheduledTime, SourceTime};
 use sinew_server::tick::scene::{
     InputResult, RecordReader, RoundRecord, Scene, SceneInput, Unreadable,
 };
@@ -70,14 +71,14 @@ fn records() -> Vec<RoundRecord> {
         posture.hinge[4] = 0.3 + 0.02 * i as f64;
         let frame = BufferedFrame {
             sequence: i,
-            source_ns: i * 16_666_667,
+            source: SourceTime(i * 16_666_667),
             posture,
             velocity: (i % 2 == 0).then(|| Box::new([0.1; NV])),
             planted: (i % 3 == 0).then_some([true, false]),
             guess: Cell::default(),
             arrival: Instant::now(),
         };
-        scene.take_frame(player, frame, i as f64 / 60.0);
+        scene.take_frame(player, frame, ScheduledTime(i as f64 / 60.0));
         scene.sample(0.0);
         out.extend(scene.take_record());
     }

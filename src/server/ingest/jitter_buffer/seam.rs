@@ -5,7 +5,8 @@
 //! searched for the moment that is most like the one at which the first is left, in posture and rates. It is joined
 //! there, a little older or newer than its delay asks for, and slowly makes up for the difference.
 
-use super::{JitterBuffer, Supply};
+use super::{JitterBuffer, Supply, grid_time};
+use crate::ingest::time::PlayoutTime;
 use sinew_physics::body::Posture;
 use sinew_physics::plan::likeness;
 
@@ -35,23 +36,22 @@ pub enum StreamSeam {
 pub struct StreamStart {
     /// How much later than the time that is due, s.
     later: f64,
-    /// Newest playout time that the window has, s, and its next sample: those of the other stream, in the times of this
-    /// one.
-    head: f64,
+    /// Newest time that the window has, and its next sample: those of the other stream, in the times of this one.
+    head: PlayoutTime,
     next: i64,
     /// Offset of its times, s, so that its grid matches that of the other stream.
     renamed: f64,
 }
 
 impl JitterBuffer {
-    /// Finds the place at which this stream, of which playout time `p` (s) is due, can continue `before`. A window
-    /// holds the samples of `before` on a grid of `rate` per second.
-    pub fn seam(&self, p: f64, before: &Self, rate: f64) -> StreamSeam {
+    /// Finds the place at which this stream, of which time `p` is due, can continue `before`. A window holds the
+    /// samples of `before` on a grid of `rate` per second.
+    pub fn seam(&self, p: PlayoutTime, before: &Self, rate: f64) -> StreamSeam {
         let (Some(head), Some(newest)) = (before.grid.head, self.frames.back()) else {
             return StreamSeam::Nowhere;
         };
         let next = before.grid.next;
-        let last = [3, 2, 1].map(|k| before.at((next - k) as f64 / rate));
+        let last = [3, 2, 1].map(|k| before.at(grid_time(next - k, rate)));
         let comes = |s: Supply| {
             matches!(
                 s,
@@ -63,14 +63,14 @@ impl JitterBuffer {
         }
         let last = last.map(|a| a.target.posture);
         // How far the next sample of the grid is ahead of the time that is due.
-        let ahead = next as f64 / rate - (head + self.tick);
+        let ahead = grid_time(next, rate) - (head + self.tick);
         let stride = 1.0 / (rate * MOMENTS as f64);
-        let room = (self.seconds(newest) - p - ahead).max(0.0);
-        let first = ((3.0 / rate - p - ahead).max(-MOST_OLDER) / stride).ceil() as i64;
+        let room = (self.time_of(newest) - p - ahead).max(0.0);
+        let first = ((3.0 / rate - p.0 - ahead).max(-MOST_OLDER) / stride).ceil() as i64;
         // A driver may announce times far ahead; no more of them are searched than of those behind.
         let ahead_of_delay = (MOST_NEWER * room).min(MOST_OLDER);
         let end = (ahead_of_delay / stride).floor() as i64;
-        let waits = p < PATIENCE;
+        let waits = p.0 < PATIENCE;
         let otherwise = if waits {
             StreamSeam::Later
         } else {
@@ -129,10 +129,12 @@ impl JitterBuffer {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{BufferedFrame, DueSample, Now};
+    use super::super::{BufferedFrame, DueSample, GridEnd, Now};
     use super::*;
+    use crate::ingest::time::{ScheduledTime, SourceTime};
     use sinew_physics::body::Body;
     use sinew_physics::motion::Target;
+    use sinew_physics::time::WorldTime;
     use sinew_wire::types::{Delay, DriveSettings};
     use std::cell::Cell;
     use std::sync::Arc;
@@ -168,6 +170,14 @@ mod tests {
         JitterBuffer::new(settings, TICK, body, Target::still(stand), stand)
     }
 
+    /// World time `time` (s) of a world that keeps up.
+    fn at(time: f64) -> Now {
+        Now {
+            time: WorldTime(time),
+            lost: 0.0,
+        }
+    }
+
     /// A driver with its own clock that began to send at `began` (s) and is `ahead` (s) in the motion.
     struct SeamDriver {
         buffer: JitterBuffer,
@@ -183,14 +193,14 @@ mod tests {
                 let t = self.began + self.sent as f64 / RATE;
                 let frame = BufferedFrame {
                     sequence: self.sent,
-                    source_ns: (t * 1e9) as i64 + 77_000_000_123,
+                    source: SourceTime((t * 1e9) as i64 + 77_000_000_123),
                     posture: (self.motion)(t + self.ahead),
                     velocity: None,
                     planted: None,
                     guess: Cell::new(Some([true; 2])),
                     arrival: Instant::now(),
                 };
-                self.buffer.push(frame, t);
+                self.buffer.push(frame, ScheduledTime(t));
                 self.sent += 1;
             }
         }
@@ -205,16 +215,16 @@ mod tests {
 
     impl HeldSamples {
         fn feed(&mut self, buffer: &mut JitterBuffer, time: f64) {
-            let now = Now { time, lost: 0.0 };
+            let now = at(time);
             let samples = &mut self.samples;
             let fed = buffer.feed(now, (RATE, 0.5), |due| {
                 if let DueSample::Sample(p, _) = due {
                     samples.push(p.root_position.x / 1.2);
                 }
             });
-            if let Some((head, next)) = fed {
+            if let Some(GridEnd { head, next }) = fed {
                 let fed = self.samples.len() as f64 - next as f64;
-                self.lead.push(head + fed / RATE - time);
+                self.lead.push(head.0 + fed / RATE - time);
             }
         }
     }
@@ -242,7 +252,7 @@ mod tests {
             let time = f64::from(tick) * TICK;
             first.send(time);
             second.send(time);
-            let now = Now { time, lost: 0.0 };
+            let now = at(time);
             if entered.is_none()
                 && let Some(p) = second.buffer.due(now)
                 && let StreamSeam::Here(entry) = second.buffer.seam(p, &first.buffer, RATE)

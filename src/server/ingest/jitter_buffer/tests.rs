@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::ingest::playout::{CATCH_UP, MOST_BEHIND, SHRINK};
+use crate::ingest::time::{ScheduledTime, SourceTime};
 use sinew_physics::plan::StreamPlan;
 use sinew_wire::types::Delay;
 
@@ -22,7 +23,10 @@ fn settings(delay: Delay) -> DriveSettings {
 
 /// World time `t` of a world that keeps up.
 fn at(time: f64) -> Now {
-    Now { time, lost: 0.0 }
+    Now {
+        time: WorldTime(time),
+        lost: 0.0,
+    }
 }
 
 fn angle(t: f64) -> f64 {
@@ -38,7 +42,7 @@ fn frame(i: i64, with_velocity: bool) -> BufferedFrame {
     v[6 + 19] = 1.5 * (3.0 * t).cos();
     BufferedFrame {
         sequence: i,
-        source_ns: (t * 1e9).round() as i64,
+        source: SourceTime((t * 1e9).round() as i64),
         posture,
         velocity: with_velocity.then_some(v),
         planted: None,
@@ -63,7 +67,7 @@ fn a_frame_is_shown_once_with_its_arrival() {
         let t = i as f64 * TICK;
         let f = frame(i, true);
         sent.push(f.arrival);
-        b.push(f, t);
+        b.push(f, ScheduledTime(t));
         b.sample(at(t));
         shown.extend(b.take_shown());
         assert_eq!(b.take_shown(), None);
@@ -87,7 +91,7 @@ fn frames_that_come_in_time_are_played_a_fixed_delay_later() {
         let mut worst = [0.0f64; 3];
         for i in 0..240 {
             let t = i as f64 * TICK;
-            b.push(frame(i, with_velocity), t);
+            b.push(frame(i, with_velocity), ScheduledTime(t));
             if let Some(pair) = b.sample(at(t)) {
                 let p = t - 0.05;
                 let e = [
@@ -126,7 +130,7 @@ fn an_adaptive_delay_covers_the_jitter_and_no_more() {
     for n in 0..600 {
         let t = n as f64 * TICK;
         while next < arrivals.len() && arrivals[next].0 <= t {
-            b.push(frame(arrivals[next].1, true), t);
+            b.push(frame(arrivals[next].1, true), ScheduledTime(t));
             next += 1;
         }
         b.sample(at(t));
@@ -141,7 +145,7 @@ fn an_adaptive_delay_covers_the_jitter_and_no_more() {
 fn silence_is_extrapolated_then_held_then_relaxed() {
     let mut b = buffer(Delay::Fixed(0.0));
     for i in 0..30 {
-        b.push(frame(i, true), i as f64 * TICK);
+        b.push(frame(i, true), ScheduledTime(i as f64 * TICK));
         b.sample(at(i as f64 * TICK));
     }
     let mut seen = Vec::new();
@@ -173,7 +177,7 @@ fn motion_that_comes_back_is_blended_in() {
     for n in 0..240 {
         let t = n as f64 * TICK;
         if !(30..120).contains(&n) {
-            b.push(frame(n, true), t);
+            b.push(frame(n, true), ScheduledTime(t));
         }
         let pair = b.sample(at(t)).unwrap();
         if let Some(last) = last {
@@ -187,18 +191,18 @@ fn motion_that_comes_back_is_blended_in() {
 #[test]
 fn old_and_surplus_frames_are_counted() {
     let mut b = buffer(Delay::Fixed(1.0));
-    b.push(frame(5, true), 0.0);
-    b.push(frame(5, true), 0.0);
-    b.push(frame(3, true), 0.0);
+    b.push(frame(5, true), ScheduledTime(0.0));
+    b.push(frame(5, true), ScheduledTime(0.0));
+    b.push(frame(3, true), ScheduledTime(0.0));
     assert_eq!(b.counts().stale, 2);
     for i in 6..(6 + CAPACITY as i64) {
-        b.push(frame(i, true), 0.0);
+        b.push(frame(i, true), ScheduledTime(0.0));
     }
     assert_eq!(b.counts().overflow, 1);
     // Hostile times do not overflow.
     let mut f = frame(10_000, true);
-    f.source_ns = i64::MAX;
-    b.push(f, 0.0);
+    f.source = SourceTime(i64::MAX);
+    b.push(f, ScheduledTime(0.0));
     for n in 0..200 {
         let pair = b.sample(at(n as f64 * TICK));
         assert!(pair.is_none_or(|p| p.next.posture.is_finite()));
@@ -206,8 +210,8 @@ fn old_and_surplus_frames_are_counted() {
     let mut b = buffer(Delay::Adaptive { most: 0.1 });
     for (i, ns) in [i64::MIN, 0, i64::MAX].into_iter().enumerate() {
         let mut f = frame(i as i64, false);
-        f.source_ns = ns;
-        b.push(f, i as f64 * TICK);
+        f.source = SourceTime(ns);
+        b.push(f, ScheduledTime(i as f64 * TICK));
         assert!(
             b.sample(at(i as f64 * TICK))
                 .is_none_or(|p| p.next.posture.is_finite())
@@ -230,7 +234,7 @@ fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
     let (mut news, mut broken) = (Vec::new(), Vec::new());
     for i in 0..60 {
         let t = i as f64 * TICK;
-        b.push(walking(i, i.min(30)), t);
+        b.push(walking(i, i.min(30)), ScheduledTime(t));
         b.feed(at(t), (RATE, 0.3), |due| match due {
             DueSample::Sample(posture, planted) => motion.push(posture, planted),
             DueSample::Silence => panic!("it sends"),
@@ -242,7 +246,7 @@ fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
     assert!(!news[40..].iter().any(|n| *n), "it does not");
     assert!(!broken[..36].iter().any(|b| *b), "not before 0.1 s");
     assert!(broken[45..].iter().all(|b| *b), "soon after");
-    b.push(walking(60, 31), 1.0);
+    b.push(walking(60, 31), ScheduledTime(1.0));
     assert!(b.has_news(), "it moves again");
 }
 
@@ -255,15 +259,15 @@ fn a_stream_in_an_overloaded_world_is_never_too_fast() {
         let (mut sent, mut pieces, mut last) = (0, Vec::new(), None::<f64>);
         for n in 0..600 {
             let now = Now {
-                time: n as f64 * TICK,
+                time: WorldTime(n as f64 * TICK),
                 lost: 2.0 * n as f64 * TICK,
             };
-            while sent as f64 / RATE <= now.time + now.lost {
-                b.push(frame(sent, true), sent as f64 / RATE);
+            while sent as f64 / RATE <= now.scheduled().0 {
+                b.push(frame(sent, true), ScheduledTime(sent as f64 / RATE));
                 sent += 1;
             }
             b.sample(now);
-            let played = b.pace.played.is_finite().then_some(b.pace.played);
+            let played = b.pace.played.is_finite().then_some(b.pace.played.0);
             if let (Some(from), Some(to)) = (last, played) {
                 let pace = (to - from) / TICK;
                 assert!(
@@ -292,10 +296,13 @@ fn a_stream_that_fell_behind_catches_up() {
         let lost = if n < 100 { 0.0 } else { 0.1 };
         let time = n as f64 * TICK;
         while sent as f64 / RATE <= time + lost {
-            b.push(frame(sent, true), sent as f64 / RATE);
+            b.push(frame(sent, true), ScheduledTime(sent as f64 / RATE));
             sent += 1;
         }
-        b.sample(Now { time, lost });
+        b.sample(Now {
+            time: WorldTime(time),
+            lost,
+        });
         behind.push(b.behind());
     }
     assert!(behind[99] == 0.0 && behind[100] > 0.099);
@@ -313,7 +320,7 @@ fn a_stream_that_fell_behind_catches_up() {
 fn a_clock_that_starts_again_is_followed_within_a_second() {
     let hour = 3_600_000_000_000;
     let later = |mut f: BufferedFrame, by: i64| {
-        f.source_ns += by;
+        f.source.0 += by;
         f
     };
     let cases: [(&str, Box<dyn Fn(i64) -> BufferedFrame>); 4] = [
@@ -341,13 +348,13 @@ fn a_clock_that_starts_again_is_followed_within_a_second() {
             for i in 0..240 {
                 let t = i as f64 * TICK;
                 let f = if i < 120 { frame(i, true) } else { second(i) };
-                let (sequence, ns) = (f.sequence, f.source_ns);
-                b.push(f, t);
+                let (sequence, ns) = (f.sequence, f.source.0);
+                b.push(f, ScheduledTime(t));
                 let pair = b.sample(at(t));
                 assert!(pair.is_none_or(|p| p.next.posture.is_finite()));
                 notices.extend(b.take_notice());
                 let acts = b.applied().is_some_and(|(s, t)| {
-                    sequence - s < 12 && ns - t < 200_000_000 && sequence >= s
+                    sequence - s < 12 && ns - t.0 < 200_000_000 && sequence >= s
                 });
                 if i >= 120 && acts {
                     followed.get_or_insert(i);
@@ -369,12 +376,12 @@ fn frames_that_come_again_are_no_new_beginning() {
     for i in 0..240 {
         let t = i as f64 * TICK;
         for j in (i - 5).max(0)..=i {
-            b.push(frame(j, true), t);
+            b.push(frame(j, true), ScheduledTime(t));
         }
         b.sample(at(t));
     }
     for j in 0..240 {
-        b.push(frame(j, true), 4.0);
+        b.push(frame(j, true), ScheduledTime(4.0));
     }
     assert_eq!(b.counts().resyncs, 0);
     assert!(b.counts().stale > 1000);
@@ -386,10 +393,10 @@ fn lively(frames: i64) -> JitterBuffer {
     for i in 0..frames {
         let t = i as f64 / 75.0 + 0.003 * (17.0 * i as f64).sin();
         let mut f = frame(i, false);
-        f.source_ns = (t * 1e9) as i64;
+        f.source = SourceTime((t * 1e9) as i64);
         let v = std::array::from_fn(|k| 0.7 * (2.0 * t + k as f64).sin());
         f.posture.integrate(&v, 1.0);
-        b.push(f, t);
+        b.push(f, ScheduledTime(t));
     }
     b
 }
@@ -408,9 +415,9 @@ fn velocities_that_are_known_already_are_those_that_would_be_found() {
     for step in [0.001, 1.0 / 75.0, TICK, 0.05] {
         let mut velocities = Velocities::default();
         for n in -3..(0.9 / step) as i64 {
-            let p = n as f64 * step;
+            let p = PlayoutTime(n as f64 * step);
             let known = bits(&b.at_with(p, &mut velocities));
-            assert_eq!(known, bits(&b.at(p)), "{p} s in steps of {step} s");
+            assert_eq!(known, bits(&b.at(p)), "{p:?} in steps of {step} s");
         }
     }
 }

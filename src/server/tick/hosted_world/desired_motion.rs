@@ -2,11 +2,14 @@
 
 use super::HostedWorld;
 use crate::engine::Clip;
+use crate::ingest::jitter_buffer::Now;
 use crate::ingest::mailbox::{DriverId, Mailbox, fenced};
+use crate::ingest::time::ScheduledTime;
 use crate::rehearsals::{Performer, Rehearsed};
 use crate::telemetry::metrics::ticks;
 use crate::tick::drives::{DrivenFigure, DriverSession};
 use crate::tick::scene::{InputResult, SceneInput};
+use sinew_physics::time::WorldTime;
 use sinew_wire::status::Fault;
 use sinew_wire::types::{ControlKey, DriveOpen, EventKind, Feedback, Playback};
 use std::sync::Arc;
@@ -39,7 +42,7 @@ impl HostedWorld {
         (clip, rehearsed): (Arc<Clip>, &[Arc<Rehearsed>]),
         playback: Playback,
         who: &ControlKey,
-    ) -> Result<f64, Fault> {
+    ) -> Result<WorldTime, Fault> {
         self.working()?;
         let i = self.member(figure)?;
         self.may_direct(figure, who)?;
@@ -199,13 +202,16 @@ impl HostedWorld {
     }
 
     /// The scheduled time of an arrival. Scheduled time stands still while the clock does.
-    fn schedule(&self) -> impl Fn(Instant) -> f64 + use<> {
-        let (now, lost) = (self.scene.world().time(), self.lost());
+    fn schedule(&self) -> impl Fn(Instant) -> ScheduledTime + use<> {
+        let now = Now {
+            time: self.scene.world().time(),
+            lost: self.lost(),
+        };
         let dt = self.scene.world().dt();
         let clock = (!self.paused).then(|| self.clock.clone());
         move |arrival| {
             let since = clock.as_ref().map_or(0.0, |c| c.since_deadline(arrival));
-            now + lost + since * dt
+            now.scheduled() + since * dt
         }
     }
 

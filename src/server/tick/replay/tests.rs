@@ -6,6 +6,7 @@
 use super::*;
 use crate::engine::{self, Clip, FigureKey, ObstacleKey};
 use crate::ingest::jitter_buffer::BufferedFrame;
+use crate::ingest::time::{ScheduledTime, SourceTime};
 use crate::tick::journal::{Journal, JournalSegment, Room, Total, from_disk};
 use crate::tick::scene::{InputResult, PlayerKey, SceneInput};
 use sinew_physics::body::Body;
@@ -123,7 +124,7 @@ impl Script {
         posture.hinge[4] = 0.5 + 0.3 * (4.0 * t).sin();
         let frame = BufferedFrame {
             sequence: i,
-            source_ns: i * 16_666_667,
+            source: SourceTime(i * 16_666_667),
             posture,
             velocity: (player == 1).then(|| Box::new([0.0; sinew_physics::body::NV])),
             planted: (i % 5 == 0).then_some([true, true]),
@@ -132,12 +133,12 @@ impl Script {
         };
         let jitter = 0.004 * f64::from((i * 7919 % 11) as i32);
         self.scene
-            .take_frame(self.players[player], frame, now + jitter);
+            .take_frame(self.players[player], frame, ScheduledTime(now + jitter));
     }
 
     /// The commands of clients before a tick.
     fn commands(&mut self, tick: u64) {
-        let now = self.scene.world().time();
+        let now = self.scene.world().time().0;
         let push = |figure: &str, newtons: f64| FigureDisturbance {
             figure: figure.into(),
             tick: None,

@@ -8,6 +8,7 @@ use crate::engine::{Clip, FigureKey, ObstacleKey};
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::Body;
 use sinew_physics::collide::ObstacleSetup;
+use sinew_physics::time::WorldTime;
 use sinew_physics::world::RehearsedMotion;
 use sinew_wire::types::{
     DriveSettings, FigureDisturbance, FigureSettings, FigureUpdate, Place, Playback, WorldPace,
@@ -99,8 +100,8 @@ pub enum InputResult {
     Figure(FigureKey),
     /// A new obstacle has this name and key.
     Obstacle(String, ObstacleKey),
-    /// A clip begins at this world time, s.
-    Begins(f64),
+    /// A clip begins at this time.
+    Begins(WorldTime),
     /// A new player has this key.
     Player(PlayerKey),
 }

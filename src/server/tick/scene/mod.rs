@@ -19,6 +19,7 @@ pub use saved::SavedScene;
 
 use crate::engine::{self, FigureKey, Motion, ObstacleKey, Planning, World};
 use crate::ingest::jitter_buffer::{BufferedFrame, Now, Resync};
+use crate::ingest::time::ScheduledTime;
 use record::RecordWriter;
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{Body, State};
@@ -323,7 +324,7 @@ impl Scene {
         &self,
         batch: &[FigureDisturbance],
     ) -> Result<Vec<(FigureKey, Perturbation)>, Fault> {
-        let (tick, now, dt) = (self.world.tick(), self.world.time(), self.world.dt());
+        let (tick, now, dt) = (self.world.tick(), self.world.time().0, self.world.dt());
         let mut plan: Vec<(FigureKey, Perturbation)> = Vec::with_capacity(batch.len());
         for (n, d) in batch.iter().enumerate() {
             let found = self.members.iter().find(|m| m.id == d.figure);
@@ -378,8 +379,8 @@ impl Scene {
 
     // ── live motion and ticks ──
 
-    /// Takes a frame for a player that arrived at scheduled time `at`, s. Returns whether its stream restarts with it.
-    pub fn take_frame(&mut self, key: PlayerKey, frame: BufferedFrame, at: f64) -> bool {
+    /// Takes a frame for a player that arrived at scheduled time `at`. Returns whether its stream restarts with it.
+    pub fn take_frame(&mut self, key: PlayerKey, frame: BufferedFrame, at: ScheduledTime) -> bool {
         self.record.frame(self.world.tick(), key, &frame, at);
         let player = self.players.iter_mut().find(|p| p.key == key);
         player.is_some_and(|p| p.buffer.push(frame, at))

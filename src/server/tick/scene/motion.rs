@@ -4,6 +4,7 @@ use super::player::{Player, PlayoutWindow};
 use super::{InputResult, PlayerKey, Scene};
 use crate::engine::{self, Clip, FigureKey, Motion};
 use crate::ingest::jitter_buffer::{JitterBuffer, Now, StreamSeam};
+use sinew_physics::time::WorldTime;
 use sinew_wire::status::Fault;
 use sinew_wire::types::{DriveSettings, Place, Playback};
 use std::sync::Arc;
@@ -17,7 +18,7 @@ impl Scene {
         p: Playback,
     ) -> Result<InputResult, Fault> {
         let now = self.world.time();
-        let begin = p.start.unwrap_or(now);
+        let begin = p.start.map_or(now, WorldTime);
         let f = self.figure_mut(key)?;
         let place = p
             .place

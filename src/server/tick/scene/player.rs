@@ -5,13 +5,15 @@
 
 use super::input::PlayerKey;
 use crate::engine::{self, Figure, FigureKey, LivePlayback};
-use crate::ingest::jitter_buffer::{DueSample, JitterBuffer, Now, StreamSeam};
+use crate::ingest::jitter_buffer::{DueSample, GridEnd, JitterBuffer, Now, StreamSeam};
+use crate::ingest::time::SourceTime;
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{Body, Posture, State};
 use sinew_physics::motion::TargetPair;
 use sinew_physics::plan::StreamPlan;
 use sinew_physics::plan::motion_transition::StreamBeginning;
 use sinew_physics::plan::stream::RATE;
+use sinew_physics::time::{StreamTime, WorldTime};
 use sinew_wire::types::Supply;
 use std::sync::Arc;
 
@@ -48,8 +50,8 @@ pub struct PlayoutWindow {
     waiting: Option<Box<LivePlayback>>,
     /// Whether the figure enters the stream from its present motion, whatever the driver asked for.
     begun: bool,
-    /// Set while the figure first comes to a stand: world time after which it is no longer awaited, s.
-    stands: Option<f64>,
+    /// Set while the figure first comes to a stand: when it is no longer awaited.
+    stands: Option<WorldTime>,
     /// How far the figure is behind the window, because it was led into a stream that began in motion.
     late: WindowLag,
 }
@@ -68,6 +70,12 @@ impl WindowLag {
     fn is_valid(self) -> bool {
         (0.0..=60.0).contains(&self.by) && self.from.unsigned_abs() < 1 << 41
     }
+}
+
+/// The time of a stream that is due where its window, of `length` seconds, has been fed up to `fed`. Samples of the
+/// stream and of the grid are equally long, but not equally numbered.
+fn due_time(motion: &StreamPlan, fed: GridEnd, length: f64) -> StreamTime {
+    StreamTime(fed.head.0 - length + (motion.fed() - fed.next) as f64 / RATE)
 }
 
 impl PlayoutWindow {
@@ -96,8 +104,8 @@ impl PlayoutWindow {
         self.late
     }
 
-    /// A window that begins once its figure stands, after a stop requested at world time `time`, s.
-    pub fn after_stop(body: &Arc<Body>, length: f64, time: f64) -> Self {
+    /// A window that begins once its figure stands, after a stop requested at world time `time`.
+    pub fn after_stop(body: &Arc<Body>, length: f64, time: WorldTime) -> Self {
         Self {
             begun: true,
             stands: Some(time + MOST_STOPPING),
@@ -106,7 +114,7 @@ impl PlayoutWindow {
     }
 
     /// Whether it still waits for its figure to stand.
-    fn waits_for_stand(&mut self, figure: &Figure, time: f64) -> bool {
+    fn waits_for_stand(&mut self, figure: &Figure, time: WorldTime) -> bool {
         let Some(until) = self.stands else {
             return false;
         };
@@ -119,9 +127,8 @@ impl PlayoutWindow {
     }
 
     /// Leads the figure into a stream that begins in motion: by steps, to a moment of the stream, once enough of it has
-    /// arrived. The window's newest playout time is `head` (s), and `next` samples of the grid are past. Returns false
-    /// while it is not ready.
-    fn leads_in(&mut self, figure: &mut Figure, (head, next): (f64, i64), time: f64) -> bool {
+    /// arrived. The window has been fed up to `fed`. Returns false while it is not ready.
+    fn leads_in(&mut self, figure: &mut Figure, fed: GridEnd, time: WorldTime) -> bool {
         let Some(live) = &mut self.waiting else {
             return true;
         };
@@ -132,11 +139,13 @@ impl PlayoutWindow {
                 return false;
             };
             live.motion = live.motion.led_in(LEAD_IN, &way);
+            // The stream begins here, so all of it that is due is the lag.
+            let begins = StreamTime(0.0);
             self.late = WindowLag {
-                by: head - self.length + (live.motion.fed() - next) as f64 / RATE,
+                by: due_time(&live.motion, fed, self.length) - begins,
                 from: (LEAD_IN + way.samples.len()) as i64,
             };
-            live.offset = -time;
+            live.align(time, begins);
             return true;
         }
         if figure.plans_stream_entry() {
@@ -173,7 +182,7 @@ impl Player {
         waits
             && window.is_none_or(|w| {
                 let known = (0.0..=2.0).contains(&w.length) && w.late.is_valid();
-                known && w.stands.is_none_or(f64::is_finite)
+                known && w.stands.is_none_or(WorldTime::is_finite)
             })
             && self.takeover.is_none_or(|t| (0.0..=1e3).contains(&t))
             && self.buffer.complete(figure.body(), dt)
@@ -272,7 +281,7 @@ impl Player {
         let (mut given, mut silent) = (0, false);
         let tick = self.buffer.tick();
         let all = length + window.late.by;
-        let (head, next) = self.buffer.feed(now, (RATE, all), |due| match due {
+        let fed = self.buffer.feed(now, (RATE, all), |due| match due {
             DueSample::Sample(posture, planted) => {
                 motion.push(posture, planted);
                 given += 1;
@@ -293,14 +302,16 @@ impl Player {
             }
         }
         let late = &mut window.late;
-        let due = next.rem_euclid(CATCH_UP_STRIDE) < given;
+        let due = fed.next.rem_euclid(CATCH_UP_STRIDE) < given;
         if !waits && due && late.by > 0.0 && motion.taken() >= late.from {
             late.by = (late.by - motion.catch_up(late.by)).max(0.0);
         }
-        live.offset = head - length + (motion.fed() - next) as f64 / RATE - time - late.by;
+        let at = due_time(motion, fed, length);
+        live.align(time, at);
+        live.offset -= late.by;
         let begins = waits
-            && live.stream_time(time) >= 0.0
-            && (!window.begun || window.leads_in(figure, (head, next), time));
+            && live.stream_time(time).0 >= 0.0
+            && (!window.begun || window.leads_in(figure, fed, time));
         let mut live = window.waiting.take_if(|_| begins)?;
         live.motion.advance(live.stream_time(time) + 1.0 / RATE);
         let first = live.motion.sample(live.stream_time(time));
@@ -315,7 +326,7 @@ impl Player {
     }
 
     /// Sequence and source time of the frame in use.
-    pub fn applied(&self) -> Option<(i64, i64)> {
+    pub fn applied(&self) -> Option<(i64, SourceTime)> {
         match self.buffer.supply() {
             Supply::None | Supply::Waiting => None,
             _ => self.buffer.applied(),

@@ -15,6 +15,7 @@
 use super::input::{PlayerKey, SceneInput};
 use crate::engine::FigureKey;
 use crate::ingest::jitter_buffer::BufferedFrame;
+use crate::ingest::time::{ScheduledTime, SourceTime};
 use bytes::Bytes;
 use sinew_physics::body::topology::{BALL_COUNT, HINGE_COUNT};
 use sinew_physics::body::{NV, Posture};
@@ -60,8 +61,8 @@ impl std::fmt::Debug for RoundRecord {
 pub enum RecordItem {
     /// A change.
     Input(Box<SceneInput>),
-    /// A frame of live motion, and when it arrived (scheduled time, s).
-    Frame(PlayerKey, Box<BufferedFrame>, f64),
+    /// A frame of live motion, and when it arrived.
+    Frame(PlayerKey, Box<BufferedFrame>, ScheduledTime),
     /// A tick samples live motion, with the world time that the clock has skipped, s.
     Tick(f64),
     /// Plans of a figure that were late in it.
@@ -294,8 +295,14 @@ impl RecordWriter {
             .extend(definitions.into_iter().map(SharedDefinition));
     }
 
-    /// A frame that arrived at scheduled time `at`, s.
-    pub fn frame(&mut self, tick: u64, player: PlayerKey, frame: &BufferedFrame, at: f64) {
+    /// A frame that arrived at scheduled time `at`.
+    pub fn frame(
+        &mut self,
+        tick: u64,
+        player: PlayerKey,
+        frame: &BufferedFrame,
+        at: ScheduledTime,
+    ) {
         if !self.begin(tick) {
             return;
         }
@@ -304,8 +311,8 @@ impl RecordWriter {
         out.push(FRAME);
         put(out, player);
         put_signed(out, frame.sequence.wrapping_sub(past.sequence));
-        put_signed(out, frame.source_ns.wrapping_sub(past.time()));
-        out.extend_from_slice(&at.to_le_bytes());
+        put_signed(out, frame.source.0.wrapping_sub(past.time()));
+        out.extend_from_slice(&at.0.to_le_bytes());
         let planted = frame
             .planted
             .map_or(0, |[l, r]| 4 | u8::from(l) | u8::from(r) << 1);
@@ -325,7 +332,7 @@ impl RecordWriter {
             past.take(i, x[i]);
         }
         put_words(out, &words[..count]);
-        past.take_time(frame.sequence, frame.source_ns);
+        past.take_time(frame.sequence, frame.source.0);
     }
 
     /// A tick samples live motion.
@@ -509,7 +516,7 @@ impl RecordReader {
         let past = self.pasts.of(player);
         let sequence = past.sequence.wrapping_add(rest.signed()?);
         let source_ns = past.time().wrapping_add(rest.signed()?);
-        let at = rest.float()?;
+        let at = ScheduledTime(rest.float()?);
         let flags = rest.byte()?;
         let has_velocity = flags & 8 != 0;
         let count = if has_velocity { NUMBERS } else { POSTURE };
@@ -531,7 +538,7 @@ impl RecordReader {
         });
         let frame = BufferedFrame {
             sequence,
-            source_ns,
+            source: SourceTime(source_ns),
             posture: posture(&x),
             velocity,
             planted: (flags & 4 != 0).then_some([flags & 1 != 0, flags & 2 != 0]),
@@ -562,7 +569,7 @@ mod tests {
             (i % 3 == 0).then(|| Box::new(std::array::from_fn(|k| (k as f64 * t).sin())));
         BufferedFrame {
             sequence: 7 + i,
-            source_ns: 16_666_667 * i - i % 2,
+            source: SourceTime(16_666_667 * i - i % 2),
             posture,
             velocity,
             planted: [None, Some([true, false])][(i % 2) as usize],
@@ -589,7 +596,8 @@ mod tests {
         let mut reader = RecordReader::default();
         for i in 0..40 {
             for player in [3, 9] {
-                writer.frame(i as u64, player, &frame(i + player as i64), 0.1 * i as f64);
+                let at = ScheduledTime(0.1 * i as f64);
+                writer.frame(i as u64, player, &frame(i + player as i64), at);
             }
             writer.sampled(i as u64, 0.5);
             if i == 20 {
@@ -614,7 +622,7 @@ mod tests {
                 let RecordItem::Frame(key, read, at) = item else {
                     panic!("{item:?}")
                 };
-                assert_eq!((key, *at), (player, 0.1 * i as f64));
+                assert_eq!((key, at.0), (player, 0.1 * i as f64));
                 let wrote = BufferedFrame {
                     arrival: read.arrival,
                     ..frame(i + *player as i64)
@@ -641,17 +649,17 @@ mod tests {
                 velocity: None,
                 ..frame(i)
             };
-            writer.frame(0, 1, &plain(i), 0.0);
+            writer.frame(0, 1, &plain(i), ScheduledTime(0.0));
             moving = writer.take().unwrap().bytes.len();
             writer.frame(
                 0,
                 2,
                 &BufferedFrame {
                     sequence: i,
-                    source_ns: i,
+                    source: SourceTime(i),
                     ..plain(0)
                 },
-                0.0,
+                ScheduledTime(0.0),
             );
             still = writer.take().unwrap().bytes.len();
         }

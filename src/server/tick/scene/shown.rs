@@ -2,7 +2,9 @@
 
 use super::{Player, Scene};
 use crate::engine::{self, FigureKey, ObstacleKey};
+use crate::ingest::time::SourceTime;
 use sinew_physics::collide::Other;
+use sinew_physics::time::WorldTime;
 use sinew_wire::types::{FigureSnapshot, ObstacleInfo, RosterEntry, Snapshot};
 use std::sync::Arc;
 
@@ -46,11 +48,13 @@ impl Scene {
     pub fn figures(&self) -> Vec<FigureSnapshot> {
         // Start of the last tick, to which the report refers.
         let (dt, tick) = (self.world.dt(), self.world.tick());
-        let start = tick.saturating_sub(1) as f64 * dt;
+        let start = WorldTime(tick.saturating_sub(1) as f64 * dt);
         let applied = |key: FigureKey| {
             let mut players = self.players.iter();
             let player = players.find(|p| p.figure == key && p.takeover.is_none());
-            player.and_then(Player::applied).unwrap_or((-1, 0))
+            player
+                .and_then(Player::applied)
+                .unwrap_or((-1, SourceTime(0)))
         };
         let shown = |m: &super::Member| {
             let f = self.figure(m.key);
@@ -66,7 +70,7 @@ impl Scene {
             rate_hz: self.settings.rate_hz,
             gravity: self.settings.gravity,
             tick: self.world.tick(),
-            time: self.world.time(),
+            time: self.world.time().0,
             hash: self.world.state_hash(),
             epoch: 0,
             server_ns: 0,

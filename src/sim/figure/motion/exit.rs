@@ -6,6 +6,7 @@ use crate::figure::params::switch::MOST_LEAD;
 use crate::motion::clip::{Clip, PlanarTransform};
 use crate::plan::motion_transition::{TransitionCandidates, TransitionClip};
 use crate::plan::splice::StopCandidates;
+use crate::time::WorldTime;
 use serde::{Deserialize, Serialize, Serializer};
 use std::sync::Arc;
 
@@ -22,8 +23,8 @@ pub(in crate::figure) struct ExitGoal {
     pub posture: Option<Posture>,
     /// The clip's origin is fixed: the figure may not start it from its present place.
     pub fixed: bool,
-    /// World time before which the clip does not begin, s.
-    pub from: f64,
+    /// The clip does not begin before this time.
+    pub from: WorldTime,
 }
 
 /// The exit from a motion, while it is being planned.
@@ -47,14 +48,14 @@ pub(in crate::figure) struct ExitProblem {
     pub lead: usize,
     /// The ways to the queued clip, if there are any.
     pub ways: Option<Arc<TransitionCandidates>>,
-    /// World time of the first sample of these, s.
-    pub known_from: f64,
+    /// When the first sample of these plays.
+    pub known_from: WorldTime,
     /// The ways to a stand, if the motion should end.
     pub ends: Option<Arc<StopCandidates>>,
-    /// Time at which the motion leaves its own course for the exit, s.
-    pub due: f64,
-    /// World time of the first sample of the way to a stand, and the corresponding time of the present motion, s.
-    pub begin: f64,
+    /// When the motion leaves its own course for the exit.
+    pub due: WorldTime,
+    /// When the first sample of the way to a stand plays, and the time of the present motion's plan then, s.
+    pub begin: WorldTime,
     pub before: f64,
 }
 
@@ -89,30 +90,25 @@ impl ExitPlan {
 }
 
 impl ExitProblem {
-    pub fn at(due: f64, goal: ExitGoal, lead: usize) -> Self {
+    pub fn at(due: WorldTime, goal: ExitGoal, lead: usize) -> Self {
         Self {
             goal,
             lead,
             ways: None,
-            known_from: 0.0,
+            known_from: WorldTime::default(),
             ends: None,
             due,
-            begin: 0.0,
+            begin: WorldTime::default(),
             before: 0.0,
         }
     }
 
     /// Whether this value is one that a checkpoint could hold.
     fn is_valid(&self) -> bool {
-        let times = [
-            self.goal.from,
-            self.known_from,
-            self.due,
-            self.begin,
-            self.before,
-        ];
+        let times = [self.goal.from, self.known_from, self.due, self.begin];
         self.lead <= MOST_LEAD
             && times.iter().all(|t| t.is_finite())
+            && self.before.is_finite()
             && self.ways.as_ref().is_none_or(|w| w.is_valid())
             && self.ends.as_ref().is_none_or(|e| e.is_valid())
     }

@@ -18,6 +18,7 @@ use crate::stepper::motor_law::MotorLaw;
 use crate::stepper::pelvis_wrench::PelvisHelp;
 use crate::stepper::pelvis_wrench::{PelvisHold, PelvisPath, RootStep};
 use crate::tick_context::TickContext;
+use crate::time::WorldTime;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -176,8 +177,8 @@ pub struct RehearsedPlayback {
     /// The motion.
     #[serde(with = "crate::saved::definition")]
     pub motion: Arc<RehearsedMotion>,
-    /// World time at which its first tick begins, s.
-    pub start: f64,
+    /// When its first tick begins.
+    pub start: WorldTime,
     /// Its place in the world.
     pub origin: PlanarTransform,
     /// Whether it contains help.
@@ -185,8 +186,8 @@ pub struct RehearsedPlayback {
 }
 
 impl RehearsedPlayback {
-    /// `motion` at its own place, from world time `start` on, s.
-    pub fn new(motion: Arc<RehearsedMotion>, start: f64) -> Self {
+    /// `motion` at its own place, from world time `start` on.
+    pub fn new(motion: Arc<RehearsedMotion>, start: WorldTime) -> Self {
         Self {
             helped: motion.path.iter().any(RootStep::is_helped),
             motion,
@@ -208,22 +209,22 @@ impl RehearsedPlayback {
     }
 
     /// World time `t` as the nearest number of ticks since its start.
-    fn ticks_at(&self, t: f64) -> f64 {
+    fn ticks_at(&self, t: WorldTime) -> f64 {
         ((t - self.start) / self.motion.stage.dt).round()
     }
 
     /// The tick that begins at world time `t`: the first before its start, the last after its end.
-    fn tick(&self, t: f64) -> usize {
+    fn tick(&self, t: WorldTime) -> usize {
         (self.ticks_at(t).max(0.0) as usize).min(self.motion.ticks() - 1)
     }
 
     /// Whether no tick of it begins at world time `t`.
-    pub fn is_over(&self, t: f64) -> bool {
+    pub fn is_over(&self, t: WorldTime) -> bool {
         self.ticks_at(t) >= self.motion.ticks() as f64
     }
 
-    /// The recording at world time `t`, s. No allocation.
-    pub fn sample(&self, t: f64) -> Target {
+    /// The recording at world time `t`. No allocation.
+    pub fn sample(&self, t: WorldTime) -> Target {
         let at = self.ticks_at(t).max(0.0) as usize;
         let mut target = self.motion.desired[at.min(self.motion.ticks())].clone();
         if self.origin != PlanarTransform::default() {
@@ -232,13 +233,13 @@ impl RehearsedPlayback {
         target
     }
 
-    /// The joint offsets of the tick that begins at world time `t`, s.
-    pub fn offset(&self, t: f64) -> &JointOffset {
+    /// The joint offsets of the tick that begins at world time `t`.
+    pub fn offset(&self, t: WorldTime) -> &JointOffset {
         &self.motion.offsets[self.tick(t) / self.motion.window]
     }
 
-    /// The path of the pelvis in the tick that begins at world time `t`, s.
-    pub fn path(&self, t: f64) -> PelvisPath<'_> {
+    /// The path of the pelvis in the tick that begins at world time `t`.
+    pub fn path(&self, t: WorldTime) -> PelvisPath<'_> {
         let per_tick = self.motion.stage.substeps as usize;
         let first = self.tick(t) * per_tick;
         PelvisPath {
@@ -247,8 +248,8 @@ impl RehearsedPlayback {
         }
     }
 
-    /// The help for the pelvis in the tick that begins at world time `t`, s, if there is any.
-    pub(in crate::figure) fn help(&self, t: f64) -> Option<PelvisHelp<'_>> {
+    /// The help for the pelvis in the tick that begins at world time `t`, if there is any.
+    pub(in crate::figure) fn help(&self, t: WorldTime) -> Option<PelvisHelp<'_>> {
         let (hold, path) = (self.motion.hold, self.path(t));
         let acts = hold.most.iter().any(|m| *m > 0.0) || path.steps.iter().any(RootStep::is_helped);
         acts.then_some(PelvisHelp::Rehearsed(hold, path))
@@ -267,7 +268,12 @@ impl RehearsedPlayback {
     }
 
     /// Whether a figure in `state` at the start of the tick at `t` can continue with it in this world.
-    pub(in crate::figure) fn goes_on(&self, t: f64, state: &State, world: &TickContext) -> bool {
+    pub(in crate::figure) fn goes_on(
+        &self,
+        t: WorldTime,
+        state: &State,
+        world: &TickContext,
+    ) -> bool {
         let path = self.path(t).step(0).position;
         !self.is_over(t)
             && self.motion.stage == RehearsalWorld::of(world)

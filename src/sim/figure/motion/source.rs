@@ -3,13 +3,13 @@
 use crate::body::{Body, Posture};
 use crate::figure::motion::plan_task::{PlanRequest, PlanTask};
 use crate::figure::motion::rehearsed::{RehearsedMotion, RehearsedPlayback};
-use crate::math::Vec3;
 use crate::motion::clip::{Clip, PlanarTransform};
 use crate::motion::{Target, TargetPair};
 use crate::plan::StreamPlan;
 use crate::plan::motion_transition::{NextClip, TransitionClip};
-use crate::track::StepPlan;
+use crate::time::{MotionTime, StreamTime, WorldTime};
 use crate::track::planned_to_world::Anchor;
+use crate::track::{FootPlace, StepPlan};
 use serde::{Deserialize, Serialize, Serializer};
 use std::sync::Arc;
 
@@ -19,8 +19,8 @@ pub struct ClipPlayback {
     /// The motion.
     #[serde(with = "crate::saved::definition")]
     pub clip: Arc<Clip>,
-    /// World time at which the clip's time 0 plays, s.
-    pub start: f64,
+    /// When the clip's time 0 plays.
+    pub start: WorldTime,
     /// Clip seconds per world second, 0.1…10.
     pub speed: f64,
     /// Starts over at the end, with the displacement of the root carried on.
@@ -50,9 +50,14 @@ pub struct LivePlayback {
 }
 
 impl LivePlayback {
-    /// Time of the stream at world time `t`, s.
-    pub fn stream_time(&self, t: f64) -> f64 {
-        t + self.offset
+    /// Time of the stream at world time `t`.
+    pub fn stream_time(&self, t: WorldTime) -> StreamTime {
+        StreamTime(t.0 + self.offset)
+    }
+
+    /// Lets time `at` of the stream be due at world time `now`.
+    pub fn align(&mut self, now: WorldTime, at: StreamTime) {
+        self.offset = at.0 - now.0;
     }
 }
 
@@ -73,8 +78,8 @@ pub enum MotionSource {
 }
 
 impl ClipPlayback {
-    /// `clip` once, at its own pace and place, with its time 0 at world time `start`, s.
-    pub fn new(clip: Arc<Clip>, start: f64) -> Self {
+    /// `clip` once, at its own pace and place, with its time 0 at world time `start`.
+    pub fn new(clip: Arc<Clip>, start: WorldTime) -> Self {
         Self {
             clip,
             start,
@@ -105,18 +110,28 @@ impl ClipPlayback {
         }
     }
 
-    /// Clip time at world time `t`, s.
-    pub fn clip_time(&self, t: f64) -> f64 {
-        (t - self.start) * self.speed
+    /// Time of the clip at world time `t`.
+    pub fn motion_time(&self, t: WorldTime) -> MotionTime {
+        MotionTime((t - self.start) * self.speed)
     }
 
-    /// Desired motion at world time `t`, s. No allocation.
-    pub fn sample(&self, t: f64) -> Target {
-        let s = self.clip_time(t);
+    /// The inverse of [`Self::motion_time`]: when time `t` of the clip plays.
+    pub(in crate::figure) fn world_time(&self, t: MotionTime) -> WorldTime {
+        self.start + t.0 / self.speed
+    }
+
+    /// The start with which time `t` of the clip plays at world time `at`.
+    pub(in crate::figure) fn start_for(&self, t: MotionTime, at: WorldTime) -> WorldTime {
+        at - t.0 / self.speed
+    }
+
+    /// Desired motion at world time `t`. No allocation.
+    pub fn sample(&self, t: WorldTime) -> Target {
+        let s = self.motion_time(t);
         let mut target = match &self.way_in {
             Some(way) if s < way.until => way.clip.sample(s - way.begin),
-            _ if self.looped => self.clip.sample_looped(s),
-            _ => self.clip.sample(s),
+            _ if self.looped => self.clip.sample_looped(s.0),
+            _ => self.clip.sample(s.0),
         };
         for v in &mut target.velocity {
             *v *= self.speed;
@@ -136,15 +151,14 @@ pub(in crate::figure) struct QueuedClip {
     pub play: ClipPlayback,
     /// Its steps.
     pub plan: StepPlan,
-    /// Clip time at which it begins, s.
-    pub first: f64,
-    /// World time before which it does not begin, s.
-    pub from: f64,
-    /// Stance of its feet at that time, in clip coordinates: the middle between them, and their heading. `None`: the
-    /// caller fixed its origin.
-    pub stance: Option<(Vec3, f64)>,
-    /// Time at which the figure should stand, s.
-    pub due: f64,
+    /// Time of the clip at which it begins.
+    pub first: MotionTime,
+    /// It does not begin before this time.
+    pub from: WorldTime,
+    /// Stance of its feet at that time, in clip coordinates. `None`: the caller fixed its origin.
+    pub stance: Option<FootPlace>,
+    /// When the figure should stand.
+    pub due: WorldTime,
     /// Whether it begins standing, at the place of its figure.
     pub led: bool,
     /// The way from that stand into the clip, if the clip does not begin with it.
@@ -164,9 +178,9 @@ pub(in crate::figure) struct ClipEntry {
 pub(in crate::figure) struct ClipEntryProblem {
     #[serde(with = "crate::saved::definition")]
     pub body: Arc<Body>,
-    /// The clip, entered at clip time `first`, s.
+    /// The clip, entered at its time `first`.
     pub next: NextClip,
-    pub first: f64,
+    pub first: MotionTime,
     pub stand: Posture,
 }
 
@@ -201,10 +215,11 @@ impl Serialize for ClipEntry {
 impl QueuedClip {
     /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
-        let times = [self.first, self.from, self.due];
         self.play.is_valid()
             && self.plan.is_valid()
-            && times.iter().all(|t| t.is_finite())
+            && self.first.is_finite()
+            && self.from.is_finite()
+            && self.due.is_finite()
             && self.entry.as_ref().is_none_or(|e| e.problem.is_valid())
     }
 
@@ -214,8 +229,8 @@ impl QueuedClip {
     }
 
     /// Begins at world time `time`, for a figure whose feet stand at `stance`.
-    pub fn begin(mut self, time: f64, stance: (Vec3, f64)) -> (ClipPlayback, StepPlan) {
-        self.play.start = time - self.first / self.play.speed;
+    pub fn begin(mut self, time: WorldTime, stance: FootPlace) -> (ClipPlayback, StepPlan) {
+        self.play.start = self.play.start_for(self.first, time);
         if let Some(planned) = self.stance {
             self.play.origin = Anchor::between(planned, stance).transform();
         }
@@ -235,15 +250,25 @@ impl MotionSource {
         }
     }
 
-    /// Desired motion at the start and the end of a tick from `t` to `t + dt`, s.
+    /// Desired motion at the start and the end of a tick of `dt` seconds that begins at world time `t`.
     ///
     /// Section 3.2 of the paper.
-    pub fn targets(&self, t: f64, dt: f64) -> TargetPair {
+    pub fn targets(&self, t: WorldTime, dt: f64) -> TargetPair {
         self.pair(t, t + dt)
     }
 
-    /// Desired motion at the world times `now` and `next`, s. Targets set by the caller are the same at all times.
-    pub fn pair(&self, now: f64, next: f64) -> TargetPair {
+    /// Time of the step plan of this motion at world time `t`, s: that of the clip or of the stream. For a motion
+    /// without a plan it is world time.
+    pub(in crate::figure) fn plan_time(&self, t: WorldTime) -> f64 {
+        match self {
+            Self::Clip(play) => play.motion_time(t).0,
+            Self::Live(live) => live.stream_time(t).0,
+            Self::Hold(_) | Self::External(_) | Self::Rehearsed(_) => t.0,
+        }
+    }
+
+    /// Desired motion at the world times `now` and `next`. Targets set by the caller are the same at all times.
+    pub fn pair(&self, now: WorldTime, next: WorldTime) -> TargetPair {
         match self {
             Self::Hold(posture) => {
                 let still = Target::still(*posture);

@@ -2,6 +2,7 @@
 
 use crate::figure::motion::plan_task::{PlanRequest, PlanTask};
 use crate::plan::motion_transition::{StreamBeginning, StreamEntry};
+use crate::time::WorldTime;
 use serde::{Deserialize, Serialize, Serializer};
 
 /// The way into a stream, while it is being planned.
@@ -16,8 +17,8 @@ pub(in crate::figure) struct StreamEntryPlan {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::figure) struct StreamEntryProblem {
     pub beginning: StreamBeginning,
-    /// World time at which it is taken, s.
-    pub due: f64,
+    /// When it is taken.
+    pub due: WorldTime,
     /// Whether it can be taken.
     pub settled: bool,
 }

@@ -25,6 +25,7 @@ use crate::setup::{
 };
 use crate::strength::fatigue::Fatigue;
 use crate::strength::{MuscleScale, Strength};
+use crate::time::WorldTime;
 use crate::track::{PlacedPlan, StepPlan, StepTracker};
 use std::sync::Arc;
 
@@ -159,10 +160,10 @@ impl Figure {
     pub fn perturbations(&self) -> impl Iterator<Item = &Perturbation> {
         self.surroundings.disturbances.scheduled()
     }
-    /// The loads that segments hold at `time`, s: segment, point (segment frame, m), mass (kg). A load in two hands
+    /// The loads that segments hold at `time`: segment, point (segment frame, m), mass (kg). A load in two hands
     /// appears twice, with the share of each.
-    pub fn held(&self, time: f64) -> impl Iterator<Item = (SegmentId, Vec3, f64)> + '_ {
-        self.surroundings.disturbances.held(time)
+    pub fn held(&self, time: WorldTime) -> impl Iterator<Item = (SegmentId, Vec3, f64)> + '_ {
+        self.surroundings.disturbances.held(time.0)
     }
     /// The other hand's part in a load, while it holds it.
     pub fn help(&self) -> Option<LoadShare> {
@@ -236,9 +237,9 @@ impl Figure {
     pub fn constraints(&self) -> &[Constraint] {
         self.desired.constraints.given()
     }
-    /// Replaces all checked constraints at `time`, s.
-    pub(crate) fn set_constraints(&mut self, constraints: &[Constraint], time: f64) {
-        self.desired.constraints.replace(constraints, time);
+    /// Replaces all checked constraints at `time`.
+    pub(crate) fn set_constraints(&mut self, constraints: &[Constraint], time: WorldTime) {
+        self.desired.constraints.replace(constraints, time.0);
     }
     /// Removes all constraints at once, without fading.
     pub fn clear_constraints(&mut self) {

@@ -18,6 +18,7 @@ use crate::stepper::command::MotorCommand;
 use crate::stepper::pelvis_wrench::Assist;
 use crate::strength::MuscleScale;
 use crate::tick_context::TickContext;
+use crate::time::WorldTime;
 
 /// The law of motors without a controller.
 struct UnledMotors {
@@ -31,7 +32,7 @@ struct UnledMotors {
 
 impl Figure {
     /// Desired motion of the tick: getting up, or the source of the motion, at the pace of its steps.
-    pub(in crate::figure) fn sample_motion(&mut self, time: f64, dt: f64) -> TargetPair {
+    pub(in crate::figure) fn sample_motion(&mut self, time: WorldTime, dt: f64) -> TargetPair {
         if let MotionSource::Live(live) = self.motion.source_mut() {
             live.motion.advance(live.stream_time(time + dt));
             self.desired.tracker.follow_stream(&live.motion);
@@ -47,14 +48,10 @@ impl Figure {
         }
         let carried = self.is_carried();
         let drive = self.motion.source();
-        let clip_time = |t: f64| match drive {
-            MotionSource::Clip(play) => play.clip_time(t),
-            MotionSource::Live(live) => live.stream_time(t),
-            _ => t,
-        };
+        let plan_time = |t| drive.plan_time(t);
         let (tracker, terms) = (&mut self.desired.tracker, &self.workspace.terms);
         let pair = |now, next| drive.pair(now, next);
-        tracker.targets(time, dt, terms, clip_time, pair, carried)
+        tracker.targets(time, dt, terms, plan_time, pair, carried)
     }
 
     /// Whether steps follow events: the mode makes steps, and the figure is up. Full assist pins the pelvis to its

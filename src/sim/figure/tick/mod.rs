@@ -123,7 +123,7 @@ impl Figure {
     /// Stage 1: loads and pushes that are due.
     fn commands(&mut self, world: &TickContext) {
         self.surroundings.disturbances.apply(
-            world.time(),
+            world.time().0,
             world.dt,
             &self.setup.body,
             &mut self.physical.links,
@@ -187,7 +187,7 @@ impl Figure {
             touches,
             ..
         } = &mut self.surroundings;
-        disturbances.check_grip(world.time(), world.dt, terms, world.gravity, bar);
+        disturbances.check_grip(world.time().0, world.dt, terms, world.gravity, bar);
         let acceleration = self.physical.com_acceleration;
         support.update(terms, &self.setup.body, acceleration, world.gravity);
         let pull = acceleration + Vec3::Z * world.gravity;
@@ -276,7 +276,7 @@ impl Figure {
         let support = &mut self.surroundings.support;
         let mut tasks = buffers.points(body, &self.physical.links, target);
         constraints.begin(
-            world.time(),
+            world.time().0,
             body,
             terms,
             support,

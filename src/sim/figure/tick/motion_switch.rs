@@ -13,42 +13,43 @@ use crate::plan::motion_transition::{LeavingSamples, TransitionCandidates, Trans
 use crate::plan::splice;
 use crate::plan::splice::{RUN_UP, Sample, StandGoal, StopCandidates};
 use crate::tick_context::{Planning, TickContext};
+use crate::time::WorldTime;
 use crate::track::{PlacedPlan, StepPlan};
 use std::sync::Arc;
 
 /// The input from which a stop is planned.
 struct Given {
-    /// World time of the first sample, and the corresponding time of the present motion, s.
-    begin: f64,
+    /// When the first sample plays, and the time of the present motion's plan then, s.
+    begin: WorldTime,
     before: f64,
     /// Sample up to which the motion still plays.
     now: usize,
     streamed: bool,
 }
 
-/// World times of a switch, s.
+/// Times of a switch.
 #[derive(Clone, Copy)]
 struct Times {
     /// The present.
-    now: f64,
+    now: WorldTime,
     /// The exit from the present motion.
-    due: f64,
+    due: WorldTime,
     /// The earliest beginning of the next clip.
-    from: f64,
+    from: WorldTime,
 }
 
 impl Figure {
     /// Begins to work out the exit from the motion for a clip that should play from world time `from` on: directly to
     /// the clip, unless its place is `fixed`, or to a stand. The stand is at ease, or like `goal` if the figure hardly
     /// moves or stands in another way. A motion that is already ending is not ended again. Returns when the figure
-    /// should stand and, if a direct switch is expected, when the clip's time 0 plays, s.
+    /// should stand and, if a direct switch is expected, when the clip's time 0 plays.
     pub(in crate::figure) fn leave(
         &mut self,
         play: &ClipPlayback,
         goal: ExitGoal,
         lead: usize,
-        time: f64,
-    ) -> (f64, Option<f64>) {
+        time: WorldTime,
+    ) -> (WorldTime, Option<WorldTime>) {
         let stands = match self.motion.source() {
             MotionSource::Clip(end) if self.motion.stops() => {
                 end.start + end.clip.duration() + self.desired.tracker.lag()
@@ -80,7 +81,7 @@ impl Figure {
             leaving.known_from = time - self.desired.tracker.lag() - motion_transition::RUN_UP;
             let first = &ways.moments()[0];
             let at = time - motion_transition::RUN_UP + first.left as f64 / motion_transition::RATE;
-            at - ways.enters(first) / play.speed
+            play.start_for(ways.enters(first), at)
         });
         let ends = !self.motion.stops()
             && match self.motion.source() {
@@ -116,7 +117,7 @@ impl Figure {
         let first = time - self.desired.tracker.lag() - motion_transition::RUN_UP;
         let known = (0..=count).map(|i| now.sample(first + i as f64 / motion_transition::RATE));
         let known = known.map(|t| (t.posture, t.planted)).collect();
-        let sample = |t: f64| {
+        let sample = |t: WorldTime| {
             let ahead = (t - time + motion_transition::RUN_UP).max(0.0);
             (ahead * motion_transition::RATE - 1e-6).ceil() as usize
         };
@@ -129,7 +130,7 @@ impl Figure {
     }
 
     /// Begins to work out how the motion is led to a stand at ease.
-    pub(in crate::figure) fn leave_for_a_stand(&mut self, lead: usize, time: f64) {
+    pub(in crate::figure) fn leave_for_a_stand(&mut self, lead: usize, time: WorldTime) {
         let goal = ExitGoal {
             posture: None,
             fixed: false,
@@ -146,7 +147,7 @@ impl Figure {
     }
 
     /// States the ends of the motion.
-    fn plan_stops(&mut self, leaving: &mut ExitProblem, time: f64) {
+    fn plan_stops(&mut self, leaving: &mut ExitProblem, time: WorldTime) {
         // Never more than the longest lead, whatever a checkpoint says.
         let after = ((leaving.due - time) * splice::RATE).round() as usize;
         let after = after.min(MOST_LEAD);
@@ -163,7 +164,7 @@ impl Figure {
 
     /// A stream that breaks off in the middle of a step, with its last posture held, is left by the steps to a stand.
     /// Allocates.
-    pub(in crate::figure) fn leave_broken_stream(&mut self, time: f64) {
+    pub(in crate::figure) fn leave_broken_stream(&mut self, time: WorldTime) {
         let broken = |live: &LivePlayback| live.motion.breaks_off();
         let streams = self.motion.exit().is_none()
             && matches!(self.motion.source(), MotionSource::Live(live) if broken(live));
@@ -261,18 +262,18 @@ impl Figure {
         self.plan_entry(due);
     }
 
-    /// Switches to the queued clip, with its origin at `place`. World time of the first sample of the way is `begin`,
-    /// s.
-    fn go_over(&mut self, way: TransitionClip, place: PlanarTransform, begin: f64) {
+    /// Switches to the queued clip, with its origin at `place`. The first sample of the way plays at world time
+    /// `begin`.
+    fn go_over(&mut self, way: TransitionClip, place: PlanarTransform, begin: WorldTime) {
         let next = self.motion.take_next();
         let (Some(next), MotionSource::Clip(now)) = (next, self.motion.source()) else {
             return;
         };
         let QueuedClip { mut play, plan, .. } = next;
-        play.start = begin - way.begin / play.speed;
+        play.start = play.start_for(way.begin, begin);
         play.origin = place;
         let plan = plan.entered_by(&self.setup.body, &way);
-        let before = now.clip_time(play.start);
+        let before = now.motion_time(play.start).0;
         self.desired
             .tracker
             .continue_with(PlacedPlan::new(plan, play.speed, place), before);
@@ -280,9 +281,9 @@ impl Figure {
         self.motion.enter(MotionSource::Clip(play));
     }
 
-    /// Turns to a clip that begins at world time `begin`, s, which is `before` in the present motion. Without a clip,
-    /// holds the motion as it is: standing takes no movement, or is not possible.
-    fn follow_end(&mut self, clip: Option<Clip>, begin: f64, before: f64) {
+    /// Turns to a clip that begins at world time `begin`, which is `before` (s) in the plan of the present motion.
+    /// Without a clip, holds the motion as it is: standing takes no movement, or is not possible.
+    fn follow_end(&mut self, clip: Option<Clip>, begin: WorldTime, before: f64) {
         let Some(clip) = clip else {
             let (next, posture) = (self.motion.take_next(), self.desired.target.next.posture);
             self.set_drive(MotionSource::Hold(posture));
@@ -302,12 +303,12 @@ impl Figure {
 
     /// The motion under way, at the rate of joins: from the run-up that a stop planned at world time `time` needs, to
     /// the end of what is known. It still plays for `after` samples.
-    fn motion_until_stop(&mut self, time: f64, after: usize) -> (Given, Vec<Sample>) {
+    fn motion_until_stop(&mut self, time: WorldTime, after: usize) -> (Given, Vec<Sample>) {
         let from = time - self.desired.tracker.lag();
         let (begin, so_far) = self.motion_around(from, after as f64 / splice::RATE);
         let (streamed, before) = match self.motion.source() {
-            MotionSource::Clip(play) => (false, play.clip_time(begin)),
-            MotionSource::Live(live) => (true, live.stream_time(begin)),
+            MotionSource::Clip(play) => (false, play.motion_time(begin).0),
+            MotionSource::Live(live) => (true, live.stream_time(begin).0),
             MotionSource::Hold(_) | MotionSource::External(_) | MotionSource::Rehearsed(_) => {
                 (false, 0.0)
             }
@@ -323,8 +324,8 @@ impl Figure {
         (given, so_far)
     }
 
-    /// Postures and planted feet, with the world time of the first, s.
-    fn motion_around(&mut self, from: f64, still: f64) -> (f64, Vec<Sample>) {
+    /// Postures and planted feet, with the world time of the first.
+    fn motion_around(&mut self, from: WorldTime, still: f64) -> (WorldTime, Vec<Sample>) {
         match self.motion.source_mut() {
             MotionSource::Clip(play) => {
                 let count = (RUN_UP * splice::RATE) as usize;
@@ -341,13 +342,16 @@ impl Figure {
                 let (t, came) = (live.stream_time(from), live.motion.moved());
                 live.motion.advance(t + still);
                 let (first, so_far) = live.motion.known(t - RUN_UP, came);
-                (from + first - t, so_far)
+                // Only here a stream's time becomes world time. The last bits depend on the order.
+                (WorldTime(from.0 + first.0 - t.0), so_far)
             }
             MotionSource::Hold(posture) => {
                 let count = ((RUN_UP + STOP_AHEAD) * splice::RATE) as usize;
                 (from - RUN_UP, vec![(*posture, [true; 2]); count])
             }
-            MotionSource::External(_) | MotionSource::Rehearsed(_) => (0.0, Vec::new()),
+            MotionSource::External(_) | MotionSource::Rehearsed(_) => {
+                (WorldTime::default(), Vec::new())
+            }
         }
     }
 }

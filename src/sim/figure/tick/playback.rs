@@ -14,13 +14,14 @@ use crate::figure::tick::fall_detection::FEET;
 use crate::motion::{Clip, Target};
 use crate::plan::splice;
 use crate::tick_context::{Planning, TickContext};
+use crate::time::{MotionTime, WorldTime};
 use crate::track::{PlacedPlan, StepPlan};
 use std::sync::Arc;
 
 /// How a clip begins.
 struct Beginning {
-    /// Clip time at which it begins, s, and the posture then.
-    first: f64,
+    /// Time of the clip at which it begins, and the posture then.
+    first: MotionTime,
     posture: Posture,
     /// Standing, on one foot or both.
     upright: bool,
@@ -35,10 +36,10 @@ impl Figure {
     /// its own leads into it if it begins neither as the figure stands nor with steps from there. A figure that already
     /// stands as the clip begins, has fallen, or makes no steps, begins at once.
     ///
-    /// Returns the world time at which the clip's time 0 plays, s. It is an estimate if the figure switches directly,
+    /// Returns the world time at which the clip's time 0 plays. It is an estimate if the figure switches directly,
     /// has to stand first, or needs a way into the clip: ways are planned in the background, and taken in a tick that
     /// is fixed now. Allocates.
-    pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: f64) -> f64 {
+    pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: WorldTime) -> WorldTime {
         if self.motion.rehearsed().is_some() {
             self.leave_rehearsal();
         }
@@ -69,7 +70,7 @@ impl Figure {
             (true, false) => ease,
         };
         let led_after = if begins_so(&stand) { 0.0 } else { ENTRY_TIME };
-        let from = play.start + first / play.speed;
+        let from = play.world_time(first);
         let (due, entered) = if moves {
             let goal = begin.upright.then_some(goal);
             let goal = ExitGoal {
@@ -81,7 +82,7 @@ impl Figure {
         } else {
             (time, None)
         };
-        let expected = entered.unwrap_or(due.max(from) + led_after - first / play.speed);
+        let expected = entered.unwrap_or_else(|| play.start_for(first, due.max(from) + led_after));
         let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
         let stance = self
             .desired
@@ -104,11 +105,11 @@ impl Figure {
     }
 
     /// How a clip begins, if it should play from world time `time` on.
-    fn beginning(&self, play: &ClipPlayback, time: f64) -> Beginning {
-        let first = play.clip_time(time).clamp(-play.clip.lead_in(), 0.0);
+    fn beginning(&self, play: &ClipPlayback, time: WorldTime) -> Beginning {
+        let first = MotionTime(play.motion_time(time).0.clamp(-play.clip.lead_in(), 0.0));
         let Target {
             posture, planted, ..
-        } = play.clip.sample(first);
+        } = play.clip.sample(first.0);
         let body = &self.setup.body;
         let slow = play.motion().begins_as(body, first, &posture);
         Beginning {
@@ -139,7 +140,7 @@ impl Figure {
     }
 
     /// Whether the motion that is ending has stopped moving any joint.
-    fn has_come(&self, time: f64) -> bool {
+    fn has_come(&self, time: WorldTime) -> bool {
         let MotionSource::Clip(end) = self.motion.source() else {
             return true;
         };
@@ -149,7 +150,7 @@ impl Figure {
     }
 
     /// Begins to work out the way into the queued clip from the stand to which the motion leads, if the clip needs one.
-    pub(in crate::figure) fn plan_entry(&mut self, time: f64) {
+    pub(in crate::figure) fn plan_entry(&mut self, time: WorldTime) {
         let Some(q) = self.motion.next() else { return };
         let stands = !self.motion.has_fallen() && !self.crouches();
         let (next, first) = (q.play.motion(), q.first);
@@ -173,7 +174,7 @@ impl Figure {
     pub fn next_clip(&self) -> Option<&Arc<Clip>> {
         let coming = |play: &ClipPlayback| {
             let way = play.way_in.as_ref();
-            way.is_some_and(|w| self.desired.tracker.phase() < w.enters)
+            way.is_some_and(|w| self.desired.tracker.phase() < w.enters.0)
         };
         match (self.motion.next(), self.motion.source()) {
             (Some(q), _) => Some(&q.play.clip),
@@ -182,17 +183,18 @@ impl Figure {
         }
     }
 
-    /// Whether nothing of a clip is left to play at world time `time`, s.
-    fn is_over(&self, play: &ClipPlayback, time: f64) -> bool {
+    /// Whether nothing of a clip is left to play at world time `time`.
+    fn is_over(&self, play: &ClipPlayback, time: WorldTime) -> bool {
         let end = play.clip.duration() + play.clip.lead_out();
-        !play.looped && play.clip_time(time - self.desired.tracker.lag()) >= end
+        !play.looped && play.motion_time(time - self.desired.tracker.lag()).0 >= end
     }
 
     /// Whether there is a motion to follow: a clip that has begun and is not over, or a stream.
-    pub(in crate::figure) fn has_motion(&self, time: f64) -> bool {
+    pub(in crate::figure) fn has_motion(&self, time: WorldTime) -> bool {
         let moves = match self.motion.source() {
             MotionSource::Clip(play) => {
-                let begins = play.way_in.is_some() || play.clip_time(time) >= -play.clip.lead_in();
+                let begins =
+                    play.way_in.is_some() || play.motion_time(time).0 >= -play.clip.lead_in();
                 begins && !self.is_over(play, time)
             }
             MotionSource::External(_) | MotionSource::Live(_) => true,
@@ -202,7 +204,7 @@ impl Figure {
     }
 
     /// Whether it is in the middle of a clip or of a step.
-    fn is_busy(&self, time: f64) -> bool {
+    fn is_busy(&self, time: WorldTime) -> bool {
         let plays = match self.motion.source() {
             MotionSource::Clip(play) => !self.is_over(play, time),
             MotionSource::Live(_) => self.desired.tracker.is_walking(),
@@ -212,7 +214,7 @@ impl Figure {
     }
 
     /// Whether it is in the middle of a clip or a step, or on its way to a stand. False for a fallen figure.
-    pub fn comes_to_stand(&self, time: f64) -> bool {
+    pub fn comes_to_stand(&self, time: WorldTime) -> bool {
         let ends = || {
             self.desired
                 .tracker
@@ -269,7 +271,7 @@ impl Figure {
 
     /// A fallen figure gets up when its motion, which lay down, does: in its own way, after which it stands. Requests
     /// in between are queued.
-    pub(in crate::figure) fn update_get_up(&mut self, time: f64) {
+    pub(in crate::figure) fn update_get_up(&mut self, time: WorldTime) {
         let able = self.mode().gets_up();
         if !self.motion.has_fallen() || !able || self.setup.options.assist >= 1.0 {
             self.motion.lie_down();
@@ -316,7 +318,7 @@ impl Figure {
 
     /// Comes to a stand from world time `time` on: a walk ends with the steps that this takes, and any other motion is
     /// held as it is. The steps are planned in the background, while the motion continues. Allocates.
-    pub fn stop(&mut self, time: f64) {
+    pub fn stop(&mut self, time: WorldTime) {
         self.motion.take_next();
         self.motion.take_stream_entry();
         // Stops may have been left out in favour of a direct switch.

@@ -10,7 +10,7 @@ impl Figure {
     /// Changes the desired motion of an arm whose hand helps with a load.
     pub(in crate::figure) fn lead_second_hand(&mut self, world: &TickContext) {
         let time = world.time();
-        let helps = self.surroundings.disturbances.helpable(time);
+        let helps = self.surroundings.disturbances.helpable(time.0);
         if helps.is_none() && self.desired.second_hand.led().is_none() {
             return;
         }
@@ -37,7 +37,7 @@ impl Figure {
             state: &self.physical.state,
             ahead: &ahead,
             free,
-            time,
+            time: time.0,
             gravity: world.gravity,
             dt: world.dt,
         };

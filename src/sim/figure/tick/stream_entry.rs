@@ -9,6 +9,7 @@ use crate::plan::motion_transition::{StreamBeginning, StreamEntry};
 use crate::plan::splice;
 use crate::tick_context::Planning;
 use crate::tick_context::TickContext;
+use crate::time::WorldTime;
 
 impl Figure {
     /// Whether it stands and can be led into a stream by steps.
@@ -16,10 +17,10 @@ impl Figure {
         self.steps() && !self.crouches()
     }
 
-    /// Begins to work out the way from its stand into a stream.
+    /// Begins to work out the way from its stand into a stream, at world time `time`.
     ///
     /// * `came`: the beginning of the stream, at least [`StreamBeginning::needed`] samples, in its own place.
-    pub fn plan_stream_entry(&mut self, came: Vec<(Posture, Option<[bool; 2]>)>, time: f64) {
+    pub fn plan_stream_entry(&mut self, came: Vec<(Posture, Option<[bool; 2]>)>, time: WorldTime) {
         let stand = self.desired.target.next.posture;
         self.motion.plan_stream_entry(
             StreamEntryProblem {

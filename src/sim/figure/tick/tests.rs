@@ -9,6 +9,7 @@ use crate::motion::builtin::builtin;
 use crate::motion::{Clip, Target, TargetPair};
 use crate::setup::{ControllerKind, FigureSetup};
 use crate::tick_context::Planning;
+use crate::time::WorldTime;
 use crate::world::{World, WorldParams};
 use std::sync::Arc;
 
@@ -171,7 +172,7 @@ fn walking(planning: Planning) -> (World, FigureKey, Arc<Clip>) {
         .unwrap()
         .set_drive(MotionSource::Clip(ClipPlayback {
             looped: true,
-            ..ClipPlayback::new(Arc::clone(&clip), 0.0)
+            ..ClipPlayback::new(Arc::clone(&clip), WorldTime(0.0))
         }));
     (0..60).for_each(|_| world.step());
     (world, key, clip)

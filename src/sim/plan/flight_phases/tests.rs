@@ -1,5 +1,6 @@
 use super::*;
 use crate::math::Quat;
+use crate::plan::pelvis_shift::GroundWrench;
 
 const RATE: f64 = 120.0;
 
@@ -40,7 +41,13 @@ fn the_mass_of_a_runner_falls_freely_in_flight() {
         zmp: vec![[0.0; 2]; n],
         omega2: vec![10.0; n],
         load: vec![1.0; n],
-        wrench: vec![(Vec3::zero(), Vec3::zero()); n],
+        wrench: vec![
+            GroundWrench {
+                force: Vec3::zero(),
+                moment: Vec3::zero(),
+            };
+            n
+        ],
         com,
     };
     flights.observe(&track, &vec![0.0; n]);

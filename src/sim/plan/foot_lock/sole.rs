@@ -18,10 +18,35 @@ pub struct FootPose {
     pub toe: f64,
 }
 
+/// Pose of a foot without its toes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AnklePose {
+    /// Ankle, m.
+    pub at: Vec3,
+    /// `world_from_foot`.
+    pub rotation: Quat,
+}
+
+impl AnklePose {
+    /// That of the left (`side` 0) or right (1) foot where segments have these poses (place, m, and rotation).
+    pub fn of(poses: &[(Vec3, Quat); SEGMENT_COUNT], side: usize) -> Self {
+        let (at, rotation) = poses[FEET[side].index()];
+        Self { at, rotation }
+    }
+}
+
 /// Difference of two poses of a foot: translation (m), rotation vector (rad), toe extension (rad).
 pub(in crate::plan) type FootOffset = [f64; 7];
 
 impl FootPose {
+    /// The pose without the toes.
+    pub(in crate::plan) fn without_toes(&self) -> AnklePose {
+        AnklePose {
+            at: self.ankle,
+            rotation: self.rotation,
+        }
+    }
+
     /// The offset that takes `other` to this pose.
     pub(in crate::plan) fn offset_from(&self, other: &Self) -> FootOffset {
         let p = self.ankle - other.ankle;
@@ -151,10 +176,13 @@ impl Sole {
     }
 
     /// Largest distance between a foot's actual and its intended pose, over ankle, heel edge and toe joint, m.
-    pub fn stray(&self, is: (Vec3, Quat), should: &FootPose) -> f64 {
+    pub fn stray(&self, is: AnklePose, should: &FootPose) -> f64 {
         [Vec3::zero(), self.heel, self.toe_joint]
             .into_iter()
-            .map(|p| (is.0 + is.1.rotate(p) - should.ankle - should.rotation.rotate(p)).norm())
+            .map(|p| {
+                let off = is.at + is.rotation.rotate(p) - should.ankle - should.rotation.rotate(p);
+                off.norm()
+            })
             .fold(0.0, f64::max)
     }
 
@@ -191,12 +219,12 @@ impl Sole {
         pose
     }
 
-    /// Actual or nearest placement of a foot at `ankle` with `world_from_foot`: rolled about its heel edge or its toe
-    /// joint, according to its pitch. The same bits on every machine, since ticks use it.
-    pub fn footing(&self, (ankle, rotation): (Vec3, Quat)) -> FootPlacement {
-        let x = rotation.rotate(Vec3::X);
+    /// Actual or nearest placement of a foot with this pose: rolled about its heel edge or its toe joint, according to
+    /// its pitch. The same bits on every machine, since ticks use it.
+    pub fn footing(&self, pose: AnklePose) -> FootPlacement {
+        let x = pose.rotation.rotate(Vec3::X);
         let (yaw, pitch) = (trig::atan2(x.y, x.x), trig::atan2(x.z, x.level()));
-        let place = ankle - self.stand(Vec3::zero(), yaw, pitch).ankle;
+        let place = pose.at - self.stand(Vec3::zero(), yaw, pitch).ankle;
         FootPlacement {
             place: place.horizontal(),
             yaw,

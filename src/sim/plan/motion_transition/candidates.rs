@@ -1,12 +1,11 @@
 //! Moments at which a motion resembles the beginning of another one.
 
-use crate::body::topology::FEET;
 use crate::body::{Body, Posture};
 use crate::math::{Quat, Vec3, trig};
 use crate::motion::GRAVITY;
 use crate::motion::clip::PlanarTransform;
 use crate::motion::leg_ik::{center_of_mass, forward};
-use crate::plan::foot_lock::{FootPlacement, Sole};
+use crate::plan::foot_lock::{AnklePose, FootPlacement, Sole};
 use crate::plan::likeness::unlike;
 use crate::plan::params::{balance, likeness, stop, transition};
 use crate::plan::splice::Sample;
@@ -44,8 +43,7 @@ impl<'a> Features<'a> {
         let soles = [Sole::new(body, 0), Sole::new(body, 1)];
         let of = |(posture, _): &Sample| {
             let poses = forward(body, posture);
-            let feet = FEET.map(|f| poses[f.index()]);
-            let feet = [soles[0].footing(feet[0]), soles[1].footing(feet[1])];
+            let feet = [0, 1].map(|side| soles[side].footing(AnklePose::of(&poses, side)));
             (center_of_mass(body, &poses), feet)
         };
         let (com, feet) = samples.iter().map(of).unzip();

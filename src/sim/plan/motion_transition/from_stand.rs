@@ -17,12 +17,13 @@ use crate::plan::params::{balance, common, stop, transition};
 use crate::plan::prepare::{Draft, prepare_in};
 use crate::plan::splice::{SEAM_OPTIONS, blend_from_played};
 use crate::plan::turned_on_floor;
+use crate::time::MotionTime;
 
 impl NextClip {
-    /// Whether a body that stands like `stand` can let the clip begin at clip time `first` (s) without any preparation.
-    /// No platform-dependent rounding, since the tick asks for it.
-    pub fn begins_as(&self, body: &Body, first: f64, stand: &Posture) -> bool {
-        let sample = |t: f64| (self.sample(t).posture, [true; 2]);
+    /// Whether a body that stands like `stand` can let the clip begin at its time `first` without any preparation. No
+    /// platform-dependent rounding, since the tick asks for it.
+    pub fn begins_as(&self, body: &Body, first: MotionTime, stand: &Posture) -> bool {
+        let sample = |t: MotionTime| (self.sample(t).posture, [true; 2]);
         let later = self.speed / stop::RATE;
         let samples = [(*stand, [true; 2]), sample(first), sample(first + later)];
         let features = Features::new(body, &samples);
@@ -41,9 +42,13 @@ impl NextClip {
                 .all(|e| e.abs() * stop::RATE < transition::BEGIN_RATE)
     }
 
-    /// The path from standing like `stand` into the clip, which begins at clip time `first`, s. `None` if there is
-    /// none.
-    pub fn from_stand(&self, body: &Body, first: f64, stand: &Posture) -> Option<TransitionClip> {
+    /// The path from standing like `stand` into the clip, which begins at its time `first`. `None` if there is none.
+    pub fn from_stand(
+        &self,
+        body: &Body,
+        first: MotionTime,
+        stand: &Posture,
+    ) -> Option<TransitionClip> {
         let held = samples_in(stop::BLEND_TIME);
         let seen = samples_in(stop::BLEND_TIME + stop::PREPARED_TIME);
         let mut known = self.samples(first, seen + 1);

@@ -12,6 +12,7 @@ use crate::plan::cycle::relabel_prepared;
 use crate::plan::feasibility::infeasibility;
 use crate::plan::params::{stop, stream, transition};
 use crate::plan::splice::Sample;
+use crate::time::{MotionTime, StreamTime};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -72,8 +73,8 @@ impl StreamBeginning {
             plan.push(posture, *planted);
         }
         let came = self.came.len();
-        plan.advance(came as f64 / stream::RATE - plan.window());
-        let (_, known) = plan.known(0.0, came as i64);
+        plan.advance(StreamTime(came as f64 / stream::RATE - plan.window()));
+        let (_, known) = plan.known(StreamTime(0.0), came as i64);
         let mut labels: Vec<_> = known.into_iter().map(|s| s.1).collect();
         labels.resize(came, labels.last().copied().unwrap_or([true; 2]));
         labels
@@ -93,7 +94,7 @@ impl StreamBeginning {
         let mut best = None;
         // Later moments first: the later, the less the figure is behind.
         for entered in (0..=latest).rev().step_by(stop::SEARCH_STRIDE / 2) {
-            let first = entered as f64 / stream::RATE;
+            let first = MotionTime(entered as f64 / stream::RATE);
             let Some(way) = next.from_stand(body, first, &self.stand) else {
                 continue;
             };
@@ -112,8 +113,8 @@ impl StreamBeginning {
         if asks > transition::MOST_INFEASIBLE {
             return None;
         }
-        let goes_on = (way.until * stream::RATE).round() as usize;
-        let until = goes_on as f64 / stream::RATE;
+        let goes_on = (way.until.0 * stream::RATE).round() as usize;
+        let until = MotionTime(goes_on as f64 / stream::RATE);
         let count = ((until - way.begin) * stream::RATE + 1e-6).floor() as usize;
         let sample = |k: usize| {
             let t = way.clip.sample(until - k as f64 / stream::RATE - way.begin);

@@ -26,6 +26,7 @@ use crate::plan::prepare::{
 };
 use crate::plan::splice::Sample;
 use crate::plan::toe_hinge;
+use crate::time::MotionTime;
 
 /// A difference before, at and after the seam, which fades from there on.
 struct FadingOffset<const N: usize>([[f64; N]; 3]);
@@ -77,15 +78,15 @@ fn feet_of(body: &Body, posture: &Posture) -> [FootPose; 2] {
 }
 
 fn stood(sole: &Sole, pose: &FootPose) -> FootPlacement {
-    sole.footing((pose.ankle, pose.rotation))
+    sole.footing(pose.without_toes())
 }
 
 /// The place at which one motion turns into the next.
 #[derive(Clone, Copy)]
 pub(super) struct ClipEntry<'a> {
     pub(super) moment: &'a Moment,
-    /// Clip time at which the next motion is entered, s.
-    pub(super) enters: f64,
+    /// Time of the next motion at which it is entered.
+    pub(super) enters: MotionTime,
 }
 
 impl MotionSeam {
@@ -319,8 +320,8 @@ impl SeamMotion<'_> {
         for (i, p) in postures.iter().enumerate() {
             let is = feet_of(self.body, p);
             for s in (0..2).filter(|s| self.label[i][*s]) {
-                let pose = (is[s].ankle, is[s].rotation);
-                worst = worst.max(self.soles[s].stray(pose, &self.feet[s].poses[i]));
+                let stray = self.soles[s].stray(is[s].without_toes(), &self.feet[s].poses[i]);
+                worst = worst.max(stray);
             }
         }
         worst

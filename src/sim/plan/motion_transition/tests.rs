@@ -4,17 +4,16 @@
 
 use super::*;
 use crate::body::Posture;
-use crate::body::topology::{L_FOOT, R_FOOT};
 use crate::math::Vec3;
 use crate::motion::builtin::{at_ease, builtin};
 use crate::motion::leg_ik::forward;
-use crate::plan::foot_lock::Sole;
+use crate::plan::foot_lock::{AnklePose, Sole};
 
 const NOW: usize = 70;
 
-/// The built-in walk with all but its last strides as the lead-in, and the part of it from clip time `from` on as
+/// The built-in walk with all but its last strides as the lead-in, and the part of it from its time `from` on as
 /// planned paths know it.
-fn walked(body: &Body, from: f64) -> (Arc<Clip>, Vec<Sample>) {
+fn walked(body: &Body, from: MotionTime) -> (Arc<Clip>, Vec<Sample>) {
     let clip = builtin(body, "walk").unwrap();
     let lead = (2.4 * clip.rate_hz()) as usize;
     let clip = Arc::new(clip.with_ends(lead, 0));
@@ -53,7 +52,7 @@ fn apart(a: &Posture, b: &Posture) -> f64 {
 #[test]
 fn a_walk_into_itself_goes_on_as_it_was() {
     let body = Arc::new(Body::adult_man());
-    let (clip, known) = walked(&body, -0.6);
+    let (clip, known) = walked(&body, MotionTime(-0.6));
     let ways = into(&body, &known, &clip, 1.0);
     let moment = &ways.moments()[0];
     assert!(moment.capture < 0.01 && moment.unlike < 0.02, "{moment:?}");
@@ -74,7 +73,7 @@ fn a_walk_into_itself_goes_on_as_it_was() {
 #[test]
 fn a_way_ends_as_the_clip_does_and_no_foot_slides_on_it() {
     let body = Arc::new(Body::adult_man());
-    let (clip, known) = walked(&body, -0.5);
+    let (clip, known) = walked(&body, MotionTime(-0.5));
     for speed in [0.9, 1.0, 1.1] {
         let ways = into(&body, &known, &clip, speed);
         let (way, _) = ways.way(0).unwrap_or_else(|| panic!("at {speed}"));
@@ -86,11 +85,11 @@ fn a_way_ends_as_the_clip_does_and_no_foot_slides_on_it() {
 /// From its last moment on the path equals the clip, and moves like it.
 fn ends_as(way: &TransitionClip, clip: &Clip, speed: f64) {
     for t in [way.until, way.until + 0.1 * speed] {
-        let (a, b) = (way.clip.sample(t - way.begin), clip.sample(t));
-        assert!(apart(&a.posture, &b.posture) < 1e-4, "at {speed}, {t} s");
+        let (a, b) = (way.clip.sample(t - way.begin), clip.sample(t.0));
+        assert!(apart(&a.posture, &b.posture) < 1e-4, "at {speed}, {t:?}");
         let rates = a.velocity.iter().zip(&b.velocity);
         let faster = rates.fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-        assert!(faster < 0.02, "at {speed}, {t} s: {faster}");
+        assert!(faster < 0.02, "at {speed}, {t:?}: {faster}");
     }
 }
 
@@ -99,9 +98,8 @@ fn no_foot_slides(body: &Body, way: &TransitionClip) {
     let mut stood: [Option<Vec3>; 2] = [None; 2];
     for (posture, planted) in way.clip.samples() {
         let poses = forward(body, posture);
-        let feet = [L_FOOT, R_FOOT];
         for s in 0..2 {
-            let at = soles[s].footing(poses[feet[s].index()]).place;
+            let at = soles[s].footing(AnklePose::of(&poses, s)).place;
             let before = if planted[s] { stood[s] } else { None };
             let slid = before.map_or(0.0, |b| (at - b).norm());
             assert!(slid < 2e-4, "{slid} m in a sample");
@@ -121,7 +119,7 @@ fn who_stands_is_led_into_what_begins_otherwise() {
         looped: false,
     };
     // The clip begins at ease, and is under way a moment later.
-    assert!(next(&lift, 1.0).begins_as(&body, 0.0, &ease));
+    assert!(next(&lift, 1.0).begins_as(&body, MotionTime(0.0), &ease));
     let from = (0.6 * lift.rate_hz()) as usize;
     let (postures, planted) = lift.samples().skip(from).map(|(p, f)| (*p, f)).unzip();
     let clip = Clip::from_postures("lift", lift.rate_hz(), postures, planted).unwrap();
@@ -130,9 +128,9 @@ fn who_stands_is_led_into_what_begins_otherwise() {
     assert!(moves > 1.0, "{moves}");
     for speed in [0.8, 1.0, 1.2] {
         let next = next(&clip, speed);
-        assert!(!next.begins_as(&body, 0.0, &ease));
-        assert!(!next.begins_as(&body, 0.0, &first.posture));
-        let way = next.from_stand(&body, 0.0, &ease).unwrap();
+        assert!(!next.begins_as(&body, MotionTime(0.0), &ease));
+        assert!(!next.begins_as(&body, MotionTime(0.0), &first.posture));
+        let way = next.from_stand(&body, MotionTime(0.0), &ease).unwrap();
         let begins = way.clip.sample(0.0);
         let off = begins.posture.joint_difference(&ease);
         let off = off.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
@@ -140,14 +138,14 @@ fn who_stands_is_led_into_what_begins_otherwise() {
         assert!(off < 0.16, "at {speed}: {off} rad");
         ends_as(&way, &clip, speed);
         no_foot_slides(&body, &way);
-        assert!(!way.leads_over() && way.until > 0.2 * speed);
+        assert!(!way.leads_over() && way.until.0 > 0.2 * speed);
     }
 }
 
 #[test]
 fn nothing_of_a_walk_is_like_standing() {
     let body = Arc::new(Body::adult_man());
-    let (_, known) = walked(&body, -0.6);
+    let (_, known) = walked(&body, MotionTime(-0.6));
     let idle = Arc::new(builtin(&body, "idle").unwrap());
     assert!(into(&body, &known, &idle, 1.0).moments().is_empty());
 }

@@ -10,7 +10,7 @@ use crate::body::{Body, Posture};
 use crate::math::{Quat, Vec3};
 use crate::motion::filter::{low_pass, low_pass_rotations};
 use crate::motion::leg_ik::{forward, knee_axis, solve_leg};
-use crate::plan::foot_lock::{LockedFoot, Sole};
+use crate::plan::foot_lock::{AnklePose, LockedFoot, Sole};
 use crate::plan::params::{leg, swing};
 use crate::plan::toe_hinge;
 
@@ -44,7 +44,7 @@ pub(super) fn into_limits(
         note_clamped(clamped, &off, n);
         let behind = |s: usize| off[DOF_START[THIGHS[s].index()]] < 0.0;
         for s in (0..2).filter(|s| !planted[*s] && behind(*s)) {
-            lift_by_knee(body, posture, s, wanted[FEET[s].index()]);
+            lift_by_knee(body, posture, s, AnklePose::of(&wanted, s));
         }
         for s in (0..2).filter(|s| !planted[*s]) {
             raise_foot(body, posture, s, &soles[s]);
@@ -54,9 +54,9 @@ pub(super) fn into_limits(
             if !planted[s] {
                 continue;
             }
-            let (at, q) = poses[FEET[s].index()];
-            let low = at.z + soles[s].lowest(q, posture.hinge[toe_hinge(s)]);
-            let stray = soles[s].stray((at, q), &locked[s].poses[i]);
+            let is = AnklePose::of(&poses, s);
+            let low = is.at.z + soles[s].lowest(is.rotation, posture.hinge[toe_hinge(s)]);
+            let stray = soles[s].stray(is, &locked[s].poses[i]);
             if stray > accuracy || low < -accuracy {
                 planted[s] = false;
                 held.freed += 1;
@@ -72,7 +72,7 @@ pub(super) fn into_limits(
 
 /// Bends the knee of a swinging leg whose hip does not reach far enough back, until its ankle is as high as `wanted`.
 /// Otherwise its foot would be in the floor.
-fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, Quat)) {
+fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: AnklePose) {
     let shank = SHANKS[side].index();
     let foot = FEET[side].index();
     let (Joint::Hinge1(k), Joint::Ball(f)) = (JOINT[shank], JOINT[foot]) else {
@@ -81,7 +81,7 @@ fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, 
     let most = body.upper[DOF_START[shank]] - leg::LIMIT_MARGIN;
     for _ in 0..leg::SOLVES {
         let poses = forward(body, posture);
-        let low = wanted.0.z - poses[foot].0.z;
+        let low = wanted.at.z - poses[foot].0.z;
         let axis = knee_axis(posture, side == 0);
         let rises = axis.cross(poses[foot].0 - poses[shank].0).z;
         if low < leg::KNEE_SLACK || rises < leg::KNEE_RISE || posture.hinge[k] >= most {
@@ -89,7 +89,7 @@ fn lift_by_knee(body: &Body, posture: &mut Posture, side: usize, wanted: (Vec3, 
         }
         posture.hinge[k] = (posture.hinge[k] + (low / rises).min(leg::KNEE_STEP)).min(most);
         let shank = forward(body, posture)[shank].1;
-        posture.ball[f] = (shank.conjugate() * wanted.1).normalized();
+        posture.ball[f] = (shank.conjugate() * wanted.rotation).normalized();
     }
     clamp_to_limits(body, posture, leg::LIMIT_MARGIN * 0.5);
 }

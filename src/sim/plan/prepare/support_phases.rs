@@ -1,13 +1,12 @@
 //! The support of the body in each sample, and how well the plan stays over it.
 
 use crate::body::angles::clamp_to_limits;
-use crate::body::topology::FEET;
 use crate::body::{Body, Posture};
 use crate::math::polygon::{hull, margin};
 use crate::motion::filter::{low_pass, percentile};
 use crate::motion::leg_ik::forward;
 use crate::plan::ankle_torque_limit::{AnkleTorqueLimit, Over};
-use crate::plan::foot_lock::{LockedFoot, Sole};
+use crate::plan::foot_lock::{AnklePose, LockedFoot, Sole};
 use crate::plan::params::{ankle, balance, leg, pelvis};
 use crate::plan::pelvis_shift::{MassTrack, OtherSupport, SupportPhase};
 use crate::reference::units::millimetres;
@@ -63,7 +62,7 @@ pub(super) fn within_reach(
         clamp_to_limits(body, &mut posture, leg::LIMIT_MARGIN * 0.5);
         let poses = forward(body, &posture);
         let near = |s: usize| {
-            let stray = soles[s].stray(poses[FEET[s].index()], &locked[s].poses[i]);
+            let stray = soles[s].stray(AnklePose::of(&poses, s), &locked[s].poses[i]);
             stray <= leg::SEAM_HELD
         };
         match *planted {

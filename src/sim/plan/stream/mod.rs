@@ -18,7 +18,7 @@ mod repeated_samples;
 mod whole_body;
 
 use super::ankle_torque_limit::AnkleTorqueLimit;
-use super::foot_lock::{FootPose, Sole};
+use super::foot_lock::{AnklePose, FootPose, Sole};
 use crate::body::topology::{FEET, NV, SEGMENT_COUNT, TOES};
 use crate::body::{Body, Posture};
 use crate::math::curve::smootherstep;
@@ -28,6 +28,7 @@ use crate::motion::clip::{Knot, PlanarTransform, between};
 use crate::motion::leg_ik::{center_of_mass, forward};
 use crate::motion::target::Target;
 use crate::plan::params::{contact, pelvis, stream, transition};
+use crate::time::StreamTime;
 pub use foot::Stance;
 use foot::StreamFoot;
 use receding_horizon::Balance;
@@ -193,7 +194,7 @@ struct Placement {
     join: Option<(i64, f64)>,
 }
 
-/// A stream of one figure on its way to becoming a motion. Times count from the first sample, s.
+/// A stream of one figure on its way to becoming a motion.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StreamPlan {
     #[serde(with = "crate::saved::definition")]
@@ -358,10 +359,10 @@ impl StreamPlan {
         self.input.pending.push_back(raw);
     }
 
-    /// Prepares the received samples, up to time `t` (s) of the motion. Where the stream has not come that far, it
-    /// stands still in its last posture.
-    pub fn advance(&mut self, t: f64) {
-        let needed = ((t * RATE - 1e-6).ceil() as i64).saturating_add(self.timing.window);
+    /// Prepares the received samples, up to time `t`. Where the stream has not come that far, it stands still in its
+    /// last posture.
+    pub fn advance(&mut self, t: StreamTime) {
+        let needed = ((t.0 * RATE - 1e-6).ceil() as i64).saturating_add(self.timing.window);
         // Time jumps of hostile clocks are not made up for sample by sample.
         let most = self.count + self.timing.window + stream::PAST;
         while self.count < needed.min(most) {
@@ -585,13 +586,13 @@ impl StreamPlan {
 
     /// Place, heading and pitch of a foot of a smoothed sample, and how fast its place moves, m/s.
     fn standing(&self, side: usize, i: i64) -> foot::StandingSample {
-        let pose = |i: i64| self.at(i).poses[FEET[side].index()];
+        let pose = |i: i64| AnklePose::of(&self.at(i).poses, side);
         let [before, at] = [i - 1, i].map(|i| self.soles[side].footing(pose(i)));
         foot::StandingSample {
             place: at.place,
             yaw: at.yaw,
             pitch: at.pitch,
-            steep: foot::steepness(pose(i).1, at.pitch),
+            steep: foot::steepness(pose(i).rotation, at.pitch),
             speed: (at.place - before.place).norm() * RATE,
         }
     }
@@ -624,44 +625,44 @@ impl StreamPlan {
         }
     }
 
-    /// The motion at time `t`, s; clamped to the samples that were output and are still held.
-    pub fn sample(&self, t: f64) -> Target {
+    /// The motion at time `t`, clamped to the samples that were output and are still held.
+    pub fn sample(&self, t: StreamTime) -> Target {
         if self.count == 0 {
             return Target::still(Posture::default());
         }
         if self.output.last < 0 {
             return Target::still(self.at(0).raw);
         }
-        if t < 0.0 {
-            return Target::still(self.sample(0.0).posture);
+        if t.0 < 0.0 {
+            return Target::still(self.sample(StreamTime(0.0)).posture);
         }
         let n = self.output.knots.len() as i64;
         // The newest two have no rates of their own yet.
         let last = (self.output.last - 2).max(0) as f64;
         let first = (self.output.last - n + 1).max(0) as f64;
-        let x = (t * RATE).clamp(first, last.max(first));
+        let x = (t.0 * RATE).clamp(first, last.max(first));
         let i = (x as i64).min((last as i64 - 1).max(0));
         let knot = |i: i64| &self.output.knots[i.rem_euclid(n) as usize];
         between(knot(i), knot(i + 1), H, (x - i as f64).clamp(0.0, 1.0))
     }
 
-    /// Centroidal angular momentum of the recording at time `t`, s, also for samples not output yet, N·m·s, axes of the
+    /// Centroidal angular momentum of the recording at time `t`, also for samples not output yet, N·m·s, axes of the
     /// stream; `None` where that is not known. A recorded body keeps it in flight, however its legs are changed.
-    pub fn spin_at(&self, t: f64) -> Option<Vec3> {
-        let i = (t * RATE).round() as i64;
+    pub fn spin_at(&self, t: StreamTime) -> Option<Vec3> {
+        let i = (t.0 * RATE).round() as i64;
         let newest = self.count - stream::SMOOTH - 2;
         let held = self.count - self.ring.len() as i64;
         (i > held.max(0) && i <= newest).then(|| self.at(i).momentum)
     }
 
-    /// Time up to which touch-downs are seen, s.
-    pub fn seen(&self) -> f64 {
-        (self.count - stream::SMOOTH - 2).max(0) as f64 * H
+    /// Time up to which touch-downs are seen.
+    pub fn seen(&self) -> StreamTime {
+        StreamTime((self.count - stream::SMOOTH - 2).max(0) as f64 * H)
     }
 
-    /// Latest time that can be sampled, s.
-    pub fn ready(&self) -> f64 {
-        (self.output.last - 2).max(0) as f64 * H
+    /// Latest time that can be sampled.
+    pub fn ready(&self) -> StreamTime {
+        StreamTime((self.output.last - 2).max(0) as f64 * H)
     }
 
     /// Stances of a foot (0 left, 1 right) that are known, oldest first; times in samples.
@@ -669,15 +670,15 @@ impl StreamPlan {
         self.feet[side].stances()
     }
 
-    /// The motion from time `from` (s) on as far as it has been received, with its feet: first the samples that were
+    /// The motion from time `from` on as far as it has been received, with its feet: first the samples that were
     /// output, then those still in the window as received, joined smoothly. Samples are 1/[`RATE`] s apart; the time of
     /// the first one is returned with them. `came`: number of received samples, if the motion has been prepared beyond
     /// them.
-    pub fn known(&self, from: f64, came: i64) -> (f64, Vec<(Posture, [bool; 2])>) {
+    pub fn known(&self, from: StreamTime, came: i64) -> (StreamTime, Vec<(Posture, [bool; 2])>) {
         let n = self.output.knots.len() as i64;
         let last = self.count.min(came) - 1;
         let done = (self.output.last - 2).max(0);
-        let first = ((from * RATE) as i64).clamp((self.output.last - n + 1).max(0), done);
+        let first = ((from.0 * RATE) as i64).clamp((self.output.last - n + 1).max(0), done);
         let mut all: Vec<(Posture, [bool; 2])> = (first..=done)
             .map(|i| {
                 let knot = &self.output.knots[i.rem_euclid(n) as usize];
@@ -685,7 +686,7 @@ impl StreamPlan {
             })
             .collect();
         let Some(&(end, _)) = all.last() else {
-            return (0.0, all);
+            return (StreamTime(0.0), all);
         };
         let moved = self.at(done).raw.difference(&end);
         let (labelled, seen) = (last - LABEL, last - stream::SMOOTH - 1);
@@ -698,7 +699,7 @@ impl StreamPlan {
             });
             all.push((p, down));
         }
-        (first as f64 * H, all)
+        (StreamTime(first as f64 * H), all)
     }
 }
 

@@ -12,7 +12,7 @@ use crate::motion::GRAVITY;
 use crate::motion::leg_ik::{center_of_mass, forward};
 use crate::plan::ankle_torque_limit::Over;
 use crate::plan::params::balance;
-use crate::plan::pelvis_shift::{lasts_outside, pendulum_omega2, zero_moment_point};
+use crate::plan::pelvis_shift::{GroundWrench, lasts_outside, pendulum_omega2, zero_moment_point};
 
 impl StreamPlan {
     /// Angular momentum of sample `i` by central differences.
@@ -67,8 +67,11 @@ impl StreamPlan {
         let heading = self.at(j).smooth.root_rotation.heading();
         let mut balanced = Balanced::new(b.xy(), omega2, heading);
         if load > balance::LEAST_LOAD && j >= 2 {
-            let force = (acc + Vec3::Z * GRAVITY) * mass;
-            let z = zero_moment_point(b, (force, rate));
+            let wrench = GroundWrench {
+                force: (acc + Vec3::Z * GRAVITY) * mass,
+                moment: rate,
+            };
+            let z = zero_moment_point(b, wrench);
             let way = (c - a) * (0.25 * RATE);
             let over = Over {
                 height: b.z,

@@ -14,14 +14,11 @@ fn through(
     let mut out = Vec::new();
     for i in 0..samples {
         live.push(&posture(i), None);
-        let t = (i + 1) as f64 / RATE - live.window();
+        let t = StreamTime((i + 1) as f64 / RATE - live.window());
         live.advance(t);
-        if t >= 0.0 {
-            assert!(
-                live.ready() >= t - 1e-9,
-                "{t}: only {} is ready",
-                live.ready()
-            );
+        if t.0 >= 0.0 {
+            let ready = live.ready();
+            assert!(ready >= t - 1e-9, "{t:?}: only {ready:?} is ready");
             out.push(live.sample(t));
         }
     }
@@ -78,9 +75,10 @@ fn planted_feet_do_not_slide_and_the_motion_is_its_own_derivative() {
             );
         }
         let poses = forward(&body, &pair[1].posture);
-        for (side, foot) in FEET.into_iter().enumerate() {
-            let (ankle, rotation) = poses[foot.index()];
-            let at = Sole::new(&body, side).footing((ankle, rotation)).place;
+        for side in 0..2 {
+            let at = Sole::new(&body, side)
+                .footing(AnklePose::of(&poses, side))
+                .place;
             if !pair[1].planted[side] {
                 steps += usize::from(stands[side].is_some());
                 stands[side] = None;
@@ -136,8 +134,9 @@ fn wild_streams_stay_finite_and_bounded() {
             ));
         }
         live.push(&p, Some([random.random(), random.random()]));
-        live.advance(i as f64 / RATE - 0.3);
-        let t = live.sample(i as f64 / RATE - 0.3);
+        let t = StreamTime(i as f64 / RATE - 0.3);
+        live.advance(t);
+        let t = live.sample(t);
         assert!(t.posture.is_finite());
         assert!(
             t.velocity
@@ -147,7 +146,7 @@ fn wild_streams_stay_finite_and_bounded() {
         );
     }
     // Clocks that leap do not make it work for ever.
-    live.advance(1e9);
+    live.advance(StreamTime(1e9));
     for _ in 0..3 * MOST_PENDING {
         live.push(&at_ease(&body), None);
     }
@@ -190,12 +189,13 @@ fn the_momentum_of_the_stream_is_known_ahead_of_what_is_put_out() {
     };
     let (live, out) = through(&body, 0.5, 120, |i| fall(i as f64 / RATE));
     let newest = 119.0 / RATE;
-    let emit = live.ready();
+    let emit = live.ready().0;
+    let spin_at = |t: f64| live.spin_at(StreamTime(t));
     assert!(out.len() > 60 && emit < newest - 0.4);
-    assert_eq!(live.spin_at(newest), None, "its neighbours have not come");
-    assert_eq!(live.spin_at(f64::NAN), None);
+    assert_eq!(spin_at(newest), None, "its neighbours have not come");
+    assert_eq!(spin_at(f64::NAN), None);
     for t in [-1.0, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
-        assert_eq!(live.spin_at(t), None, "{t}");
+        assert_eq!(spin_at(t), None, "{t}");
     }
     // One rigid body that turns: inertia about the lateral axis, from its own links, times the rate.
     for t in [emit, emit + 0.2, newest - 0.1] {
@@ -208,7 +208,7 @@ fn the_momentum_of_the_stream_is_known_ahead_of_what_is_put_out() {
             expected += arm.cross(rate.cross(arm)) * segment.mass
                 + q.rotate(segment.inertia * q.conjugate().rotate(rate));
         }
-        let found = live.spin_at(t).unwrap();
+        let found = spin_at(t).unwrap();
         let off = (found - expected).norm();
         assert!(off < 0.01 * expected.norm(), "{t}: {found:?} {expected:?}");
     }
@@ -270,7 +270,7 @@ fn who_rocks_to_and_fro_is_not_carried_by_a_chair() {
         let mut live = StreamPlan::new(Arc::clone(&body), 0.5);
         for i in 0..300 {
             live.push(&posture(i as f64 / RATE), Some([true; 2]));
-            live.advance((i + 1) as f64 / RATE - live.window());
+            live.advance(StreamTime((i + 1) as f64 / RATE - live.window()));
         }
         live.at(live.count - 1 - LABEL).trust
     };
