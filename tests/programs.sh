@@ -10,6 +10,6 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 cd "$root"
 profile=debug
 [ "${1:-}" != --release ] || profile=release
-"${CARGO:-cargo}" build --locked --quiet "$@" --workspace --features sinew/otlp \
+"${CARGO:-cargo}" build --locked --quiet "$@" --workspace --exclude benches --features sinew/otlp \
     --bin sinew --bin dump_dynamics --bin dump_paper --example client >&2
 echo "${CARGO_TARGET_DIR:-$root/target}/$profile/sinew"

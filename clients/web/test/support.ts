@@ -8,6 +8,8 @@ import { fileURLToPath } from "node:url";
 const here = dirname(fileURLToPath(import.meta.url));
 export const root = join(here, "../../..");
 export const program = process.env.SINEW_BIN ?? join(root, "target/debug/sinew");
+/** Least time between two pictures in tests, ms. */
+const PICTURE_MS = Number(process.env.PICTURE_MS ?? 100);
 /** Where screenshots are kept, to be looked at. */
 export const SHOTS = join(here, "../shots");
 mkdirSync(SHOTS, { recursive: true });
@@ -57,6 +59,21 @@ const pageFolder = process.env.SINEW_PAGE;
 export const test = base.extend<{ server: Server }>({
   server: async ({ page, context }, use) => {
     const server = new Server();
+    // Pictures are drawn by software here, on all processors and as often as it can: fewer leave time to the rest.
+    await context.addInitScript((least) => {
+      const request = window.requestAnimationFrame.bind(window);
+      const drawn = new WeakMap<FrameRequestCallback, number>();
+      window.requestAnimationFrame = (draw) => {
+        const due = (t: number): void => {
+          if (t - (drawn.get(draw) ?? -Infinity) < least) request(due);
+          else {
+            drawn.set(draw, t);
+            draw(t);
+          }
+        };
+        return request(due);
+      };
+    }, PICTURE_MS);
     if (pageFolder)
       for (const [path, name] of [
         ["/", "index.html"],
