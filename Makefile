@@ -38,7 +38,7 @@ test: prepare $(PARTS) ## every test that needs nothing from outside the reposit
 recordings: ## the tests that need real motion capture in SINEW_MOCAP_DIR
 	@$(ROOT)/tests/recordings/check.sh
 	cd $(ROOT) && $(CARGO) $(TESTS) --test recordings
-	@$(ROOT)/tests/survey.sh strict
+	@$(ROOT)/tests/survey.sh strict live-30
 	@echo "make recordings: passed, with $(SINEW_MOCAP_DIR)."
 
 ci: ## what CI runs
@@ -72,6 +72,7 @@ proto: setup ## the protos: rules of buf, and nothing broken since version 1 of 
 
 rust: ## Rust tests and lints, with warnings denied
 	cd $(ROOT) && $(CARGO) $(TESTS) --no-fail-fast
+	cd $(ROOT) && $(CARGO) $(TESTS) --test server otlp -- --ignored
 
 survey: ## every measure of every clip of tests/corpus against the stored one
 	$(ROOT)/tests/survey.sh corpus

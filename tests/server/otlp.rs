@@ -76,6 +76,7 @@ fn text(value: &str) -> Option<Value> {
 /// Calls with and without a token, good and bad, within a trace of the client; a world that ticks; then the server
 /// ends, which sends the remaining spans.
 #[tokio::test(flavor = "multi_thread")]
+#[ignore = "a process has one collector, which would see the other tests of this one: `make rust` runs it alone"]
 async fn a_collector_receives_calls_and_a_few_ticks() {
     let (collector, endpoint) = Collector::start().await;
     let flags = [

@@ -35,6 +35,8 @@ pub struct Server {
     child: Child,
     /// Its address.
     pub address: SocketAddr,
+    /// Memory in use before the attack, KiB.
+    calm_kib: u64,
 }
 
 impl Server {
@@ -64,7 +66,11 @@ impl Server {
             .unwrap_or_else(|| panic!("the server did not start: {first:?}"))
             .parse()
             .unwrap();
-        Self { child, address }
+        Self {
+            child,
+            address,
+            calm_kib: 0,
+        }
     }
 
     /// A line of `/proc/PID/status`, KiB.
@@ -85,6 +91,11 @@ impl Server {
     /// Peak memory use, KiB.
     pub fn peak_kib(&self) -> u64 {
         self.memory_kib("VmHWM")
+    }
+
+    /// Memory that the attack added at its peak, KiB.
+    pub fn added_kib(&self) -> u64 {
+        self.peak_kib().saturating_sub(self.calm_kib)
     }
 
     /// Whether the process still runs.
@@ -177,7 +188,7 @@ where
         .build();
     let runtime = runtime.unwrap();
     let quiet_us = runtime.block_on(witness::begin(address));
-    let calm_kib = server.resident_kib();
+    server.calm_kib = server.resident_kib();
     runtime.block_on(attack(address));
     let _ = stop.send(());
     let (checks, slowest, refused) = watching.join().unwrap();
@@ -185,7 +196,7 @@ where
     let peak_kib = server.peak_kib();
     eprintln!(
         "memory {} MB at rest, {} MB at most; {checks} health checks, slowest {:.0} ms",
-        calm_kib / 1024,
+        server.calm_kib / 1024,
         peak_kib / 1024,
         slowest.as_secs_f64() * 1e3,
     );
