@@ -50,8 +50,9 @@ NIGHTLY := acceptance abuse chaos notebooks pages surveys benches
 nightly: test shipped $(NIGHTLY) ## what takes longer than CI has
 	@echo "make nightly: passed: test shipped $(NIGHTLY)."
 
-# Installing uses one processor at most.
+# Installing uses one processor at most, so the build runs beside it, once there is a linker.
 prepare:
+	@command -v cc >/dev/null || $(ROOT)/tests/setup.sh
 	$(MAKE) --no-print-directory -C $(ROOT) -j 2 setup build
 
 build: ## tests, and programs that tests call, without running them
