@@ -17,11 +17,11 @@ RUFF := .venv/bin/ruff format --quiet --config clients/python/pyproject.toml cli
 oracle load python viewer pages proto generate fmt: export PATH := $(ROOT)/.venv/bin:$(PATH)
 
 # As users build it.
-shipped acceptance soak run: export RUSTC_WORKSPACE_WRAPPER :=
+release shipped acceptance soak run: export RUSTC_WORKSPACE_WRAPPER :=
 
 .DEFAULT_GOAL := help
-.PHONY: help run test recordings ci nightly prepare build setup lint proto rust survey shipped oracle python \
-	viewer load deploy acceptance abuse chaos notebooks pages surveys benches soak fuzz generate fmt
+.PHONY: help run test recordings ci nightly prepare build setup lint proto rust survey release shipped oracle \
+	python viewer load deploy acceptance abuse chaos notebooks pages surveys benches soak fuzz generate fmt
 
 help: ## what there is
 	@sed -n 's/^\([a-z]*\):.*## /\1\t/p' $(ROOT)/Makefile
@@ -78,7 +78,10 @@ rust: ## Rust tests and lints, with warnings denied
 survey: ## every measure of every clip of tests/corpus against the stored one
 	$(ROOT)/tests/survey.sh corpus
 
-shipped: ## six clips by the binary that is shipped, which rounds and inlines differently, against recorded hashes
+release: ## the server as users build it
+	cd $(ROOT) && $(CARGO) build --release --locked --quiet --bin sinew
+
+shipped: release ## six clips by the binary that is shipped, which rounds differently, against recorded hashes
 	$(ROOT)/tests/shipped.sh
 
 load: setup ## ghz against a live server
@@ -105,7 +108,8 @@ pages: setup ## the viewer's page in a browser where pictures are compared or ti
 	cd $(ROOT)/clients/web && npm test --silent -- --grep @nightly
 
 surveys: ## all stored surveys: of tests/corpus, and of recordings where SINEW_MOCAP_DIR has them
-	$(ROOT)/tests/survey.sh corpus $(if $(SINEW_MOCAP_DIR),strict noise loads live live-30 assisted)
+	$(ROOT)/tests/survey.sh corpus $(if $(SINEW_MOCAP_DIR),strict noise loads live live-30 live-100 live-500ms \
+		live-500ms-100 live-300ms live-300ms-100 assisted assisted-100 rehearsed-30)
 
 benches: ## the benches build, and are linted
 	cd $(ROOT) && $(CARGO) build --locked -p benches --all-targets

@@ -2,16 +2,11 @@
 # Runs six clips of tests/corpus by the binary that users build, and compares the hash of every bit of the last state
 # with tests/golden/shipped.txt. That binary rounds, inlines and vectorises as no build of the tests does.
 #
-#   tests/shipped.sh [--store]     options by environment: SINEW_BIN (a built binary)
+#   tests/shipped.sh [--store]     after `make release`, or with SINEW_BIN, a built binary
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 golden=$root/tests/golden/shipped.txt
-if [ -n "${SINEW_BIN:-}" ]; then
-    binary=$SINEW_BIN
-else
-    (cd "$root" && "${CARGO:-cargo}" build --release --locked --quiet --bin sinew)
-    binary=${CARGO_TARGET_DIR:-$root/target}/release/sinew
-fi
+binary=${SINEW_BIN:-${CARGO_TARGET_DIR:-$root/target}/release/sinew}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 for clip in walk-normal.cmu turn.mixamo squat.lafan jump.vrm kick.cmu lie-down.vrm; do

@@ -20,9 +20,16 @@ setting() {
     loads) options="--load 10@r_hand" section=loads ;;
     live) options="--live-window 1" section=live ;;
     live-30) options="--live-window 1 --follow assisted" ;;
+    live-100) options="--live-window 1 --follow always" ;;
+    live-500ms) options="--live-window 0.5 --follow assisted" ;;
+    live-500ms-100) options="--live-window 0.5 --follow always" ;;
+    live-300ms) options="--live-window 0.3 --follow assisted" ;;
+    live-300ms-100) options="--live-window 0.3 --follow always" ;;
     assisted) options="--follow assisted" ;;
+    assisted-100) options="--follow always" ;;
+    rehearsed-30) options="--follow assisted --rehearse" ;;
     *)
-        echo "survey: no setting $1; there are: corpus strict noise loads live live-30 assisted" >&2
+        echo "survey: no setting $1" >&2
         exit 2
         ;;
     esac

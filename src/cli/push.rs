@@ -1,6 +1,6 @@
 //! `sinew push`: streams a motion capture file to a server as live motion for a figure.
 
-use super::args::{BodyNameParser, CredentialArgs, FileArgs, UpArg};
+use super::args::{BodyNameParser, CredentialArgs, FileArgs, LiveHelpArgs, UpArg};
 use super::exit::{UsageError, within};
 use super::number::{counted, hertz};
 use super::remote::{explain, world_resource};
@@ -43,9 +43,9 @@ pub struct PushArgs {
     /// Body of the figure if it is created: one of these, or a profile such as female-25y-1680mm-61500g
     #[arg(long, value_name = "NAME", default_value = DEFAULT_BODY, value_parser = BodyNameParser)]
     body: Profile,
-    /// Most help while its motion is being lost, of the figure if it is created: force over the weight, 0 to 2
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
-    max_help: f64,
+    /// Help while the motion is being lost, of the figure if it is created
+    #[command(flatten)]
+    help: LiveHelpArgs,
     /// Repeat until interrupted
     #[arg(long = "loop")]
     looped: bool,
@@ -73,8 +73,8 @@ pub struct PushArgs {
     /// Unit and axes of the file
     #[command(flatten)]
     file: FileArgs,
-    /// Keep recorded runs. Otherwise runs are turned into walks, slower and with shorter steps, which measured strength
-    /// can do
+    /// Keep recorded runs. Otherwise, without help, runs are turned into walks, slower and with shorter steps, which
+    /// measured strength can do
     #[arg(long, conflicts_with = "raw")]
     keep_runs: bool,
 }
@@ -100,7 +100,7 @@ fn check(args: &PushArgs) -> anyhow::Result<()> {
             args.playout_delay_ms.unwrap_or(0.0),
             2000.0,
         ),
-        ("--max-help", args.max_help, 2.0),
+        ("--max-help", args.help.most(), 2.0),
     ] {
         within(name, value, [0.0, high])?;
     }
@@ -165,7 +165,8 @@ async fn push(args: &PushArgs) -> anyhow::Result<()> {
                 figure: Some(pb::Figure {
                     body: body_name.clone(),
                     placement: Some(convert::place_out(start)),
-                    max_help_weights: args.max_help,
+                    follow: convert::motion::follow_out(args.help.settings().follow).into(),
+                    max_help_weights: Some(args.help.most()),
                     ..Default::default()
                 }),
                 ..Default::default()
@@ -195,6 +196,15 @@ async fn push(args: &PushArgs) -> anyhow::Result<()> {
         hertz(clip.rate_hz()),
         clip.duration()
     ))?;
+    let most = existing.map_or(args.help.most(), |f| f.max_help_weights.unwrap_or(0.0));
+    print_line(&if most > 0.0 {
+        let percent = 100.0 * most;
+        format!(
+            "where strength is not enough, it is helped by at most {percent:.0} % of its weight"
+        )
+    } else {
+        "it follows by its own strength; --follow assisted helps a new figure where that is not enough".to_owned()
+    })?;
     stream(args, &clip, &engine::placing(start, place), driver).await
 }
 
@@ -213,7 +223,7 @@ fn prepared(args: &PushArgs, recording: &Recording, body: &Body) -> anyhow::Resu
         let reading = BvhReading {
             unit_m: args.file.unit,
             z_up: args.file.up.map(|up| up == UpArg::Z),
-            walk_runs: Some(!args.keep_runs),
+            walk_runs: Some(!args.keep_runs && args.help.most() == 0.0),
             ..Default::default()
         };
         let fitted = engine::retarget(&args.figure, recording, &reading, body, 1.0, &|| false)

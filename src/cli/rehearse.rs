@@ -1,6 +1,6 @@
 //! `sinew rehearse`: finds the changes to a recording, or the help, with which a body can do it.
 
-use super::args::{BodyArgs, FileArgs, LoadSpec};
+use super::args::{BodyArgs, FileArgs, FollowArg, HelpArgs, LoadSpec};
 use super::exit::{usage, within};
 use super::number::{counted, seconds};
 use super::output::{check_folder, extension, write};
@@ -18,9 +18,7 @@ use sinew_physics::figure::{FigureOptions, StrengthScale};
 use sinew_physics::forecast::{Forecast, forecast};
 use sinew_physics::motion::{Clip, write_bvh};
 use sinew_physics::reference::{Preparation, RetargetOptions};
-use sinew_physics::rehearsal::follow::{
-    Follow, FollowResult, MOST_HELP, RehearsalOptions, RehearsalReport, follow,
-};
+use sinew_physics::rehearsal::follow::{FollowResult, RehearsalOptions, RehearsalReport, follow};
 use sinew_physics::rehearsal::trial::TrialResult;
 use sinew_physics::rehearsal::{Conditions, Progress, TrackingReference};
 use sinew_physics::strength::Strength;
@@ -28,49 +26,6 @@ use sinew_physics::world::WorldParams;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// How far it may go.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum FollowArg {
-    /// Plain tracking: physics alone, it falls honestly.
-    Strict,
-    /// A rehearsal where plain tracking fails; no help.
-    Rehearsed,
-    /// A rehearsal, and as little help as will do where it fails.
-    #[default]
-    Assisted,
-}
-
-impl From<FollowArg> for Follow {
-    fn from(arg: FollowArg) -> Self {
-        match arg {
-            FollowArg::Strict => Self::Strict,
-            FollowArg::Rehearsed => Self::Rehearsed,
-            FollowArg::Assisted => Self::Assisted,
-        }
-    }
-}
-
-/// Options of rehearsals, as `sinew survey` has them too.
-#[derive(Clone, Copy, Debug, clap::Args)]
-pub struct HelpArgs {
-    /// Largest force of the help as a share of the weight, 0 to 2.
-    #[arg(long, value_name = "SHARE", default_value_t = MOST_HELP)]
-    pub max_help: f64,
-    /// Which random numbers a rehearsal draws.
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    pub seed: u64,
-}
-
-impl HelpArgs {
-    /// Checks the conditions that clap cannot.
-    ///
-    /// # Errors
-    /// A share out of range.
-    pub fn check(&self) -> Result<()> {
-        within("--max-help", self.max_help, [0.0, 2.0])
-    }
-}
 
 /// Rehearses a recording offline: where plain tracking loses it, searches for what has to be added to its joints so
 /// that strength does it, and for the least help where strength does not. docs/rehearsal.md says how.
@@ -146,7 +101,7 @@ pub fn run(args: &RehearseArgs) -> Result<()> {
     let conditions = conditions(args, &body);
     let options = RehearsalOptions {
         follow: args.follow.into(),
-        most_help: args.help.max_help,
+        most_help: args.help.most(args.follow),
         threads: args.threads.unwrap_or_else(cores),
         seed: args.help.seed,
         ..RehearsalOptions::default()

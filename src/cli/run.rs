@@ -66,7 +66,7 @@ pub fn run(args: &RunArgs) -> Result<ExitOutcome> {
     World::new(scenario.params).map_err(refused)?;
     let options = args.file.apply(RetargetOptions {
         tempo: args.tempo,
-        preparation: Preparation::walking(!args.keep_runs),
+        preparation: Preparation::walking(!args.keep_runs && args.help.most() == 0.0),
         ..RetargetOptions::default()
     });
     for then in &args.then {
@@ -139,10 +139,14 @@ fn check(args: &RunArgs) -> Result<()> {
         ("--fatigue", args.fatigue, [0.0, MAX_TIME_SCALE]),
         ("--grip", args.grip, [0.0, f64::INFINITY]),
         ("--assist", args.assist, [0.0, 1.0]),
-        ("--max-help", args.max_help, [0.0, 2.0]),
+        ("--max-help", args.help.most(), [0.0, 2.0]),
         ("--push-duration", args.push_duration, [1e-3, 10.0]),
     ] {
         within(name, value, range)?;
+    }
+    if args.assist > 0.0 && args.help.most() > 0.0 {
+        let text = "--assist and help while the motion is being lost (--follow, --max-help) exclude each other";
+        return Err(UsageError(text.to_owned()).into());
     }
     if let Some(duration) = args.duration
         && !(duration > 0.0 && duration <= MAX_DURATION)
@@ -350,7 +354,7 @@ fn scene(
             options: FigureOptions {
                 fatigue_time_scale: args.fatigue,
                 assist: args.assist,
-                max_help: args.max_help,
+                max_help: args.help.most(),
                 self_contact: args.self_contact,
             },
             name: clip.name().to_owned(),

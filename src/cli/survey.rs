@@ -12,11 +12,10 @@ mod summary;
 
 pub use args::SurveyArgs;
 
-use super::args::LoadSpec;
+use super::args::{FollowArg, LoadSpec};
 use super::exit::within;
 use super::number::counted;
 use super::output::check_folder;
-use super::rehearse::FollowArg;
 use anyhow::{Result, bail};
 use sinew_evaluate::survey::compare::compare;
 use sinew_evaluate::survey::tables;
@@ -100,8 +99,10 @@ fn check(args: &SurveyArgs) -> Result<()> {
     if let Some(folder) = &args.summary {
         check_folder("--summary", Some(&folder.join("README.md")))?;
     }
-    // Streams are not rehearsed.
-    if args.follow == FollowArg::Strict || args.live_window.is_some() {
+    if args.rehearse && args.follow == FollowArg::Strict {
+        bail!("--rehearse needs --follow rehearsed, assisted or always");
+    }
+    if !args.rehearses() {
         return Ok(());
     }
     args.load.iter().try_for_each(LoadSpec::check_rehearsable)
@@ -134,7 +135,7 @@ fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_jso
         "pushes": pushes,
         "push_duration_s": args.push_duration,
         "live_window_s": args.live_window,
-        "keep_runs": args.keep_runs,
+        "keep_runs": args.keeps_runs(),
         "gravity_mps2": args.gravity,
         "friction": world.friction,
         "rate_hz": args.rate,
@@ -149,8 +150,11 @@ fn settings(args: &SurveyArgs, body: &Body) -> serde_json::Map<String, serde_jso
         serde_json::Value::Object(mut map) => {
             let follow = Follow::from(args.follow).name();
             map.insert("follow".to_owned(), follow.into());
-            map.insert("max_help".to_owned(), args.help.max_help.into());
-            map.insert("seed".to_owned(), args.help.seed.into());
+            map.insert("max_help".to_owned(), args.help.most(args.follow).into());
+            if args.rehearses() {
+                map.insert("rehearsed".to_owned(), true.into());
+                map.insert("seed".to_owned(), args.help.seed.into());
+            }
             map
         }
         _ => unreachable!("it was written as an object"),

@@ -17,7 +17,7 @@ use sinew_physics::strength::Strength;
 use sinew_physics::time::WorldTime;
 use sinew_physics::world::{Figure, RehearsedMotion, WorldParams};
 use sinew_wire::status::Fault;
-use sinew_wire::types::{BvhReading, FollowSettings, MotionSource, RehearsalInfo};
+use sinew_wire::types::{BvhReading, FollowSettings, MotionSource, RehearsalHelp, RehearsalInfo};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -281,7 +281,7 @@ pub fn rehearse(
     );
     let options = RehearsalOptions {
         follow: settings.follow,
-        most_help: settings.most_help,
+        most_help: settings.most_help(),
         ..RehearsalOptions::default()
     };
     let polish = options.settings.trials.polish.rounds;
@@ -320,13 +320,20 @@ fn info(found: &FollowResult) -> RehearsalInfo {
         lost_at: trial.lost_at,
         error: [1e-3 * trial.global_mm, 1e-3 * trial.root_relative_mm],
         help: match &found.helped {
-            Some(live) => [live.impulse, trial.help.share, trial.help.most, live.acts],
-            None => [
-                report.help_ns,
-                report.help_share,
-                report.help_most_n,
-                report.helped_windows,
-            ],
+            Some(live) => RehearsalHelp {
+                impulse: live.impulse,
+                share: trial.help.share,
+                most_force: trial.help.most,
+                most_moment: trial.help.most_moment,
+                acts: live.acts,
+            },
+            None => RehearsalHelp {
+                impulse: report.help_ns,
+                share: report.help_share,
+                most_force: report.help_most_n,
+                most_moment: report.help_most_nm,
+                acts: report.helped_windows,
+            },
         },
         hardest: (report.hardest_dof, report.hardest_share),
         stopped: report.stopped,

@@ -133,7 +133,7 @@ pub enum ForecastVerdict {
     Follows,
     /// It deviates or falls, unless it is helped.
     NeedsHelp,
-    /// Only carrying it would do.
+    /// Tracking alone will not do, nor will a little help.
     Cannot,
 }
 
@@ -146,7 +146,7 @@ impl ForecastVerdict {
         match self {
             Self::Follows => "follows",
             Self::NeedsHelp => "needs help",
-            Self::Cannot => "cannot",
+            Self::Cannot => "not by tracking alone",
         }
     }
 }
@@ -156,7 +156,7 @@ impl ForecastVerdict {
 pub struct Forecast {
     /// Verdict.
     pub verdict: ForecastVerdict,
-    /// The reason, as the end of the sentence "follows …", "needs help: …", "cannot: …".
+    /// The reason, as the end of the sentence "follows …", "needs help: …", "not by tracking alone: …".
     pub reason: String,
     /// The hardest demand: up to 1 it follows, from 2 on it cannot ([`ForecastLimits`]).
     pub demand: f64,

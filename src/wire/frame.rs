@@ -201,6 +201,7 @@ fn status(r: &TickReport, f: &FigureSnapshot) -> pb::Status {
         following: follow_mode_out(follows.mode).into(),
         help_newton_seconds: follows.impulse,
         help_ratio: follows.help_share(),
+        help_newton_metre_seconds: follows.turning_impulse,
     }
 }
 

@@ -131,6 +131,18 @@ fn loads_and_pushes_allocate_nothing() {
 }
 
 #[test]
+fn help_allocates_nothing() {
+    let body = man();
+    let mut setup = figure(&body, ControllerKind::Modern, still(bent(&body, 0.3)));
+    setup.options.max_help = 0.3;
+    let mut scene = Scene::of(setup);
+    push(&mut scene, Vec3::X * 700.0, 0.2);
+    assert_none("helped", &mut scene, 2.0);
+    let share = scene.figure().following().help_share();
+    assert!(share > 0.0, "the scene is one of help");
+}
+
+#[test]
 fn a_second_hand_allocates_nothing() {
     let body = man();
     for kind in KINDS {

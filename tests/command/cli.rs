@@ -270,7 +270,7 @@ fn wrong_arguments_are_refused_by_their_names_before_anything_is_done() {
     let (survey, missing) = (dir.path("survey.json"), dir.path("none.bvh"));
     let nobody = "127.0.0.1:1";
     let two_hands = "a load held in two hands cannot be rehearsed";
-    let refused: [(&[&str], &str); 25] = [
+    let refused: [(&[&str], &str); 26] = [
         (
             &["run", "builtin:lif"],
             "there is no built-in motion \"lif\"",
@@ -352,10 +352,15 @@ fn wrong_arguments_are_refused_by_their_names_before_anything_is_done() {
                 &survey,
                 "--follow",
                 "assisted",
+                "--rehearse",
                 "--load",
                 "3@r_hand+always",
             ],
             two_hands,
+        ),
+        (
+            &["survey", "builtin:idle", "--out", &survey, "--rehearse"],
+            "--rehearse needs --follow",
         ),
         (&["push", nobody, "builtin:walk"], "push takes BVH files"),
         (&["push", nobody, &folder], "is a folder"),

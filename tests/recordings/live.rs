@@ -268,6 +268,7 @@ fn a_driver_that_goes_silent_leaves_its_figure_standing() {
 }
 
 /// The recording breaks off in motion; a driver that keeps sending its last posture demands the impossible of a body.
+/// All that was sent is played first, as long behind as the window is; then there is time for two steps and to settle.
 #[test]
 fn a_recording_whose_last_posture_is_held_ends_in_a_stand() {
     let body = man();
@@ -275,9 +276,9 @@ fn a_recording_whose_last_posture_is_held_ends_in_a_stand() {
     for name in ["walk", "turn", "walk-around", "salsa-a", "hit", "carry"] {
         let raw = bare(&body, name);
         let last = raw.duration();
-        for window in [0.3, 0.5, 1.0] {
+        for window in [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0] {
             let posture = |t: f64| Some(raw.sample(t.min(last)).posture);
-            let f = follow(&body, posture, last + 4.0, window);
+            let f = follow(&body, posture, last + 6.0, window);
             println!(
                 "{name}, {window} s: fell {:?}, {:.2} m/s, feet {:.2} m apart, capture point within {:.0} mm",
                 f.fell,

@@ -124,7 +124,7 @@ async fn streamed(most_help: f64) -> Vec<pb::FigureStatus> {
     let request = pb::UpdateFigureRequest {
         figure: Some(pb::Figure {
             name: FIGURE.into(),
-            max_help_weights: most_help,
+            max_help_weights: Some(most_help),
             ..Default::default()
         }),
         update_mask: Some(prost_types::FieldMask {
@@ -232,5 +232,85 @@ async fn whether_a_figure_meets_itself_is_a_choice() {
         ..named
     };
     assert_eq!(update(on, &[]).await, Some(true));
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn how_far_a_figure_may_go_is_a_choice_and_its_bound_follows_from_it() {
+    use pb::Follow::{Always, Assisted, Rehearsed, Strict, Unspecified};
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    let shown = |f: pb::Figure| (f.follow(), f.max_help_weights);
+    let figure = |follow: pb::Follow, most| pb::Figure {
+        follow: follow.into(),
+        max_help_weights: most,
+        ..Default::default()
+    };
+    let create = async |id: &str, follow, most| {
+        let request = pb::CreateFigureRequest {
+            parent: world.clone(),
+            figure_id: id.into(),
+            figure: Some(figure(follow, most)),
+            ..Default::default()
+        };
+        let made = server.client.figures().create_figure(request).await;
+        made.map(|r| shown(r.into_inner().figure.unwrap()))
+    };
+    for (id, follow, most, then) in [
+        ("a", Unspecified, None, (Strict, 0.0)),
+        ("b", Strict, Some(0.0), (Strict, 0.0)),
+        ("c", Rehearsed, None, (Rehearsed, 0.0)),
+        ("d", Assisted, None, (Assisted, 0.3)),
+        ("e", Assisted, Some(0.0), (Assisted, 0.0)),
+        ("f", Always, None, (Always, 1.0)),
+        ("g", Always, Some(1.5), (Always, 1.5)),
+        ("h", Unspecified, Some(0.2), (Assisted, 0.2)),
+    ] {
+        let (follow_now, most_now) = create(id, follow, most).await.unwrap();
+        assert_eq!((follow_now, most_now), (then.0, Some(then.1)), "{id}");
+    }
+    for (id, follow) in [("i", Strict), ("j", Rehearsed)] {
+        let refused = create(id, follow, Some(0.2)).await.unwrap_err();
+        assert_eq!(refused.code(), Code::InvalidArgument);
+        let said = refused.message();
+        assert!(said.contains("figure.max_help_weights"), "{said}");
+    }
+
+    // One figure, changed again and again.
+    let update = async |follow, most, paths: &[&str]| {
+        let request = pb::UpdateFigureRequest {
+            figure: Some(pb::Figure {
+                name: FIGURE.into(),
+                ..figure(follow, most)
+            }),
+            update_mask: Some(prost_types::FieldMask {
+                paths: paths.iter().map(|p| (*p).to_owned()).collect(),
+            }),
+            ..Default::default()
+        };
+        let out = server.client.figures().update_figure(request).await;
+        shown(out.unwrap().into_inner().figure.unwrap())
+    };
+    let most = "max_help_weights";
+    for (follow, bound, paths, then) in [
+        (Unspecified, Some(0.5), vec![most], (Assisted, 0.5)),
+        (Assisted, None, vec!["follow"], (Assisted, 0.5)),
+        // A bound belongs to its means.
+        (Always, None, vec!["follow"], (Always, 1.0)),
+        (Unspecified, Some(0.7), vec![], (Always, 0.7)),
+        (Unspecified, None, vec![most], (Always, 1.0)),
+        (Strict, None, vec![], (Strict, 0.0)),
+        (Unspecified, None, vec!["assist"], (Strict, 0.0)),
+        (Assisted, Some(0.1), vec!["follow", most], (Assisted, 0.1)),
+        // Named by the mask but absent: the default.
+        (Unspecified, None, vec!["follow"], (Strict, 0.0)),
+    ] {
+        let (follow_now, most_now) = update(follow, bound, &paths).await;
+        assert_eq!(
+            (follow_now, most_now),
+            (then.0, Some(then.1)),
+            "{follow:?} {bound:?} {paths:?}"
+        );
+    }
     server.stop().await;
 }

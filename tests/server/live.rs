@@ -371,3 +371,87 @@ async fn who_is_led_into_a_wall_stands_and_walks_on_when_it_is_gone() {
     assert!(far[260] > far[140] + 0.5, "it walks on: {far:.2?}");
     server.stop().await;
 }
+
+/// A stream that begins in motion for a figure that stands.
+struct Entered {
+    /// Largest speed of the figure, and its speed in the end, m/s.
+    fastest: f64,
+    last: f64,
+    /// Why it was not played, if its driver was told.
+    told: Vec<String>,
+}
+
+/// Streams the middle of a walk for `seconds` to a figure that stands, then nothing.
+async fn walk_from_its_middle(seconds: f64) -> Entered {
+    let body = Body::adult_man();
+    let walk = walk(&body);
+    let server = TestServer::start().await;
+    let world = server.paused_world("w").await;
+    server.figure(&world, "a").await;
+    let header = pb::DriveHeader {
+        reset: false,
+        ..windowed(&world, 500.0)
+    };
+    let watch = pb::WatchEventsRequest {
+        world: world.clone(),
+        types: vec![
+            pb::EventType::DriveResynced.into(),
+            pb::EventType::DriveBegan.into(),
+        ],
+        ..Default::default()
+    };
+    let mut events = (server.client.states().watch_events(watch).await)
+        .unwrap()
+        .into_inner();
+    let mut out = Entered {
+        fastest: 0.0,
+        last: 0.0,
+        told: Vec::new(),
+    };
+    let count = (seconds * 120.0) as i64;
+    for push in 0..160i64 {
+        let frames: Vec<_> = (push * 6..((push + 1) * 6).min(count))
+            .map(|i| frame_of(i, &walk.sample_looped(i as f64 / 120.0).posture))
+            .collect();
+        if !frames.is_empty() {
+            push_frames(&server, &header, frames).await;
+        }
+        server.step(&world, 3).await;
+        let frame = server.frame(&world, &["status", "velocity"]).await;
+        let f = &frame.figures[0];
+        let flags = f.status.as_ref().unwrap().flags;
+        assert_eq!(flags & (FALLEN | FROZEN), 0, "after {} s", frame.time_s);
+        let v = sinew_wire::frame::values(f.velocity.as_ref().unwrap());
+        out.last = v[3].hypot(v[4]);
+        out.fastest = out.fastest.max(out.last);
+    }
+    while let Ok(Ok(Some(told))) =
+        tokio::time::timeout(Duration::from_millis(200), events.message()).await
+    {
+        let resynced = (told.events.iter()).filter(|e| e.r#type() == pb::EventType::DriveResynced);
+        out.told.extend(resynced.map(|e| e.detail.clone()));
+    }
+    server.stop().await;
+    out
+}
+
+/// A stream that begins in motion and has ended before the steps that lead into it are planned is played all the same;
+/// its figure then walks to a stand. One that is too short for steps is not played, and its driver is told why.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_short_stream_that_begins_in_motion_is_played_or_its_driver_is_told_why_not() {
+    let played = walk_from_its_middle(1.3).await;
+    assert!(played.told.is_empty(), "{:?}", played.told);
+    assert!(
+        played.fastest > 0.5 && played.last < 0.1,
+        "{} m/s",
+        played.fastest
+    );
+    let refused = walk_from_its_middle(0.4).await;
+    assert_eq!(refused.told.len(), 1, "{:?}", refused.told);
+    assert!(
+        refused.told[0].contains("before steps"),
+        "{:?}",
+        refused.told
+    );
+    assert!(refused.fastest < 0.3, "{} m/s", refused.fastest);
+}

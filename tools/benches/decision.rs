@@ -108,6 +108,7 @@ impl Decision {
             gravity: GRAVITY,
             dt: DT,
             assist: [0.0; 2],
+            help: None,
             kinematic: false,
         });
         command.torque[0]

@@ -67,6 +67,7 @@ export async function makeAnew(
     controller: f.controller,
     strength: f.strength,
     assist: f.assist,
+    follow: f.follow,
     maxHelpWeights: f.maxHelpWeights,
     fatigueTimeScale: f.fatigueTimeScale,
     paper: f.paper,

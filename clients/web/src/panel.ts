@@ -2,7 +2,7 @@
 import type { MessageInitShape } from "@bufbuild/protobuf";
 import { Sex, type BodyProfileSchema } from "./gen/sinew/v1/body_pb.js";
 import { Controller, PaperPreset, Stepper, type FigureSchema } from "./gen/sinew/v1/figure_pb.js";
-import type { Forecast } from "./gen/sinew/v1/motion_pb.js";
+import { Follow, type Forecast } from "./gen/sinew/v1/motion_pb.js";
 import type { RetargetReport } from "./gen/sinew/v1/types_pb.js";
 import type { Person } from "./model.js";
 import { busiest, inPlace, Plot, PLOTS } from "./plots.js";
@@ -104,6 +104,13 @@ const FACTS = [
 type Fact = (typeof FACTS)[number][0];
 
 /** What the panel asks of the page. */
+/** Choices for a figure that is losing its motion. */
+const FOLLOWS: [Follow, string][] = [
+  [Follow.STRICT, "it falls"],
+  [Follow.ASSISTED, "help, at most 30 % of its weight"],
+  [Follow.ALWAYS, "help, at most its weight"],
+];
+
 export interface Wishes {
   choose: (p: Person) => void;
   say: (text: string, grave?: boolean) => void;
@@ -166,6 +173,7 @@ export class Panel {
   private readonly strengthOut = el("output", { for: "strength" }, "100 %");
   private readonly assist = el("input", { id: "assist", type: "range", min: "0", max: "1", step: "0.05", value: "0" });
   private readonly assistOut = el("output", { for: "assist" }, "0 %");
+  private readonly follow = el("select", { id: "help-choice" });
   private readonly impulse = el("input", {
     id: "impulse",
     type: "range",
@@ -269,6 +277,7 @@ export class Panel {
       () => (this.assistOut.textContent = `${Math.round(Number(this.assist.value) * 100)} %`),
     );
     this.changes(this.assist, "assist", (value) => ({ assist: value }));
+    this.changes(this.follow, "follow", (value) => ({ follow: value }));
     this.impulse.addEventListener("input", () => (this.impulseOut.textContent = `${this.impulse.value} N·s`));
     this.ofChosen = [push, stand, remove, make];
     const copies = (["python", "cli", "link"] as const).map((what) => {
@@ -337,6 +346,7 @@ export class Panel {
         this.presetRow,
         row("Stepper", this.stepper),
         row("Assist", this.assist, this.assistOut),
+        row("If it loses its motion", this.follow),
       ),
       section(
         "Display",
@@ -350,6 +360,7 @@ export class Panel {
             ["area", "support polygon"],
             ["force", "contact force"],
             ["limit", "at the torque limit"],
+            ["help", "help: force, and moment with two heads"],
           ].map(([c, text]) => el("li", {}, el("i", { class: c }), text)),
         ),
       ),
@@ -488,6 +499,11 @@ export class Panel {
     const assist = person?.figure.assist ?? 0;
     if (document.activeElement !== this.assist) this.assist.value = String(assist);
     this.assistOut.textContent = `${Math.round(assist * 100)} %`;
+    fill(
+      this.follow,
+      FOLLOWS.map(([v, text]) => ({ value: String(v), text })),
+      String(person?.figure.follow === Follow.REHEARSED ? Follow.STRICT : person?.figure.follow || Follow.STRICT),
+    );
     const dofs = person?.body.dofs ?? [];
     fill(
       this.dofs,
@@ -508,6 +524,7 @@ export class Panel {
       ...this.ofChosen,
       this.strength,
       this.assist,
+      this.follow,
       this.dofs,
     ])
       c.disabled = !person;
@@ -556,6 +573,10 @@ export class Panel {
 
   /** How a file was understood, or why it was not. */
   showReport(file: string, outcome: RetargetReport | undefined, error?: string, forecast?: Forecast): void {
+    const offer = button("Help it", { id: "help-it" });
+    offer.addEventListener("click", () =>
+      this.wishes.forChosen((p) => this.change(p, { follow: Follow.ASSISTED }, "follow")),
+    );
     if (error !== undefined) {
       this.report.replaceChildren(
         el(
@@ -613,6 +634,12 @@ export class Panel {
         ...notes,
         ...limited,
         map,
+        el("p", {}, "It follows by its own strength, and falls where that is not enough. ", offer),
+        el(
+          "p",
+          {},
+          "Help is a force on the pelvis of at most 30 % of the weight, and a moment, drawn as orange arrows.",
+        ),
       ),
     );
   }

@@ -31,6 +31,10 @@ export const HUES = {
 };
 /** Length of an arrow, m per N. */
 const METRES_PER_NEWTON = 1 / 700;
+/** The same of a moment, m per N·m. */
+const METRES_PER_NEWTON_METRE = 1 / 300;
+/** Distance of the two heads of a moment's arrow, m. */
+const HEADS_APART = 0.05;
 const MOST_ARROWS = 16;
 const MOST_SEGMENTS = 18;
 /** Sides of the crate, m. */
@@ -217,13 +221,13 @@ const scratchPlane = new THREE.Plane();
 const scratchOne = new THREE.Vector3(1, 1, 1);
 
 /** A solid arrow of variable length along its own y. */
-function arrow(colour: number, overBodies = false): THREE.Group {
+/** An arrow; that of a moment has two heads. */
+function arrow(colour: number, overBodies = false, heads = 1): THREE.Group {
   const group = new THREE.Group();
   const material = new THREE.MeshBasicMaterial({ color: colour, depthTest: !overBodies });
   const shaft = new THREE.Mesh(arrowShaft, material);
-  const head = new THREE.Mesh(arrowHead, material);
-  if (overBodies) shaft.renderOrder = head.renderOrder = 3;
-  group.add(shaft, head);
+  group.add(shaft, ...Array.from({ length: heads }, () => new THREE.Mesh(arrowHead, material)));
+  if (overBodies) for (const part of group.children) part.renderOrder = 3;
   group.visible = false;
   return group;
 }
@@ -235,10 +239,10 @@ function point(arrowGroup: THREE.Group, from: THREE.Vector3, along: THREE.Vector
   const length = along.length();
   arrowGroup.visible = length > 0.01;
   if (!arrowGroup.visible) return;
-  const [shaft, head] = arrowGroup.children;
+  const [shaft, ...heads] = arrowGroup.children;
   const shaftLength = Math.max(0.001, length - 0.06);
   shaft.scale.set(1, shaftLength, 1);
-  head.position.y = shaftLength;
+  heads.forEach((head, i) => (head.position.y = shaftLength - i * HEADS_APART));
   arrowGroup.position.copy(from);
   arrowGroup.quaternion.setFromUnitVectors(UP, scratchC.copy(along).divideScalar(length));
 }
@@ -279,6 +283,7 @@ class Actor {
   );
   private readonly arrows: THREE.Group[] = [];
   private readonly help = arrow(HUES.help, true);
+  private readonly helpMoment = arrow(HUES.help, true, 2);
   private readonly hands: [number, number];
   private readonly touchable: Touchable;
 
@@ -328,6 +333,7 @@ class Actor {
       this.zmp,
       ...this.arrows,
       this.help,
+      this.helpMoment,
     );
     // Nothing is seen of it before the first frame that tells where it is.
     this.group.visible = false;
@@ -460,8 +466,11 @@ class Actor {
   /** Help is not physics: it is shown whenever it acts, and begins inside the pelvis. */
   private showHelp(frame: FigureFrame): void {
     const assist = numbers(frame.assist);
-    const force = assist.length === 6 ? scratchA.fromArray(assist as number[], 3) : scratchA.set(0, 0, 0);
-    point(this.help, scratchB.fromArray(this.solid.poses), force.multiplyScalar(METRES_PER_NEWTON));
+    const pelvis = scratchB.fromArray(this.solid.poses);
+    const part = (at: number): THREE.Vector3 =>
+      assist.length === 6 ? scratchA.fromArray(assist as number[], at) : scratchA.set(0, 0, 0);
+    point(this.helpMoment, pelvis, part(0).multiplyScalar(METRES_PER_NEWTON_METRE));
+    point(this.help, pelvis, part(3).multiplyScalar(METRES_PER_NEWTON));
   }
 
   private showForces(frame: FigureFrame, shown: boolean): void {

@@ -10,7 +10,7 @@ import {
   type Figure,
   type FigureSchema,
 } from "./gen/sinew/v1/figure_pb.js";
-import type { Clip } from "./gen/sinew/v1/motion_pb.js";
+import { Follow, type Clip } from "./gen/sinew/v1/motion_pb.js";
 import type { Person } from "./model.js";
 
 /** What an address says. */
@@ -43,6 +43,8 @@ export interface Cast {
   /** Of the paper's controller; empty: the usual one. */
   preset: string;
   fatigue: number;
+  /** Help while it loses its motion: `assisted` or `always`. Empty: none. */
+  follow: string;
 }
 
 const id = (name: string): string => name.split("/").at(-1) ?? name;
@@ -65,6 +67,7 @@ export function cast(p: Person): Cast {
     assist: rounded(f.assist),
     preset: f.paper?.preset === PaperPreset.PAPER_PRESET_2000 ? "2000" : "",
     fatigue: rounded(f.fatigueTimeScale),
+    follow: f.follow === Follow.ASSISTED ? "assisted" : f.follow === Follow.ALWAYS ? "always" : "",
   };
 }
 
@@ -81,7 +84,10 @@ export function write(a: Address): string {
   for (const c of a.figures)
     q.append(
       "f",
-      [c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y, c.stepper, c.assist || "", c.preset, c.fatigue || ""]
+      [
+        ...[c.id, c.body, c.controller, c.strength, c.clip, c.x, c.y, c.stepper],
+        ...[c.assist || "", c.preset, c.fatigue || "", c.follow],
+      ]
         .join("~")
         .replace(/~+$/, ""),
     );
@@ -102,7 +108,7 @@ export function read(text: string): Address {
     .getAll("f")
     .slice(0, 64)
     .flatMap((text): Cast[] => {
-      const [id, body, controller, strength, clip, x, y, stepper, assist, preset, fatigue] = text.split("~");
+      const [id, body, controller, strength, clip, x, y, stepper, assist, preset, fatigue, follow] = text.split("~");
       const [s, px, py, help, tires] = [
         Number(strength),
         Number(x),
@@ -124,6 +130,7 @@ export function read(text: string): Address {
           assist: help,
           preset: preset ?? "",
           fatigue: tires,
+          follow: follow ?? "",
         },
       ];
     });
@@ -160,6 +167,7 @@ export function settingsOf(c: Cast): MessageInitShape<typeof FigureSchema> {
     stepper: stepperOf(c.stepper),
     assist: c.assist,
     fatigueTimeScale: c.fatigue,
+    follow: c.follow === "assisted" ? Follow.ASSISTED : c.follow === "always" ? Follow.ALWAYS : Follow.UNSPECIFIED,
     paper: c.preset === "2000" ? { preset: PaperPreset.PAPER_PRESET_2000 } : undefined,
     placement: { xM: c.x, yM: c.y },
   };
@@ -202,6 +210,7 @@ export function asCommand(p: Person, clips: Clip[]): string {
   if (c.preset) parts.push(paperArguments(p.figure.paper));
   if (c.strength !== 1) parts.push(`--strength ${c.strength}`);
   if (c.assist) parts.push(`--assist ${c.assist}`);
+  if (c.follow) parts.push(`--follow ${c.follow}`);
   if (c.fatigue) parts.push(`--fatigue ${c.fatigue}`);
   for (const l of p.loads()) parts.push(`--load ${rounded(l.massKg)}@${l.segments.join("+")}`);
   return parts.join(" ");
@@ -223,6 +232,7 @@ export function asPython(address: string, people: Person[], chosen: Person | und
     if (c.assist) settings.push(`assist=${c.assist}`);
     if (c.stepper) settings.push(`stepper=${text(c.stepper)}`);
     if (c.preset) settings.push(`paper=sinew.Paper(preset=${text(c.preset)})`);
+    if (c.follow) settings.push(`follow=${text(c.follow)}`);
     if (c.fatigue) settings.push(`fatigue_time_scale=${c.fatigue}`);
     lines.push(`    ${name} = world.add_figure(${text(c.id)}, ${settings.join(", ")})`);
     if (c.clip) lines.push(`    ${name}.play(${text(c.clip)}, loop=True, reset=True, position=(${c.x}, ${c.y}))`);

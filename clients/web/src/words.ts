@@ -25,7 +25,7 @@ export function forecast(f: Forecast): string {
     ? "should be followed"
     : f.verdict === ForecastVerdict.NEEDS_HELP
       ? "will need help"
-      : "cannot be followed";
+      : "cannot be followed by tracking alone";
   return `Forecast: ${word}: ${f.reason}`;
 }
 
@@ -130,7 +130,8 @@ export function state(has: (flag: string) => boolean): string {
 export function following(status: Status | undefined): string {
   if (status?.following === FollowWay.REHEARSED) return ", rehearsed";
   if (status?.following !== FollowWay.HELPED) return "";
-  return `, helped ${status.helpNewtonSeconds.toFixed(0)} N·s (${(100 * status.helpRatio).toFixed(1)} %)`;
+  const [force, moment] = [status.helpNewtonSeconds, status.helpNewtonMetreSeconds].map((x) => x.toFixed(0));
+  return `, helped ${force} N·s (${(100 * status.helpRatio).toFixed(1)} %), ${moment} N·m·s`;
 }
 
 /** Distance of the zero-moment point from the edge of the support polygon: positive inside. */

@@ -6,7 +6,7 @@ import { axis, inPlace, marks, settled, usual } from "../src/plots.js";
 import { numbers } from "../src/client.js";
 import { ghostOpacity } from "../src/model.js";
 import { HUES } from "../src/scene.js";
-import { FollowWay } from "../src/gen/sinew/v1/motion_pb.js";
+import { Follow, FollowWay } from "../src/gen/sinew/v1/motion_pb.js";
 import { StatusSchema } from "../src/gen/sinew/v1/frame_pb.js";
 import { following, kilograms, margin, warnings } from "../src/words.js";
 import { recording } from "./recording.js";
@@ -394,14 +394,24 @@ test("a report lists every warning about a recording and every limited angle", a
   await expect(limited.locator("tr").filter({ hasText: "left elbow flexion" })).toContainText(/\d+ %\s*\d+°/);
   await report.scrollIntoViewIfNeeded();
   await shot(page, "report");
+  // Help is offered, and the address keeps the choice.
+  await expect(page.locator("#help-choice")).toHaveValue(String(Follow.STRICT));
+  await report.locator("#help-it").click();
+  await expect(page.locator("#help-choice")).toHaveValue(String(Follow.ASSISTED));
+  await expect.poll(() => page.url()).toContain("assisted");
 });
 
 test("readouts use the terms of the field", async ({ page, server }) => {
   expect(margin(0.094)).toBe("9 cm");
   expect(margin(-0.031)).toBe("3 cm outside support");
   expect(margin(undefined)).toBe("no support");
-  const status = { following: FollowWay.HELPED, helpNewtonSeconds: 12.4, helpRatio: 0.021 };
-  expect(following(create(StatusSchema, status))).toBe(", helped 12 N·s (2.1 %)");
+  const status = {
+    following: FollowWay.HELPED,
+    helpNewtonSeconds: 12.4,
+    helpRatio: 0.021,
+    helpNewtonMetreSeconds: 4.8,
+  };
+  expect(following(create(StatusSchema, status))).toBe(", helped 12 N·s (2.1 %), 5 N·m·s");
   expect(following(create(StatusSchema, { following: FollowWay.REHEARSED }))).toBe(", rehearsed");
   expect(following(create(StatusSchema, { following: FollowWay.TRACKED }))).toBe("");
   expect([kilograms(19.5), kilograms(20), kilograms(0.25)]).toEqual(["19.5 kg", "20 kg", "0.25 kg"]);

@@ -1,8 +1,8 @@
 //! Arguments of `sinew run`.
 
 use crate::args::{
-    BodyArgs, ConstraintSpec, ControllerArg, FileArgs, LoadSpec, ObstacleSpec, PaperOptions,
-    PresetArg, PushSpec, StepperArg, StrengthFile, ThenSpec,
+    BodyArgs, ConstraintSpec, ControllerArg, FileArgs, LiveHelpArgs, LoadSpec, ObstacleSpec,
+    PaperOptions, PresetArg, PushSpec, StepperArg, StrengthFile, ThenSpec,
 };
 use anyhow::Result;
 use sinew_evaluate::strip::View;
@@ -67,14 +67,9 @@ pub struct RunArgs {
     /// Assist: external wrench towards the target pose of the pelvis, 0 (off) to 1; not physical, reported as assist_*.
     #[arg(long, value_name = "A", default_value_t = 0.0)]
     pub assist: f64,
-    /// Help while the motion is being lost: largest force over the weight, 0 (none) to 2; reported as assist_*.
-    #[arg(
-        long,
-        value_name = "SHARE",
-        default_value_t = 0.0,
-        conflicts_with = "assist"
-    )]
-    pub max_help: f64,
+    /// Help while the motion is being lost.
+    #[command(flatten)]
+    pub help: LiveHelpArgs,
     /// Load held by one or two segments; for example 3@r_hand, 8@l_hand+r_hand or 3@r_hand@1..2.5 (repeatable). With
     /// 3@r_hand+auto the other hand helps while one arm is too weak for it; with 3@r_hand+always as long as it is free.
     #[arg(
@@ -144,8 +139,8 @@ pub struct RunArgs {
     /// Begin and end standing: add the steps that lead into the first frame and out of the last one.
     #[arg(long, conflicts_with = "looped")]
     pub standing: bool,
-    /// Keep recorded runs. Otherwise runs are turned into walks, slower and with shorter steps, which measured strength
-    /// can do.
+    /// Keep recorded runs. Otherwise, without help, runs are turned into walks, slower and with shorter steps, which
+    /// measured strength can do.
     #[arg(long)]
     pub keep_runs: bool,
     /// Playback speed relative to the recording, 0.5 to 2; steps and balance are prepared for it. Built-in motions keep

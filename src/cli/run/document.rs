@@ -106,7 +106,7 @@ pub(super) fn document<'a>(
         effort: scenario.strength.effort,
         fatigue_time_scale: args.fatigue,
         assist: args.assist,
-        max_help: args.max_help,
+        max_help: args.help.most(),
         self_contact: args.self_contact,
         substeps: args.substeps,
         gravity_mps2: scenario.params.gravity,

@@ -26,8 +26,11 @@ pub(super) fn warn(args: &RunArgs, sources: &[LoadedClip]) {
 fn not_read(args: &RunArgs) -> Vec<String> {
     let mut out = Vec::new();
     let controller = args.controller_kind();
-    if args.max_help > 0.0 && controller != ControllerArg::Modern {
-        out.push("--max-help has no effect: it needs --controller modern".to_owned());
+    if args.help.most() > 0.0 && controller != ControllerArg::Modern {
+        out.push(format!(
+            "{} has no effect: it needs --controller modern",
+            args.help.option()
+        ));
     }
     if controller != ControllerArg::Paper {
         let of_paper = args.paper.of_paper_only();

@@ -2,8 +2,8 @@
 
 use super::page::PageSpec;
 use super::push::SurveyPush;
-use crate::args::{BodyArgs, LoadSpec};
-use crate::rehearse::{FollowArg, HelpArgs};
+use crate::args::{BodyArgs, FollowArg, HelpArgs, LoadSpec};
+use sinew_physics::rehearsal::follow::Follow;
 use sinew_physics::world::WorldParams;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -73,14 +73,18 @@ pub struct SurveyArgs {
     /// Streams each recording through a preparation window of 0.3 to 1 s instead of preparing it as a whole.
     #[arg(long, value_name = "S")]
     pub live_window: Option<f64>,
-    /// Treatment of a clip that plain tracking loses: none (strict), a rehearsal, or a rehearsal and as little help as
-    /// will do. Noise is then on the state in which a rehearsed clip begins.
+    /// Treatment of a clip that plain tracking loses: none (strict), a rehearsal, help (assisted), or help to the end
+    /// whatever that takes (always).
     #[arg(long, value_enum, default_value_t = FollowArg::Strict, conflicts_with = "assist")]
     pub follow: FollowArg,
+    /// Rehearse what plain tracking loses for less help, instead of helping it while it is being lost. Noise is then on
+    /// the state in which a rehearsed clip begins.
+    #[arg(long, conflicts_with = "live_window")]
+    pub rehearse: bool,
     /// Help and random numbers of rehearsals.
     #[command(flatten)]
     pub help: HelpArgs,
-    /// Leave runs as they were recorded. Otherwise they are walked, slower and with shorter steps.
+    /// Leave runs as they were recorded. Otherwise, without help, they are walked, slower and with shorter steps.
     #[arg(long)]
     pub keep_runs: bool,
     /// Gravity of the world, m/s², 0 to 30; motions are prepared for 9.81 whatever it is.
@@ -99,6 +103,21 @@ pub struct SurveyArgs {
     /// of a section in a file: `<!-- survey SECTION begin: … -->` and `<!-- survey SECTION end -->`.
     #[arg(long, value_name = "FILE#SECTION")]
     pub page: Option<PageSpec>,
+}
+
+impl SurveyArgs {
+    /// Whether runs are followed as they were recorded: with help they can be.
+    pub fn keeps_runs(&self) -> bool {
+        let helped = Follow::from(self.follow).takes_help() && !self.rehearse;
+        self.keep_runs || helped && self.live_window.is_none()
+    }
+
+    /// Whether clips that plain tracking loses are rehearsed. Streams are not.
+    pub fn rehearses(&self) -> bool {
+        let follow = Follow::from(self.follow);
+        let wanted = follow == Follow::Rehearsed || (self.rehearse && follow.takes_help());
+        wanted && self.live_window.is_none()
+    }
 }
 
 /// `1mm,0.2deg`: largest error of positions and of angles.

@@ -8,7 +8,6 @@ use super::args::SurveyArgs;
 use super::corpus::{ClipSource, CorpusClip};
 use super::identity;
 use crate::args::LoadSpec;
-use crate::rehearse::FollowArg;
 use anyhow::{Context, Result, anyhow};
 use indicatif::{ProgressBar, ProgressStyle};
 use rand::{Rng, SeedableRng};
@@ -26,7 +25,7 @@ use sinew_physics::motion::{Bvh, Clip};
 use sinew_physics::plan::feasibility::consistency;
 use sinew_physics::plan::{ReadingReport, prepare_recording};
 use sinew_physics::reference::{Preparation, RetargetOptions};
-use sinew_physics::rehearsal::follow::{FollowResult, RehearsalOptions, follow};
+use sinew_physics::rehearsal::follow::{Follow, FollowResult, RehearsalOptions, follow};
 use sinew_physics::rehearsal::{Conditions, RehearsedRun, TrackingReference};
 use sinew_physics::strength::Strength;
 use sinew_physics::world::WorldParams;
@@ -283,7 +282,7 @@ fn job(
     copy: u32,
 ) -> Result<JobResult> {
     let source = &input.entry.source;
-    if args.follow != FollowArg::Strict && args.live_window.is_none() {
+    if args.rehearses() {
         let plan = input
             .plan
             .get_or_init(|| plan(args, body, source, bytes).map_err(|e| format!("{e:#}")));
@@ -372,9 +371,9 @@ fn conditions(
         },
         options: FigureOptions {
             assist: args.assist,
-            max_help: match args.follow {
-                FollowArg::Assisted => args.help.max_help,
-                FollowArg::Strict | FollowArg::Rehearsed => 0.0,
+            max_help: match Follow::from(args.follow).takes_help() {
+                true => args.help.most(args.follow),
+                false => 0.0,
             },
             ..FigureOptions::default()
         },
@@ -416,7 +415,7 @@ fn plan(
     let forecast = forecast_of(args, &conditions, &reference.prepared);
     let options = RehearsalOptions {
         follow: args.follow.into(),
-        most_help: args.help.max_help,
+        most_help: args.help.most(args.follow),
         seed: args.help.seed,
         ..RehearsalOptions::default()
     };
@@ -469,7 +468,7 @@ fn fit(args: &SurveyArgs, body: &Body, bytes: &[u8], copy: u32) -> Result<Fitted
         ..RetargetOptions::default()
     };
     let options = RetargetOptions {
-        preparation: Preparation::walking(!args.keep_runs),
+        preparation: Preparation::walking(!args.keeps_runs()),
         ..RetargetOptions::default()
     };
     let mut bvh = Bvh::parse(bytes).context("not a BVH file")?;

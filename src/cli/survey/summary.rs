@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use serde_json::{Map, Value};
 use sinew_evaluate::survey::stats::median;
 use sinew_evaluate::survey::tables::SurveyTable;
-use sinew_evaluate::survey::{MeasuredClip, TrackingErrors};
+use sinew_evaluate::survey::{MeasuredClip, SurveyOutcome, TrackingErrors};
 use sinew_physics::rehearsal::follow::FollowWay;
 use std::path::Path;
 
@@ -66,7 +66,8 @@ fn page(all: &[NamedSurvey]) -> String {
     out += &surveys(all).markdown();
     if let Some(listed) = all.iter().find(|s| s.name == LISTED) {
         out += &format!(
-            "\n## Clips\n\nHow each clip of the survey *{LISTED}* is kept, and with how much help.\n\n{}",
+            "\n## Clips\n\nHow the survey *{LISTED}* keeps the clips that tracking alone does not, and with how much \
+             help.\n\n{}",
             kept(listed).markdown()
         );
     }
@@ -104,6 +105,10 @@ fn surveys(all: &[NamedSurvey]) -> SurveyTable {
             let values: Vec<f64> = errors.map(value).collect();
             median(&values).map_or("–".to_owned(), |m| format!("{m:.decimals$}"))
         };
+        let help = |value: &dyn Fn(&SurveyOutcome) -> f64| {
+            let shares: Vec<f64> = s.clips().map(|(_, m)| 100.0 * value(&m.outcome)).collect();
+            median(&shares).map_or("–".to_owned(), |m| format!("{m:.1}"))
+        };
         let copies = s.clips().filter_map(|(_, m)| m.copies.as_ref());
         let (kept, run) = copies.fold((0, 0), |(kept, run), c| (kept + c.completed, run + c.count));
         vec![
@@ -118,9 +123,12 @@ fn surveys(all: &[NamedSurvey]) -> SurveyTable {
             },
             of(&|m| m.outcome.anchor_lost_at_s.is_none() && m.outcome.frozen_at_s.is_none()),
             of(&|m| m.outcome.fell_at_s.is_none()),
+            of(&|m| m.outcome.down_after),
             middle(&|e| e.mpjpe_root_mm, 0),
             middle(&|e| e.mpjpe_global_mm, 0),
             middle(&|e| e.joint_rms_deg, 1),
+            help(&|o| o.assist_recorded_share),
+            help(&|o| o.assist_share),
         ]
     };
     SurveyTable {
@@ -132,15 +140,21 @@ fn surveys(all: &[NamedSurvey]) -> SurveyTable {
             "copies kept",
             "height/tilt kept",
             "did not fall",
+            "on the floor 1 s after",
             "root-rel., mm",
             "global, mm",
             "joints, °",
+            "help within the recording, %",
+            "help in all, %",
         ],
         rows: all.iter().map(row).collect(),
     }
 }
 
-/// One row per clip: how it is kept.
+/// How a clip is kept by tracking alone.
+const TRACKING: &str = "tracking";
+
+/// One row per clip that tracking alone does not keep.
 fn kept(survey: &NamedSurvey) -> SurveyTable {
     let row = |(name, m): (&str, &MeasuredClip)| {
         let by = match m.followed.as_ref().map(|f| f.way) {
@@ -148,18 +162,28 @@ fn kept(survey: &NamedSurvey) -> SurveyTable {
             Some(FollowWay::Lost) => "lost",
             Some(FollowWay::Rehearsed) => "rehearsal",
             Some(FollowWay::Helped) => "help",
-            Some(FollowWay::Tracked) | None => "tracking",
+            _ if m.outcome.assist_share > 0.0 => "help",
+            Some(FollowWay::Tracked) | None => TRACKING,
         };
         vec![
             name.to_owned(),
             m.kind.name().to_owned(),
             by.to_owned(),
-            format!("{:.1}", 100.0 * m.outcome.assist_share),
+            format!("{:.1}", 100.0 * m.outcome.assist_recorded_share),
         ]
     };
     SurveyTable {
-        head: vec!["clip", "kind", "kept by", "help, % of weight × time"],
-        rows: survey.clips().map(row).collect(),
+        head: vec![
+            "clip",
+            "kind",
+            "kept by",
+            "help within the recording, % of weight × time",
+        ],
+        rows: survey
+            .clips()
+            .map(row)
+            .filter(|cells| cells[2] != TRACKING)
+            .collect(),
     }
 }
 

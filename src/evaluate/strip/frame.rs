@@ -32,6 +32,8 @@ pub struct StripFrame {
     /// Sum of contact forces (N) on each segment, of the ground and of everything else, and the point at which it acts
     /// (world, m); zero force without contact.
     pub contact: [(Vec3, Vec3); SEGMENT_COUNT],
+    /// Force of the help on the pelvis, world, N; zero without help.
+    pub help: Vec3,
     /// Centre of mass, world, m.
     pub com: Vec3,
     /// Zero-moment point, world, m.
@@ -79,6 +81,12 @@ impl StripFrame {
             desired: tick.target.next.posture,
             things: Vec::new(),
             contact,
+            help: if frozen {
+                Vec3::zero()
+            } else {
+                let [_, _, _, x, y, z] = report.assist;
+                Vec3 { x, y, z }
+            },
             com: report.balance.com,
             zmp: report.balance.zmp,
             polygon: report.balance.support_polygon.clone(),

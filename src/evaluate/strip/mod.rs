@@ -1,9 +1,9 @@
 //! Motion strips: evenly spaced frames of a run side by side, as SVG or PNG.
 //!
 //! Each panel shows the figure as a solid body (left limbs blue, right limbs orange), the desired posture as a pale
-//! ghost behind it, the contact force of each segment, support polygon, centre of mass, zero-moment point, and a ring
-//! at every joint that is at (red) or near (amber) the limit of its strength. [`Drawing`] is the list of shapes;
-//! [`svg`] and [`raster`] are its two writers.
+//! ghost behind it, the contact force of each segment, the force of help, support polygon, centre of mass, zero-moment
+//! point, and a ring at every joint that is at (red) or near (amber) the limit of its strength. [`Drawing`] is the list
+//! of shapes; [`svg`] and [`raster`] are its two writers.
 
 mod drawing;
 mod frame;

@@ -22,6 +22,7 @@ const LOAD: Rgba = Rgba::hex(0x8a_6a4f);
 const OBSTACLE: Rgba = Rgba::hex(0xa8_9f8d);
 const OTHER: Rgba = Rgba::hex(0x8f_b59a);
 const FORCE: Rgba = Rgba::hex(0x1f_8f55);
+const HELP: Rgba = Rgba::hex(0xe6_9f00);
 const COM: Rgba = Rgba::hex(0x22_262c);
 const ZMP: Rgba = Rgba::hex(0xb1_2d9a);
 const LIMIT: Rgba = Rgba::hex(0xd0_1f2e);
@@ -237,7 +238,8 @@ pub(super) fn draw(body: &Body, frames: &[StripFrame], options: &StripOptions) -
         x += (left + right) * scale;
     }
     let legend_y = label_y + 42.0;
-    let legend_end = legend(&mut items, [20.0, legend_y]);
+    let helped = frames.iter().any(|f| f.help != Vec3::zero());
+    let legend_end = legend(&mut items, [20.0, legend_y], helped);
     items.push(DrawnItem::Text {
         at: [20.0, 30.0],
         size: 20.0,
@@ -518,14 +520,19 @@ fn marks(
     place: &PanelPlace,
 ) {
     let weight = body.profile.mass * GRAVITY;
-    for (point, force) in frame.contact {
+    let mut force = |point: Vec3, force: Vec3, colour: Rgba| {
         let length = force * (WEIGHT_LENGTH / weight);
         let n = length.norm();
         if n > 0.01 {
             let length = length * (LONGEST_FORCE / n).min(1.0);
-            arrow(items, place.flat(point), place.flat(point + length));
+            let ends = [point, point + length].map(|p| place.flat(p));
+            arrow(items, ends, colour);
         }
+    };
+    for (point, f) in frame.contact {
+        force(point, f, FORCE);
     }
+    force(poses[0].position, frame.help, HELP);
     let com = place.flat(frame.com);
     items.push(DrawnItem::Line {
         from: com,
@@ -583,7 +590,7 @@ fn ring(at: [f64; 2], at_limit: bool) -> DrawnItem {
     }
 }
 
-fn arrow(items: &mut Vec<DrawnItem>, from: [f64; 2], to: [f64; 2]) {
+fn arrow(items: &mut Vec<DrawnItem>, [from, to]: [[f64; 2]; 2], colour: Rgba) {
     let d = [to[0] - from[0], to[1] - from[1]];
     let n = d[0].hypot(d[1]).max(1e-9);
     let u = [d[0] / n, d[1] / n];
@@ -593,7 +600,7 @@ fn arrow(items: &mut Vec<DrawnItem>, from: [f64; 2], to: [f64; 2]) {
         from,
         to: base,
         width: 2.6,
-        colour: FORCE,
+        colour,
     });
     let side = [-u[1] * head * 0.42, u[0] * head * 0.42];
     items.push(DrawnItem::Polygon {
@@ -602,7 +609,7 @@ fn arrow(items: &mut Vec<DrawnItem>, from: [f64; 2], to: [f64; 2]) {
             [base[0] + side[0], base[1] + side[1]],
             [base[0] - side[0], base[1] - side[1]],
         ],
-        fill: FORCE,
+        fill: colour,
         stroke: None,
     });
 }
@@ -624,17 +631,18 @@ fn label(items: &mut Vec<DrawnItem>, frame: &StripFrame, at: [f64; 2]) {
     });
 }
 
-/// Explains the marks; returns the y at which it ends.
-fn legend(items: &mut Vec<DrawnItem>, at: [f64; 2]) -> f64 {
+/// Explains the marks, also of help if there is any; returns the x at which it ends.
+fn legend(items: &mut Vec<DrawnItem>, at: [f64; 2], helped: bool) -> f64 {
     let mut x = at[0];
     let y = at[1] - 4.0;
-    let entries: [(&str, &dyn Fn(&mut Vec<DrawnItem>, f64)); 8] = [
+    let entries: [(&str, &dyn Fn(&mut Vec<DrawnItem>, f64)); 9] = [
         ("left", &|i, x| i.push(swatch(x, y, LEFT))),
         ("right", &|i, x| i.push(swatch(x, y, RIGHT))),
         ("desired", &|i, x| i.push(swatch(x, y, GHOST))),
         ("contact force", &|i, x| {
-            arrow(i, [x, y + 7.0], [x, y - 8.0])
+            arrow(i, [[x, y + 7.0], [x, y - 8.0]], FORCE)
         }),
+        ("help", &|i, x| arrow(i, [[x, y + 7.0], [x, y - 8.0]], HELP)),
         ("centre of mass", &|i, x| i.push(com_mark([x, y]))),
         ("zero-moment point", &|i, x| cross(i, [x, y])),
         ("joint above 80 % of its strength", &|i, x| {
@@ -642,14 +650,14 @@ fn legend(items: &mut Vec<DrawnItem>, at: [f64; 2]) -> f64 {
         }),
         ("at its limit", &|i, x| i.push(ring([x, y], true))),
     ];
-    for (text, mark) in entries {
+    for (text, mark) in entries.iter().filter(|(text, _)| helped || *text != "help") {
         mark(items, x + 7.0);
         items.push(DrawnItem::Text {
             at: [x + 20.0, at[1]],
             size: 13.0,
             anchor: TextAnchor::Start,
             colour: FAINT,
-            text: text.to_owned(),
+            text: (*text).to_owned(),
         });
         // Wide enough for the proportional fonts of SVG viewers too.
         x += 20.0 + text.chars().count() as f64 * 6.9 + 20.0;

@@ -24,6 +24,7 @@ fn frame(body: &Body) -> StripFrame {
         desired: posture,
         things: Vec::new(),
         contact,
+        help: Vec3::zero(),
         com: posture.root_position,
         zmp: Some(Vec3::zero()),
         polygon: vec![[0.0, 0.0], [0.1, 0.0], [0.0, 0.1]],
@@ -73,6 +74,25 @@ fn every_view_shows_all_segments_inside_the_picture() {
             assert!(text.starts_with("<svg ") && text.ends_with("</svg>\n"));
         }
     }
+}
+
+#[test]
+fn help_is_drawn_and_explained_where_there_is_some() {
+    let body = Body::adult_man();
+    let drawn = |help: Vec3| {
+        let frame = StripFrame {
+            help,
+            ..frame(&body)
+        };
+        let drawing = draw(&body, &[frame], &StripOptions::default());
+        svg::write(&drawing)
+    };
+    let arrows = |text: &str| text.matches("#e69f00").count();
+    let (with, without) = (drawn(Vec3::Z * 200.0), drawn(Vec3::zero()));
+    let explained = |text: &str| text.contains(">\nhelp\n<");
+    assert!(explained(&with) && !explained(&without));
+    // Shaft and head, in the panel and in the legend.
+    assert_eq!(arrows(&with) - arrows(&without), 4);
 }
 
 #[test]

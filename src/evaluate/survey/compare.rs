@@ -191,13 +191,16 @@ fn of_copies(
 }
 
 fn of_runs(a: &SurveyOutcome, b: &SurveyOutcome, add: &mut impl FnMut(String, bool)) {
-    let verdicts: [(&str, fn(&SurveyOutcome) -> Option<f64>); 5] = [
+    let verdicts: [(&str, fn(&SurveyOutcome) -> Option<f64>); 6] = [
         ("lost by PHC's rule", |o| o.lost_at_s),
         ("lost against the prepared motion", |o| o.prepared_lost_at_s),
         ("lost by the rule of height and tilt", |o| {
             o.anchor_lost_at_s
         }),
         ("fell", |o| o.fell_at_s),
+        ("on the floor after its end", |o| {
+            o.down_after.then_some(o.followed_s)
+        }),
         ("frozen", |o| o.frozen_at_s),
     ];
     for (what, of) in verdicts {

@@ -43,6 +43,9 @@ pub struct SurveyOutcome {
     pub prepared_lost_at_s: Option<f64>,
     /// Time of our own event `fell`, s: also on the way in, and in the second after the way out.
     pub fell_at_s: Option<f64>,
+    /// Whether it lay on the floor 1 s after the clip's end, where the clip does not end there.
+    #[serde(default)]
+    pub down_after: bool,
     /// Time at which the state ran away and the figure was frozen, s.
     pub frozen_at_s: Option<f64>,
     /// Time of the clip over which errors and contacts are measured, s: until it is lost or fell.
@@ -74,8 +77,17 @@ pub struct SurveyOutcome {
     pub jerk_ratio: Option<f64>,
     /// Impulse of the assist over weight × time.
     pub assist_share: f64,
+    /// The same within the recorded part of the clip: neither the way in nor the time after it dilutes it.
+    #[serde(default)]
+    pub assist_recorded_share: f64,
     /// Largest force of the assist, N.
     pub assist_max_n: f64,
+    /// Largest moment of the assist about the pelvis, N·m.
+    #[serde(default)]
+    pub assist_max_nm: f64,
+    /// Mean change of the assist's force from tick to tick over its mean; `None` without assist.
+    #[serde(default)]
+    pub assist_change: Option<f64>,
     /// Time with some DOF at the limit of its strength, s.
     pub limit_s: f64,
     /// The DOF that was longest at its limit; empty if none was.

@@ -178,6 +178,7 @@ impl Course {
             anchor_lost_at_s: anchor_lost(recorded).map(short),
             prepared_lost_at_s: phc_lost(whole, |s| &s.prepared).map(short),
             fell_at_s: trial.fell_at,
+            down_after: trial.down_after,
             frozen_at_s: trial.frozen_at,
             followed_s: trial.followed,
             recorded: errors(samples, |s| &s.recorded),
@@ -191,7 +192,10 @@ impl Course {
             peak_force_weights: short(self.peak),
             jerk_ratio: jerk_ratio(samples),
             assist_share: trial.help.share,
+            assist_recorded_share: trial.help.share_within,
             assist_max_n: trial.help.most,
+            assist_max_nm: trial.help.most_moment,
+            assist_change: trial.help.change,
             limit_s: short(self.limit_ticks as f64 * dt),
             ..SurveyOutcome::default()
         }

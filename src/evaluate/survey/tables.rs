@@ -117,6 +117,7 @@ pub fn by_clip(rows: &[SurveyRow]) -> SurveyTable {
         "F_z, weights",
         "jerk ratio",
         "assist, %",
+        "within the recording, %",
         "at limit, s",
     ];
     if copies {
@@ -140,6 +141,7 @@ pub fn by_clip(rows: &[SurveyRow]) -> SurveyTable {
         };
         let o = &m.outcome;
         let completed = match o.lost_at_s {
+            None if o.completed && o.down_after => "yes, on the floor 1 s after".to_owned(),
             None if o.completed => "yes".to_owned(),
             lost => format!("lost {}", at(lost.or(o.frozen_at_s))),
         };
@@ -175,6 +177,7 @@ pub fn by_clip(rows: &[SurveyRow]) -> SurveyTable {
             digits(Some(o.peak_force_weights), 1),
             digits(o.jerk_ratio, 1),
             digits(Some(100.0 * o.assist_share), 1),
+            digits(Some(100.0 * o.assist_recorded_share), 1),
             limit,
         ];
         if copies {

@@ -61,12 +61,14 @@ pub(super) async fn create(
 ) -> Result<pb::CreateClipResponse, Fault> {
     let id = new_id("clip_id", &r.clip_id)?;
     caller.check_new_name("clip_id", id.as_deref())?;
+    let follow = motion::follow_update("", r.follow, r.max_help_weights)?;
+    let follow = FollowSettings::default().changed(follow);
     let known = !caller.identity.is_anonymous();
     let new = NewClip {
         id,
         display_name: display_name("display_name", &r.display_name)?,
         owner: known.then(|| caller.principal().clone()),
-        follow: motion::follow_settings(r.follow, r.max_help_weights, FollowSettings::default())?,
+        follow,
     };
     let reference = body::reference("body", &r.body, "profile", None)?;
     let max_bytes = api.config.max_clip_bytes;
@@ -91,7 +93,7 @@ pub(super) async fn create(
         if stop() {
             return Err(Turn::gone());
         }
-        let source = motion::clip_source(r.source, max_bytes)?;
+        let source = motion::clip_source(r.source, max_bytes, follow)?;
         app.clips.check_room(&new, &source)?;
         let built = app.bodies.get("body", &reference)?;
         if only {
@@ -140,7 +142,8 @@ pub(super) async fn rehearse(
     if !may(caller, &info, Role::Owner) {
         return Err(caller.denied(Role::Owner, &format!("clips/{id}")));
     }
-    let settings = motion::follow_settings(r.follow, r.max_help_weights, info.follow)?;
+    let update = motion::follow_update("", r.follow, r.max_help_weights)?;
+    let settings = info.follow.changed(update);
     let budget = motion::budget("budget", r.budget)?;
     let (world, figure) = figure_name("figure", &r.figure)?;
     let handle = api.enter_as(caller, Role::Viewer, world)?;
@@ -333,15 +336,12 @@ impl MotionService for Api {
             let r = request.get_ref();
             let (handle, figure) = api.figure(&request, "figure", &r.figure)?;
             let figure = figure.to_owned();
-            let mut playback = motion::playback(r)?;
             let clip_id = clip_name("clip", &r.clip)?.to_owned();
             let caller = caller(&request)?;
             let who = control::single(caller.principal(), "control_token", &r.control_token)?;
             let info = seen(&api, caller, &clip_id)?;
             let follow = motion::follow("follow", r.follow)?;
-            if follow.unwrap_or(info.follow.follow) == Follow::Assisted {
-                playback.max_help = info.follow.most_help;
-            }
+            let mut playback = motion::playback(r, info.follow)?;
             let rehearsed = rehearsed(&api, &clip_id, follow, playback.speed);
             let (manner, rest) = api
                 .clips

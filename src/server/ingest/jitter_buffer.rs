@@ -110,6 +110,10 @@ pub enum Resync {
     Clock,
     /// It was too far behind, because its world skips ticks.
     Behind,
+    /// It began in motion and fell silent before enough of it had arrived to lead its figure into it by steps.
+    TooShort,
+    /// It began in motion, and no moment of its beginning is within reach of the figure's steps.
+    OutOfReach,
 }
 
 impl Resync {
@@ -118,6 +122,12 @@ impl Resync {
         match self {
             Self::Clock => "its sequence or clock started again",
             Self::Behind => "its world leaves ticks out, it was too far behind",
+            Self::TooShort => {
+                "it began in motion and ended before steps could lead its figure into it; it was not played"
+            }
+            Self::OutOfReach => {
+                "it began in motion, and no steps lead its figure into its beginning; that was left out"
+            }
         }
     }
 }
@@ -185,6 +195,8 @@ pub struct JitterBuffer {
 pub enum DueSample<'a> {
     /// Posture, and planted feet if the driver named them.
     Sample(&'a Posture, Option<[bool; 2]>),
+    /// The same, guessed beyond the newest frame.
+    Guess(&'a Posture, Option<[bool; 2]>),
     /// No frame has arrived for too long, so guessing is impossible.
     Silence,
 }
@@ -341,11 +353,6 @@ impl JitterBuffer {
             .map_or(&self.last.posture, |f| &f.posture)
     }
 
-    /// Length of a tick, s.
-    pub fn tick(&self) -> f64 {
-        self.tick
-    }
-
     /// Counters.
     pub fn counts(&self) -> Counts {
         self.counts
@@ -399,6 +406,11 @@ impl JitterBuffer {
     /// How far the stream is behind because its world skips ticks, s; contained in the delay.
     pub fn behind(&self) -> f64 {
         self.pace.behind()
+    }
+
+    /// Has its driver told why the stream, or its beginning, was not played.
+    pub fn note(&mut self, why: Resync) {
+        self.anew.notice = Some(why);
     }
 
     /// Why the stream restarted since the last call, if it did.
@@ -837,7 +849,11 @@ impl JitterBuffer {
                     let frame = &self.frames[answer.frame];
                     // A window finds planted feet itself if the driver does not name them.
                     let planted = frame.planted.and(answer.feet).map(|i| self.planted(i));
-                    give(DueSample::Sample(&answer.target.posture, planted));
+                    let posture = &answer.target.posture;
+                    give(match answer.supply {
+                        Supply::Extrapolated => DueSample::Guess(posture, planted),
+                        _ => DueSample::Sample(posture, planted),
+                    });
                     let known =
                         (self.grid.held.back()).is_none_or(|h| h.1.sequence < frame.sequence);
                     if known {
@@ -848,10 +864,7 @@ impl JitterBuffer {
                         self.grid.held.push_back(entry);
                     }
                 }
-                _ => {
-                    give(DueSample::Silence);
-                    break;
-                }
+                _ => give(DueSample::Silence),
             }
         }
         self.grid.next = last + 1;

@@ -109,17 +109,15 @@ fn restore_one(app: &App, clip: &ClipRecord) -> Result<(), Fault> {
     let described = DescribedClip::decode(clip.description.clone()).map_err(unreadable)?;
     let shown = described.clip.unwrap_or_default();
     let request = pb::CreateClipRequest::decode(clip.content.clone()).map_err(unreadable)?;
-    let source = motion::clip_source(request.source, app.config.max_clip_bytes)?;
+    let follow = motion::follow_update("", request.follow, request.max_help_weights)?;
+    let follow = FollowSettings::default().changed(follow);
+    let source = motion::clip_source(request.source, app.config.max_clip_bytes, follow)?;
     let reference = body::reference("body", &request.body, "profile", None)?;
     let new = NewClip {
         id: Some(clip.name.clone()),
         display_name: shown.display_name.clone(),
         owner: described.owner.map(Into::into),
-        follow: motion::follow_settings(
-            request.follow,
-            request.max_help_weights,
-            FollowSettings::default(),
-        )?,
+        follow,
     };
     app.clips.restore(new, &shown, &reference, source)
 }

@@ -9,6 +9,7 @@
 //! A x − b − t − Jᵀf = 0
 //! t/g − rest + x = z₁ − z₂,   z₁ (t − lower) = z₂ (upper − t) = μ
 //! R f + J x + c = λ,          f ∘ λ = μ
+//! (w − rest)/κ + x + z w = 0, ½ z (most² − |w|²) = μ
 //! ```
 //!
 //! Eliminating them leaves Newton's matrix with other slopes: `1/(1/g + z₁/(t − lower) + z₂/(upper − t))` for a motor
@@ -18,8 +19,9 @@
 
 use super::cone::{Cone, squared};
 use super::limits::MAX_LIMITS;
-use super::newton::{ConvexProblem, Motors, NewtonWorkspace, System};
+use super::newton::{ConvexProblem, Motors, NewtonWorkspace, System, add_root_slope};
 use super::rows::{CHAIN_WIDTH, add_point_stiffness};
+use super::wrench::{InnerForce, RootWrench};
 use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::math::{Mat3, Vec3};
 use crate::report::MAX_CONTACTS;
@@ -186,6 +188,8 @@ pub struct Interior {
     pub(crate) motors: [Inner; DOF_COUNT],
     pub(crate) cones: Box<[Cone; MAX_CONTACTS]>,
     pub(crate) walls: [Wall; MAX_LIMITS],
+    /// Moment and force on the root.
+    pub(crate) wrench: [InnerForce; 2],
     /// Stiffness of each contact, world axes.
     pub(crate) stiffness: Box<[[[f64; 3]; 3]; MAX_CONTACTS]>,
 }
@@ -196,6 +200,7 @@ impl Default for Interior {
             motors: [Inner::default(); DOF_COUNT],
             cones: Box::new([Cone::default(); MAX_CONTACTS]),
             walls: [Wall::default(); MAX_LIMITS],
+            wrench: [InnerForce::default(); 2],
             stiffness: Box::new([[[0.0; 3]; 3]; MAX_CONTACTS]),
         }
     }
@@ -244,8 +249,11 @@ pub(crate) fn approach<S: System>(
         b,
         motors,
         contacts,
+        wrench,
         ..
     } = problem;
+    // A ball without room holds nothing.
+    let held = |part: usize| wrench.map(|w| &w.0[part]).filter(|ball| ball.most > 0.0);
     let n = contacts.points.len();
     let mu = contacts.friction;
     let NewtonWorkspace {
@@ -279,6 +287,11 @@ pub(crate) fn approach<S: System>(
                 let v = to_cone(p.turn.as_ref(), mu, velocity[k] + p.c);
                 inner.cones[k] = Cone::begin(v, size, widest);
             }
+            for (part, f) in inner.wrench.iter_mut().enumerate() {
+                if let Some(ball) = held(part) {
+                    *f = InnerForce::begin(ball, size, widest);
+                }
+            }
         }
         // Complementarity, and the value at which the step aims.
         let (mut sum, mut count) = (0.0, 0.0);
@@ -289,6 +302,12 @@ pub(crate) fn approach<S: System>(
         for c in &inner.cones[..n] {
             sum += c.gap();
             count += 1.0;
+        }
+        for (part, f) in inner.wrench.iter().enumerate() {
+            if let Some(ball) = held(part) {
+                sum += f.gap(ball);
+                count += 1.0;
+            }
         }
         let gap = if first { 0.0 } else { sum / count };
         let aim = aim(gap, shorter);
@@ -308,6 +327,21 @@ pub(crate) fn approach<S: System>(
         }
         for j in 0..DOF_COUNT {
             S::add(hessian, 6 + j, 6 + j, slope[j]);
+        }
+        for (part, f) in inner.wrench.iter_mut().enumerate() {
+            let Some(ball) = held(part) else { continue };
+            let next = if first {
+                let free = |i, j| if i == j { ball.gain } else { 0.0 };
+                f.slope = std::array::from_fn(|i| std::array::from_fn(|j| free(i, j)));
+                ball.rest
+            } else {
+                f.eliminate(ball, RootWrench::seen(x, part), aim);
+                f.next()
+            };
+            add_root_slope::<S>(hessian, part, &f.slope);
+            for (i, w) in next.to_array().into_iter().enumerate() {
+                rhs[3 * part + i] += w;
+            }
         }
         let mut stiffness = [[[0.0; 6]; 6]; SEGMENT_COUNT];
         for (k, p) in contacts.points.iter().enumerate() {
@@ -357,6 +391,11 @@ pub(crate) fn approach<S: System>(
             let dv = to_cone(p.turn.as_ref(), mu, direction[k]);
             step = inner.cones[k].direct(dv, aim, step);
         }
+        for (part, f) in inner.wrench.iter_mut().enumerate() {
+            if let Some(ball) = held(part) {
+                step = f.direct(ball, RootWrench::seen(&d, part), aim, step);
+            }
+        }
         let step = (TO_BOUNDARY * step).min(1.0);
         shorter = step;
         for m in &mut inner.motors {
@@ -364,6 +403,11 @@ pub(crate) fn approach<S: System>(
         }
         for c in &mut inner.cones[..n] {
             c.advance(step);
+        }
+        for (part, f) in inner.wrench.iter_mut().enumerate() {
+            if held(part).is_some() {
+                f.advance(step);
+            }
         }
         for i in 0..NV {
             x[i] += step * d[i];

@@ -14,6 +14,7 @@ pub mod projection;
 pub mod rows;
 pub mod slides;
 pub mod sparse;
+pub mod wrench;
 
 pub use dense::DenseSystem;
 pub use interior::Interior;
@@ -22,6 +23,7 @@ pub use newton::{ConvexProblem, Motors, NewtonWorkspace, SolveOutcome, StopRule,
 pub use rows::ContactRows;
 pub use slides::Slides;
 pub use sparse::SparseSystem;
+pub use wrench::{BallForce, RootWrench};
 
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 use super::limits::{LimitRows, MAX_LIMITS};
 use super::projection::Region;
 use super::rows::{CHAIN_WIDTH, ContactRows, SegmentRows, add_point_stiffness};
+use super::wrench::{CutForce, RootWrench};
 use crate::body::topology::{DOF_COUNT, NV, SEGMENT_COUNT};
 use crate::math::Vec3;
 use crate::report::MAX_CONTACTS;
@@ -23,7 +24,7 @@ pub trait System {
     fn solve(g: &mut Self::Hessian, x: &mut [f64; NV]) -> bool;
 }
 
-/// The convex problem of `docs/equations.md`, 14: ½ xᵀA x − bᵀx + motors + limits + contacts.
+/// The convex problem of `docs/equations.md`, 14: ½ xᵀA x − bᵀx + motors + limits + contacts + wrench.
 #[derive(Debug)]
 pub struct ConvexProblem<'a, S> {
     /// A.
@@ -36,6 +37,8 @@ pub struct ConvexProblem<'a, S> {
     pub limits: &'a LimitRows,
     /// Contacts.
     pub contacts: &'a ContactRows,
+    /// Wrench on the root, if there is one.
+    pub wrench: Option<&'a RootWrench>,
 }
 
 /// When a minimisation ends.
@@ -96,6 +99,8 @@ pub struct NewtonWorkspace {
     pub limit: [f64; DOF_COUNT],
     /// Contact forces, one per point.
     pub force: Box<[Vec3; MAX_CONTACTS]>,
+    /// Moment and force of the wrench on the root.
+    pub(crate) wrench: [CutForce; 2],
     pub(crate) velocity: Box<[Vec3; MAX_CONTACTS]>,
     pub(crate) direction: Box<[Vec3; MAX_CONTACTS]>,
     /// Rates of the limit rows at the start of a line search, and along it.
@@ -110,6 +115,7 @@ impl Default for NewtonWorkspace {
             motor: [0.0; DOF_COUNT],
             limit: [0.0; DOF_COUNT],
             force: z(),
+            wrench: [CutForce::default(); 2],
             velocity: z(),
             direction: z(),
             ways: Box::new([[0.0; 2]; MAX_LIMITS]),
@@ -206,6 +212,7 @@ pub fn minimise<S: System>(
         motors,
         limits,
         contacts,
+        wrench,
     } = problem;
     let n = contacts.points.len();
     let mut ax = [0.0; NV];
@@ -241,7 +248,10 @@ pub fn minimise<S: System>(
         let mut search = LineSearch::new(slope0, LINE_SEARCH);
         loop {
             let (a, line) = (search.step, [&*x, &d]);
-            let slope = ws.less_given((q0 + a * q1, a), motors, limits, contacts, line);
+            let mut slope = ws.less_given((q0 + a * q1, a), motors, limits, contacts, line);
+            if let Some(wrench) = wrench {
+                slope -= wrench.along(x, &d, a);
+            }
             if search.ends_at(slope) {
                 break;
             }
@@ -271,12 +281,21 @@ fn gradient<S>(
         motors,
         limits,
         contacts,
+        wrench,
         ..
     } = problem;
     let mut grad = [0.0; NV];
     let mut slope = [0.0; DOF_COUNT];
     for i in 0..6 {
         grad[i] = ax[i] - b[i];
+    }
+    if let Some(wrench) = wrench {
+        for (part, ball) in wrench.0.iter().enumerate() {
+            ws.wrench[part] = ball.value(RootWrench::seen(x, part));
+            for (i, f) in ws.wrench[part].force.to_array().into_iter().enumerate() {
+                grad[3 * part + i] -= f;
+            }
+        }
     }
     for j in 0..DOF_COUNT {
         let (t, s) = motors.value(j, x[6 + j]);
@@ -313,10 +332,18 @@ fn add_slopes<S: System>(
     hessian: &mut S::Hessian,
 ) {
     let ConvexProblem {
-        limits, contacts, ..
+        limits,
+        contacts,
+        wrench,
+        ..
     } = problem;
     for j in 0..DOF_COUNT {
         S::add(hessian, 6 + j, 6 + j, slope[j]);
+    }
+    if let Some(wrench) = wrench {
+        for (part, ball) in wrench.0.iter().enumerate() {
+            add_root_slope::<S>(hessian, part, &ball.slope(ws.wrench[part]));
+        }
     }
     for row in &limits.rows {
         if row.rate(x) < -row.allowed {
@@ -340,6 +367,20 @@ fn add_slopes<S: System>(
     for (slot, s) in contacts.segments.iter().enumerate() {
         if touching[slot] {
             S::add_segment(hessian, s, &s.stiffened(&stiffness[slot]));
+        }
+    }
+}
+
+/// Adds the slope of the moment (part 0) or the force (1) on the root.
+#[inline(always)]
+pub(super) fn add_root_slope<S: System>(
+    hessian: &mut S::Hessian,
+    part: usize,
+    slope: &[[f64; 3]; 3],
+) {
+    for (i, row) in slope.iter().enumerate() {
+        for (j, x) in row.iter().enumerate().take(i + 1) {
+            S::add(hessian, 3 * part + i, 3 * part + j, *x);
         }
     }
 }

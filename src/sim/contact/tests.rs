@@ -187,6 +187,7 @@ fn newton_reaches_the_minimum_and_both_storages_agree() {
             motors: &motors,
             limits: &limits,
             contacts: &contacts,
+            wrench: None,
         };
         let o = minimise(&sparse, stop, &mut t.mass_matrix.clone(), &mut x, &mut ws);
         assert!(
@@ -201,6 +202,7 @@ fn newton_reaches_the_minimum_and_both_storages_agree() {
             motors: &motors,
             limits: &limits,
             contacts: &contacts,
+            wrench: None,
         };
         let o2 = minimise(&dense, stop, &mut t.m.clone(), &mut y, &mut ws2);
         assert!(o2.converged);

@@ -146,6 +146,8 @@ pub struct ControlInput<'a> {
     /// Compliance of the assist on which a plan may rely, [N²·m², N²] per unit of cost: moment and force on the pelvis;
     /// zeros without assist.
     pub assist: [f64; 2],
+    /// A wrench on the pelvis that the plan may use, if there is one; it acts exactly as planned.
+    pub help: Option<HelpAllowance<'a>>,
     /// Whether the accelerations are applied as they are. The controller then keeps planted feet in place, and answers
     /// overload with the accelerations of the clipped torques; strength-limited motors settle both by themselves.
     pub kinematic: bool,
@@ -160,6 +162,24 @@ impl ControlInput<'_> {
             _ => 0.0,
         }
     }
+}
+
+/// A wrench on the pelvis that a plan may use: its price, its bound, and the facts by which the floor, rather than the
+/// wrench, carries what it can.
+#[derive(Clone, Copy, Debug)]
+pub struct HelpAllowance<'a> {
+    /// Compliance: [N²·m², N²] of moment and force per unit of cost.
+    pub compliance: [f64; 2],
+    /// Largest moment, N·m, and force, N.
+    pub most: [f64; 2],
+    /// Share of the last tick's wrench that costs nothing, 0…1: the price on its change.
+    pub kept: f64,
+    /// Heights of all contact points in the motion, by segment × 8 + vertex, m.
+    pub heights: &'a [f64; MAX_CONTACTS],
+    /// Force of the floor on each of them in the last tick, N.
+    pub floor: &'a [Vec3; MAX_CONTACTS],
+    /// Whether the motion is followed where it lies in the world, without steps of its own.
+    pub as_it_lies: bool,
 }
 
 /// Desired centre of mass and centroidal angular momentum.
@@ -242,6 +262,8 @@ pub struct Command {
     pub margin: Option<f64>,
     /// The pivot about which the support tips, if it does.
     pub pivot: Option<crate::support::Pivot>,
+    /// Planned moment on the pelvis, N·m, and force, N: zero without help.
+    pub wrench: [Vec3; 2],
 }
 
 impl Default for Command {
@@ -257,6 +279,7 @@ impl Default for Command {
             zmp: None,
             margin: None,
             pivot: None,
+            wrench: [Vec3::zero(); 2],
         }
     }
 }

@@ -3,18 +3,22 @@
 //! Unknowns are the 45 accelerations, 39 torques and the forces of the planned contact points; the dual has 45 unknowns
 //! and is the same kernel as the simulator's substep. Torques stay within strength and forces within friction at every
 //! iterate, the solution is a continuous function of the state, and the work is bounded.
+//!
+//! A figure that is helped has one more unknown, a wrench on its pelvis with a price and a bound
+//! ([`HelpAllowance`](super::HelpAllowance)). It does whatever strength, soles and friction cannot, and acts exactly as
+//! planned.
 
 use super::goals::MAX_GOALS;
 use super::tracking::{Law, initial_acceleration};
-use super::{Command, ControlInput, Controller};
+use super::{Command, ControlInput, Controller, HelpAllowance};
 use crate::body::topology::{
     DOF_COUNT, DOF_LEN, DOF_START, L_HAND, L_UPPER_ARM, NV, R_HAND, R_UPPER_ARM, SEGMENT_COUNT,
 };
 use crate::contact::dense::Dense;
 use crate::contact::rows::{CHAIN_WIDTH, add_point_stiffness};
 use crate::contact::{
-    ContactRows, ConvexProblem, DenseSystem, Interior, LimitRows, Motors, NewtonWorkspace,
-    SolveOutcome, StopRule, interior, minimise,
+    BallForce, ContactRows, ConvexProblem, DenseSystem, Interior, LimitRows, Motors,
+    NewtonWorkspace, RootWrench, SolveOutcome, StopRule, interior, minimise,
 };
 use crate::dynamics::Terms;
 use crate::dynamics::terms::WIDTH;
@@ -46,6 +50,8 @@ mod weight {
     pub(super) const COM: [f64; 3] = [1000.0, 1000.0, 300.0];
     /// Upwards at lift-off: a deficit then cannot be made up for in the air.
     pub(super) const COM_LIFT_OFF: f64 = 1000.0;
+    /// The same in all directions for a helped figure: help carries what the legs do not.
+    pub(super) const COM_HELPED: [f64; 3] = [1000.0; 3];
     pub(super) const HAND: f64 = 1.0;
     /// Client constraints, fully in force: a bounded pull that moves the centre of mass by 3 cm when it cannot be met.
     pub(super) const GOAL: f64 = 100.0;
@@ -127,6 +133,7 @@ pub struct Modern {
     interior: Box<Interior>,
     rows: Vec<TaskRow>,
     assist: [f64; 2],
+    wrench: Option<RootWrench>,
     seat: SeatLoad,
     command: Command,
 }
@@ -187,6 +194,7 @@ impl Modern {
             interior: Box::default(),
             rows: Vec::with_capacity(24 + 6 * MAX_GOALS),
             assist: [0.0; 2],
+            wrench: None,
             seat: SeatLoad::default(),
             command: Command::default(),
         }
@@ -242,6 +250,18 @@ fn pelvis_demand(t: &Terms, target: &TargetPair, law: &Law, dt: f64) -> Vec3 {
         (target.now.posture.root_rotation * t.state.posture.root_rotation.conjugate()).log();
     (next - now) * (1.0 / dt)
         + law_feedback(law, error, now - w(&t.state.velocity)).capped(ROTATION_FEEDBACK)
+}
+
+impl HelpAllowance<'_> {
+    /// The wrench in the dual. Its cost is `½ |w|²/c + ½ |w − last|² k/((1 − k) c)`, with the compliance c and the
+    /// share k that is kept; together `½ |w − k last|²/((1 − k) c)`.
+    fn ball(&self, last: &[Vec3; 2]) -> RootWrench {
+        RootWrench(std::array::from_fn(|k| BallForce {
+            gain: (1.0 - self.kept) * self.compliance[k],
+            rest: last[k].capped(self.most[k]) * self.kept,
+            most: self.most[k],
+        }))
+    }
 }
 
 impl Controller for Modern {
@@ -307,6 +327,7 @@ impl Controller for Modern {
             }
         }
         self.assist = input.assist;
+        self.wrench = (input.help.as_ref()).map(|help| help.ball(&self.memory.wrench));
         let Some(outcome) = kernel(self, t, &diagonal, &mut linear) else {
             self.command = Command {
                 acceleration: [f64::NAN; NV],
@@ -337,6 +358,11 @@ impl Controller for Modern {
             }
             c.joint_acceleration[j] = c.acceleration[6 + j];
         }
+        c.wrench = match self.wrench {
+            Some(_) => self.newton.wrench.map(|w| w.force),
+            None => [Vec3::zero(); 2],
+        };
+        self.memory.wrench = c.wrench;
         let (mut force, mut moment) = (Vec3::zero(), Vec3::zero());
         for (k, p) in self.contacts.points.iter().enumerate() {
             let f = self.newton.force[k];
@@ -444,6 +470,7 @@ fn kernel(
         motors: &c.motors,
         limits: &c.limits,
         contacts: &c.contacts,
+        wrench: c.wrench.as_ref(),
     };
     let (hessian, price, newton) = (&mut c.hessian, &mut c.memory.price, &mut c.newton);
     let stop = StopRule {

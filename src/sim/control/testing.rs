@@ -2,7 +2,7 @@
 
 use super::{
     CentroidalTarget, ConstraintGoal, ContactTargets, ControlInput, Effector, FootTarget,
-    PointTarget, RotationTarget, StancePhase,
+    HelpAllowance, PointTarget, RotationTarget, StancePhase,
 };
 use crate::body::topology::{DOF_COUNT, L_FOOT, L_HAND, R_FOOT, R_HAND};
 use crate::body::{Body, State};
@@ -10,12 +10,21 @@ use crate::dynamics::Terms;
 use crate::math::vec3::vec3;
 use crate::math::{Quat, Vec3};
 use crate::motion::{Target, TargetPair};
+use crate::report::MAX_CONTACTS;
 use crate::setup::ControlParams;
 use crate::support::Support;
 use crate::support::testing::{GRAVITY, mannequin, strength, terms};
 
 /// Length of a tick, s.
 pub(crate) const DT: f64 = 1.0 / 60.0;
+
+/// Price and bound of a wrench, and the share of the last one that costs nothing.
+#[derive(Clone, Copy)]
+pub(crate) struct SceneHelp {
+    pub(crate) compliance: [f64; 2],
+    pub(crate) most: [f64; 2],
+    pub(crate) kept: f64,
+}
 
 /// One tick's input, owned.
 pub(crate) struct Scene {
@@ -31,6 +40,9 @@ pub(crate) struct Scene {
     pub(crate) upper: [f64; DOF_COUNT],
     pub(crate) params: ControlParams,
     pub(crate) assist: [f64; 2],
+    pub(crate) help: Option<SceneHelp>,
+    pub(crate) heights: Box<[f64; MAX_CONTACTS]>,
+    pub(crate) floor: Box<[Vec3; MAX_CONTACTS]>,
     pub(crate) kinematic: bool,
 }
 
@@ -75,6 +87,9 @@ impl Scene {
             upper,
             params: ControlParams::default(),
             assist: [0.0; 2],
+            help: None,
+            heights: Box::new([0.0; MAX_CONTACTS]),
+            floor: Box::new([Vec3::zero(); MAX_CONTACTS]),
             kinematic: false,
         }
     }
@@ -111,6 +126,14 @@ impl Scene {
             gravity: GRAVITY,
             dt: DT,
             assist: self.assist,
+            help: self.help.map(|help| HelpAllowance {
+                compliance: help.compliance,
+                most: help.most,
+                kept: help.kept,
+                heights: &self.heights,
+                floor: &self.floor,
+                as_it_lies: true,
+            }),
             kinematic: self.kinematic,
         }
     }

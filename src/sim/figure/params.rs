@@ -250,14 +250,16 @@ pub mod help {
         FORECAST_TIME: f64 = 0.3, "s", 0.1..=0.6, "docs/rehearsal.md#live-help";
         /// Distance from the pelvis at which its turns are measured as displacements.
         ARM: f64 = 0.5, "m", 0.2..=1.0, "docs/rehearsal.md#live-help";
-        /// A motion is being lost from this forecast on: half of what counts as lost.
-        BEGIN: f64 = 0.25, "m", 0.1..=0.5, "docs/rehearsal.md#live-help";
+        /// A motion is being lost from this forecast on: a quarter of what counts as lost. Later, more is needed.
+        BEGIN: f64 = 0.12, "m", 0.1..=0.5, "docs/rehearsal.md#live-help";
         /// For so long: a foot that strikes is not a loss.
         BEGIN_AFTER: f64 = 0.05, "s", 0..=0.2, "docs/rehearsal.md#live-help";
         /// It is kept again below this forecast.
-        END: f64 = 0.1, "m", 0.05..=0.2, "docs/rehearsal.md#live-help";
+        END: f64 = 0.06, "m", 0.05..=0.2, "docs/rehearsal.md#live-help";
         /// For so long.
         END_AFTER: f64 = 0.3, "s", 0.1..=1.0, "docs/rehearsal.md#live-help";
+        /// Time constant with which the plan of a figure that is carried returns to its own place and time.
+        HOME_TIME: f64 = 0.5, "s", 0.1..=5.0, "docs/rehearsal.md#live-help";
         /// Time in which help grows to what is allowed.
         GROWTH_TIME: f64 = 0.1, "s", 0.02..=0.5, "docs/rehearsal.md#live-help";
         /// Time in which it fades.
@@ -268,6 +270,22 @@ pub mod help {
         OUT_OF_REACH_AFTER: f64 = 0.5, "s", 0.1..=2.0, "docs/rehearsal.md#live-help";
         /// Time until a figure that was let fall can be helped again.
         AGAIN_AFTER: f64 = 2.0, "s", 0.5..=10.0, "docs/rehearsal.md#live-help";
+        /// Force over the weight, and moment over half the weight times stature, that costs a plan `COST`, whatever is
+        /// allowed: what is cheap must not depend on what is allowed.
+        PRICED: f64 = 0.3, "1", 0.05..=1.0, "docs/rehearsal.md#live-help";
+        /// Cost to a plan of such a force while the motion is being lost. The tasks that it competes with cost up to
+        /// some hundreds.
+        COST: f64 = 10.0, "1", 1..=100, "docs/rehearsal.md#live-help";
+        /// Factor on what a moment may be at the same cost: turns are needed most, and a moment carries nothing.
+        MOMENT_SHARE: f64 = 2.0, "1", 0.5..=4.0, "docs/rehearsal.md#live-help";
+        /// Up to this forecast help has its highest price.
+        DEAR_UNTIL: f64 = 0.05, "m", 0..=0.2, "docs/rehearsal.md#live-help";
+        /// From this forecast on it has its lowest.
+        CHEAP_FROM: f64 = 0.2, "m", 0.1..=0.5, "docs/rehearsal.md#live-help";
+        /// Logarithm of the highest price over the lowest: a factor of 300.
+        PRICE_RANGE: f64 = 5.7, "1", 0..=10.0, "docs/rehearsal.md#live-help";
+        /// Time over which a wrench changes without cost: the price on its change. It shakes the figure without it.
+        SMOOTHING_TIME: f64 = 0.13, "s", 0..=0.3, "docs/rehearsal.md#live-help";
     }
 }
 

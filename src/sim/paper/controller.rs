@@ -399,6 +399,7 @@ impl Controller for Paper {
             zmp: stand.zmp,
             margin: stand.margin,
             pivot: stand.pivot,
+            wrench: [Vec3::zero(); 2],
         };
         &self.command
     }

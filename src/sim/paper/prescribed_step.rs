@@ -360,6 +360,7 @@ impl KinematicStepper {
             motors: &self.motors,
             limits: &self.limits,
             contacts: &self.contacts,
+            wrench: None,
         };
         let stop = StopRule {
             iterations: ITERATIONS,

@@ -96,8 +96,8 @@ pub(in crate::plan) fn swing_toe(pitch: f64) -> f64 {
 /// * `rate_hz`: samples per second.
 ///
 /// The result is continuous in position, velocity and acceleration up to the recording's own smoothness. A planted
-/// foot's pivot (heel edge or toe joint) does not move, and no point of the sole is below the floor in stance. O(n log
-/// n) per stance.
+/// foot's pivot (heel edge or toe joint) does not move, and no point of the sole is below the floor in stance. Without
+/// any stance of either foot, the foot stays as it was recorded. O(n log n) per stance.
 pub fn lock_foot(
     sole: &Sole,
     recorded: RecordedFoot<'_>,
@@ -117,6 +117,11 @@ pub fn lock_foot(
         placements: vec![FootPlacement::default(); n],
         slide_before: 0.0,
     };
+    if stances.is_empty() && other.is_empty() {
+        // A swing leads from one stance to another. Without any, the whole recording would count as one swing, and a
+        // sole that stands on the floor would be raised by the clearance of a step.
+        return out;
+    }
     for &Stance { start: i, end: j } in stances {
         let (place, yaw) = track.anchor(i, j);
         let pitch = stance_pitch(&track.pitch[i..j], rate_hz);

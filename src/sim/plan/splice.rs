@@ -40,6 +40,7 @@ pub struct StopCandidates {
     now: usize,
     goal: Option<Posture>,
     streamed: bool,
+    whole: bool,
     #[serde(skip)]
     way: OnceLock<Option<KnownMotion>>,
     /// The first end already found to be easy: those after it are not needed.
@@ -58,6 +59,8 @@ struct KnownMotion {
     postures: Vec<Posture>,
     label: Vec<[bool; 2]>,
     now: usize,
+    /// The first sample after which it should end.
+    wanted: usize,
 }
 
 /// The stand in which a stopped motion ends, wherever that is.
@@ -67,6 +70,9 @@ pub struct StandGoal {
     pub posture: Option<Posture>,
     /// Whether the motion is a stream, which is known less well than a clip.
     pub streamed: bool,
+    /// Whether the motion goes to the end of what is known if it can be stopped there, rather than to the first moment
+    /// at which it can.
+    pub whole: bool,
 }
 
 impl std::fmt::Debug for StopCandidates {
@@ -85,6 +91,7 @@ impl StopCandidates {
         let StandGoal {
             posture: goal,
             streamed,
+            whole,
         } = to;
         Self {
             body: Arc::clone(body),
@@ -92,6 +99,7 @@ impl StopCandidates {
             now,
             goal,
             streamed,
+            whole,
             way: OnceLock::new(),
             easy: none_yet(),
         }
@@ -114,6 +122,7 @@ impl StopCandidates {
         let to = StandGoal {
             posture: Some(goal),
             streamed: self.streamed,
+            whole: self.whole,
         };
         stop(&self.body, self.known.clone(), self.now, to)
     }
@@ -126,7 +135,8 @@ impl StopCandidates {
             let (known, now) = (twice_as_fine(&self.known)?, 2 * self.now);
             let (mut postures, planted): (Vec<_>, Vec<_>) = known.iter().copied().unzip();
             let mut label = relabel_prepared(&self.body, stop::RATE, &postures, &planted);
-            if (now..label.len()).all(|i| label[i] != [true; 2]) {
+            let wanted = if self.whole { label.len() - 1 } else { now };
+            if (wanted..label.len()).all(|i| label[i] != [true; 2]) {
                 finish_step(&mut postures, &mut label);
             }
             Some(KnownMotion {
@@ -134,6 +144,7 @@ impl StopCandidates {
                 postures,
                 label,
                 now,
+                wanted,
             })
         };
         self.way.get_or_init(way).as_ref()
@@ -146,13 +157,7 @@ impl StopCandidates {
             return None;
         }
         let way = self.way()?;
-        // The moment of the step at which a body can best be stopped is known only once all are planned.
-        let last = way.postures.len() - 1;
-        let latest = (way.now + (stop::SEARCH_TIME * stop::RATE) as usize).min(last);
-        let end = way.now.min(last) + k * stop::SEARCH_STRIDE;
-        if end > latest {
-            return None;
-        }
+        let end = way.moment(k)?;
         let found = way.stop_after(&self.body, end, self.goal.as_ref(), self.streamed)?;
         if found.0 < stop::EASY {
             self.easy.fetch_min(k, Ordering::Relaxed);
@@ -183,6 +188,20 @@ pub fn stop(body: &Arc<Body>, known: Vec<Sample>, now: usize, to: StandGoal) -> 
 }
 
 impl KnownMotion {
+    /// The sample after which the `k`-th end begins: from the first that is wanted on forwards, as far as the step
+    /// goes; then backwards, since a body that cannot be stopped there loses more than the last moments of its motion.
+    fn moment(&self, k: usize) -> Option<usize> {
+        let last = self.postures.len() - 1;
+        let first = self.wanted.min(last);
+        let latest = (first + (stop::SEARCH_TIME * stop::RATE) as usize).min(last);
+        let after = (latest - first) / stop::SEARCH_STRIDE;
+        if k <= after {
+            return Some(first + k * stop::SEARCH_STRIDE);
+        }
+        let end = first.checked_sub((k - after) * stop::SEARCH_STRIDE)?;
+        (end >= self.now).then_some(end)
+    }
+
     /// The motion up to sample `end`, then to a stand like `goal`, or at ease, and the unsupported force that this
     /// needs.
     fn stop_after(

@@ -15,15 +15,17 @@ use crate::world::{RehearsedMotion, WorldError};
 use std::sync::Arc;
 
 /// The means that a figure may use to follow a clip.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Follow {
     /// Plain tracking: physics alone; if it falls, it falls.
     #[default]
     Strict,
     /// A rehearsal, without help.
     Rehearsed,
-    /// A rehearsal, and the least help that suffices.
+    /// Help while the motion is being lost. A rehearsal searches for less than that.
     Assisted,
+    /// The same to the end of the motion, with as much help as that takes.
+    Always,
 }
 
 impl Follow {
@@ -33,12 +35,24 @@ impl Follow {
             Self::Strict => "strict",
             Self::Rehearsed => "rehearsed",
             Self::Assisted => "assisted",
+            Self::Always => "always",
         }
     }
-}
 
-/// Default for the largest force of the help over the weight.
-pub const MOST_HELP: f64 = 0.3;
+    /// Largest force of the help over the weight, if nothing else is said.
+    pub fn most_help(self) -> f64 {
+        match self {
+            Self::Strict | Self::Rehearsed => 0.0,
+            Self::Assisted => 0.3,
+            Self::Always => 1.0,
+        }
+    }
+
+    /// Whether the means include help.
+    pub fn takes_help(self) -> bool {
+        self.most_help() > 0.0
+    }
+}
 
 /// The way in which a clip is followed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -183,11 +197,21 @@ pub struct RehearsalOptions {
     pub settings: Settings,
 }
 
+impl RehearsalOptions {
+    /// Largest force of the help over the weight; 0: none.
+    pub fn allowed_help(&self) -> f64 {
+        match self.follow.takes_help() {
+            true => self.most_help,
+            false => 0.0,
+        }
+    }
+}
+
 impl Default for RehearsalOptions {
     fn default() -> Self {
         Self {
             follow: Follow::Assisted,
-            most_help: MOST_HELP,
+            most_help: Follow::Assisted.most_help(),
             threads: 1,
             seed: 1,
             settings: Settings::default(),
@@ -269,10 +293,7 @@ pub fn problem(
             problem.links.add_load(segment, point, mass);
         }
     }
-    problem.most_help = match options.follow {
-        Follow::Assisted => options.most_help,
-        Follow::Strict | Follow::Rehearsed => 0.0,
-    };
+    problem.most_help = options.allowed_help();
     problem.seed = options.seed;
     Ok(problem)
 }
@@ -299,13 +320,9 @@ fn live_help(
 
 /// The same conditions with the permitted help while a motion is being lost.
 pub fn with_help(conditions: &Conditions, options: &RehearsalOptions) -> Conditions {
-    let most = match options.follow {
-        Follow::Assisted => options.most_help,
-        Follow::Strict | Follow::Rehearsed => 0.0,
-    };
     Conditions {
         options: FigureOptions {
-            max_help: most,
+            max_help: options.allowed_help(),
             ..conditions.options
         },
         ..conditions.clone()

@@ -5,6 +5,7 @@ use super::result::LOST;
 use crate::body::topology::SEGMENT_COUNT;
 use crate::body::{Body, Posture, State};
 use crate::figure::{ControllerKind, FigureOptions, Flags, Perturbation, StrengthScale};
+use crate::math::Vec3;
 use crate::math::rounding::short;
 use crate::motion::leg_ik::forward;
 use crate::motion::{Clip, GRAVITY};
@@ -20,7 +21,9 @@ use std::sync::Arc;
 
 /// Time for which a figure is watched after a prepared clip has ended, s.
 const AFTER: f64 = 1.0;
-/// The same after a stream, s, whose last posture is held.
+/// A pelvis below this share of the height at which the clip ends is on the floor.
+const DOWN: f64 = 0.5;
+/// The same as [`AFTER`] after a stream, s, whose last posture is held.
 const AFTER_STREAM: f64 = 3.0;
 
 /// The motions that a trial is measured against.
@@ -205,6 +208,8 @@ pub struct TrialResult {
     pub lost_at: Option<f64>,
     /// Time at which the figure fell, s: also on the way in, and in the second after the way out.
     pub fell_at: Option<f64>,
+    /// Whether it lay on the floor 1 s after the clip's end, where the clip does not end there.
+    pub down_after: bool,
     /// Time at which the state ran away and the figure was frozen, s.
     pub frozen_at: Option<f64>,
     /// Time of the clip over which distances are measured, s: until the motion is lost or the figure falls.
@@ -226,8 +231,14 @@ pub struct TrialHelp {
     pub impulse: f64,
     /// Impulse over weight × time.
     pub share: f64,
+    /// The same within the recording: neither the way in nor the time after it dilutes it.
+    pub share_within: f64,
     /// Largest force, N.
     pub most: f64,
+    /// Largest moment about the pelvis, N·m.
+    pub most_moment: f64,
+    /// Mean change of the force from tick to tick over its mean, within the recording; `None` without help.
+    pub change: Option<f64>,
     /// Share of the ticks in which it acted.
     pub acts: f64,
 }
@@ -238,10 +249,34 @@ pub struct Judge {
     distances: Vec<Distance>,
     fell_at: Option<f64>,
     frozen_at: Option<f64>,
+    down_after: bool,
     impulse: f64,
     most: f64,
+    most_moment: f64,
+    within: HelpWithin,
     helped: usize,
     ticks: usize,
+}
+
+/// Sums over the ticks within the recording.
+#[derive(Clone, Debug, Default)]
+struct HelpWithin {
+    /// Impulse of the force, N·s.
+    impulse: f64,
+    /// Sum of its changes from tick to tick, times the length of a tick, N·s.
+    changes: f64,
+    /// Time, s.
+    time: f64,
+    last: Option<Vec3>,
+}
+
+impl HelpWithin {
+    fn add(&mut self, force: Vec3, dt: f64) {
+        let last = self.last.replace(force).unwrap_or(force);
+        self.impulse += force.norm() * dt;
+        self.changes += (force - last).norm() * dt;
+        self.time += dt;
+    }
 }
 
 /// Distance of a figure from the recording at one time.
@@ -263,7 +298,7 @@ impl Distance {
         };
         Self {
             time,
-            global: mean(crate::math::Vec3::zero()),
+            global: mean(Vec3::zero()),
             root_relative: mean(a[0].0 - b[0].0),
         }
     }
@@ -279,9 +314,14 @@ impl Judge {
             self.frozen_at.get_or_insert(time);
             return;
         }
-        let force = report.assist[3..].iter().map(|f| f * f).sum::<f64>().sqrt();
-        self.impulse += force * dt;
-        self.most = self.most.max(force);
+        let [mx, my, mz, fx, fy, fz] = report.assist;
+        let (moment, force) = (
+            Vec3::from_array([mx, my, mz]),
+            Vec3::from_array([fx, fy, fz]),
+        );
+        self.impulse += force.norm() * dt;
+        self.most = self.most.max(force.norm());
+        self.most_moment = self.most_moment.max(moment.norm());
         if figure.is_fallen() {
             self.fell_at.get_or_insert(time);
         }
@@ -291,6 +331,12 @@ impl Judge {
             let both = [&figure.state().posture, &wanted];
             let distance = Distance::new(time, figure.body(), both);
             self.distances.push(distance);
+            self.within.add(force, dt);
+        }
+        if time < clip.duration() + AFTER + 1e-9 {
+            let height = |p: &Posture| p.root_position.z;
+            let ends = height(&clip.sample(clip.duration()).posture);
+            self.down_after = height(&figure.state().posture) < DOWN * ends;
         }
     }
 
@@ -316,6 +362,7 @@ impl Judge {
             completed: lost.is_none() && self.frozen_at.is_none_or(|t| t > end),
             lost_at: lost.map(short),
             fell_at: self.fell_at.map(short),
+            down_after: self.down_after,
             frozen_at: self.frozen_at.map(short),
             followed: short(until.clamp(0.0, end)),
             measured_ticks: followed,
@@ -324,7 +371,11 @@ impl Judge {
             help: TrialHelp {
                 impulse: self.impulse,
                 share: short(self.impulse / (weight * trial.world.time().0)),
+                share_within: short(self.within.impulse / (weight * self.within.time.max(1e-9))),
                 most: short(self.most),
+                most_moment: short(self.most_moment),
+                change: (self.within.impulse > 0.0)
+                    .then(|| short(self.within.changes / self.within.impulse)),
                 acts: self.helped as f64 / self.ticks.max(1) as f64,
             },
         }

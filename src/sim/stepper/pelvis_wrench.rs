@@ -52,6 +52,8 @@ pub enum PelvisHelp<'a> {
     Desired(&'a Assist, &'a TargetPair),
     /// A pull towards its desired pose, computed from its pose at the start of a substep.
     Pull(PelvisHold, &'a TargetPair),
+    /// The moment, N·m, and the force, N, that the controller planned, constant over the tick.
+    Planned([Vec3; 2]),
     /// The help of a rehearsal, and a spring towards the path of the pelvis in that rehearsal.
     Rehearsed(PelvisHold, PelvisPath<'a>),
 }
@@ -69,6 +71,7 @@ impl PelvisHelp<'_> {
                 let s = f64::from(i) / f64::from(substeps);
                 pull.impulse(target, s, dt, state, h)
             }
+            Self::Planned(wrench) => Spring::given(wrench.map(|w| w * h)),
             Self::Rehearsed(hold, path) => hold.spring(path, i as usize, state, h),
         }
     }
@@ -137,6 +140,16 @@ impl Missing {
 }
 
 impl Spring {
+    /// An impulse that does not depend on the end of the substep, N·m·s and N·s.
+    fn given(impulse: [Vec3; 2]) -> Self {
+        Self {
+            gain: [0.0; 2],
+            rest: [Vec3::zero(); 2],
+            most: [0.0; 2],
+            given: Some(impulse),
+        }
+    }
+
     /// Impulse of part `k` at the velocity `v` of the pelvis, without the limit.
     pub fn impulse(&self, k: usize, v: &[f64; 6]) -> Vec3 {
         let now = Vec3 {
@@ -242,12 +255,7 @@ impl PelvisHold {
             let pull = (off[k] * (w * w) + (rate[k] - now[k]) * (2.0 * w)) * inertia;
             pull.capped(most) * h
         };
-        Spring {
-            gain: [0.0; 2],
-            rest: [Vec3::zero(); 2],
-            most: [0.0; 2],
-            given: Some([pull(0, inertia, self.most[1]), pull(1, mass, self.most[0])]),
-        }
+        Spring::given([pull(0, inertia, self.most[1]), pull(1, mass, self.most[0])])
     }
 
     /// The spring of substep `i`, of `h` s. Implicit: its force is that at the end of the substep.

@@ -426,8 +426,8 @@ impl StepTracker {
     ///
     /// * `terms`: those of the present state; `plan_time`: time of the plan (s) at a world time; `pair(now, next)`: the
     ///   motion as planned, at two world times.
-    /// * `carried`: stiff motors and a pull keep the figure with its motion. The clock, the lag and the place stay, and
-    ///   contacts are ignored; they are looked up again afterwards.
+    /// * `fade`: if help keeps the figure with its motion, the time constant (s) with which lag and displacement of the
+    ///   motion fade. Contacts are ignored; they are looked up again afterwards.
     pub fn targets(
         &mut self,
         time: WorldTime,
@@ -435,14 +435,18 @@ impl StepTracker {
         terms: &Terms,
         plan_time: impl Fn(WorldTime) -> f64,
         pair: impl Fn(WorldTime, WorldTime) -> TargetPair,
-        carried: bool,
+        fade: Option<f64>,
     ) -> TargetPair {
+        let carried = fade.is_some();
         self.events = TickEvents::default();
-        if carried {
+        if let Some(time) = fade {
             self.feet = [TrackedFoot::default(); 2];
             self.recovery = Recovery::default();
             self.timing = StepTiming::default();
             self.clock.started = false;
+            let share = filter_gain(dt, time);
+            self.anchor.go_home(share);
+            self.clock.lag *= 1.0 - share;
         } else {
             self.anchor.settle(dt);
         }

@@ -93,6 +93,15 @@ impl Anchor {
         self.at += (self.goal - self.at) * a;
         self.yaw += (self.yaw_goal - self.yaw) * a;
     }
+
+    /// Leads the plan back to its own place by this share of the way: a carried figure is with its motion, not with its
+    /// footholds.
+    pub fn go_home(&mut self, share: f64) {
+        self.at += (self.planned - self.at) * share;
+        self.goal += (self.planned - self.goal) * share;
+        self.yaw *= 1.0 - share;
+        self.yaw_goal *= 1.0 - share;
+    }
 }
 
 #[cfg(test)]
@@ -111,5 +120,27 @@ mod tests {
             assert!((anchor.point(planned) + anchor.rest() - actual).norm() < 1e-15);
         }
         assert!(anchor.rest().norm() < 1e-9);
+    }
+
+    #[test]
+    fn a_plan_that_goes_home_comes_to_lie_where_it_was_planned() {
+        let planned = FootPlace {
+            at: Vec3::X,
+            yaw: 0.1,
+        };
+        let real = FootPlace {
+            at: Vec3::X * 1.3 + Vec3::Y * 0.2,
+            yaw: 0.6,
+        };
+        let mut anchor = Anchor::between(planned, real);
+        let far = Vec3::X * 3.0 - Vec3::Y;
+        let mut last = (anchor.point(far) - far).norm();
+        for _ in 0..600 {
+            anchor.go_home(0.03);
+            let off = (anchor.point(far) - far).norm();
+            assert!(off < last);
+            last = off;
+        }
+        assert!(last < 1e-6 && anchor.yaw().abs() < 1e-6, "{last} m");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::pb;
 use super::super::status::Fault;
-use super::super::types::{FigureInfo, FigureSettings, FigureUpdate};
+use super::super::types::{FigureInfo, FigureSettings, FigureUpdate, FollowSettings, FollowUpdate};
 use super::masks::MaskFields;
 use super::names::{BODY, CLIP, FIGURE};
 use super::{
@@ -167,6 +167,8 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
     let none = pb::Figure::default();
     let f = f.unwrap_or(&none);
     let at = |part: &str| format!("{field}.{part}");
+    let follow = motion::follow_update(field, f.follow, f.max_help_weights)?;
+    let follow = FollowSettings::default().changed(follow);
     Ok(FigureSettings {
         display_name: display_name(&at("display_name"), &f.display_name)?,
         body: body::reference(&at("body"), &f.body, &at("profile"), f.profile.as_ref())?,
@@ -180,9 +182,10 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
         options: FigureOptions {
             fatigue_time_scale: time_scale(&at("fatigue_time_scale"), f.fatigue_time_scale)?,
             assist: within(at("assist"), f.assist, 0.0, 1.0)?,
-            max_help: max_help(&at("max_help_weights"), f.max_help_weights)?,
+            max_help: follow.most_help(),
             self_contact: f.self_contact.unwrap_or(false),
         },
+        follow,
         place: f
             .placement
             .map(|p| place(&at("placement"), p))
@@ -190,11 +193,6 @@ pub fn settings(field: &str, f: Option<&pb::Figure>) -> Result<FigureSettings, F
             .unwrap_or_default(),
         constraints: constraint::list(&at("constraints"), &f.constraints)?,
     })
-}
-
-/// Most help, body weights.
-fn max_help(at: &str, value: f64) -> Result<f64, Fault> {
-    within(at, value, 0.0, 2.0)
 }
 
 /// Changes of a figure.
@@ -212,13 +210,15 @@ pub fn update(
             ("paper", f.paper.is_some()),
             ("constraints", !f.constraints.is_empty()),
             ("protective_steps", f.protective_steps.is_some()),
-            ("max_help_weights", f.max_help_weights != 0.0),
+            ("follow", f.follow != 0),
+            ("max_help_weights", f.max_help_weights.is_some()),
             ("self_contact", f.self_contact.is_some()),
         ],
         fixed: &["body", "profile", "stepper", "placement"],
         output: &["name", "status", "etag"],
     };
     let mut out = FigureUpdate::default();
+    let mut takes = [false; 2];
     for field in fields.taken(mask)? {
         match field {
             "display_name" => {
@@ -235,14 +235,23 @@ pub fn update(
                 out.constraints = Some(constraint::list("figure.constraints", &f.constraints)?);
             }
             "protective_steps" => out.protective_steps = Some(f.protective_steps.unwrap_or(true)),
-            "max_help_weights" => {
-                let value = max_help("figure.max_help_weights", f.max_help_weights)?;
-                out.max_help = Some(value);
-            }
+            "follow" => takes[0] = true,
+            "max_help_weights" => takes[1] = true,
             "self_contact" => out.self_contact = Some(f.self_contact.unwrap_or(false)),
             _ => out.assist = Some(within("figure.assist", f.assist, 0.0, 1.0)?),
         }
     }
+    let [follow, most_help] = takes;
+    let given = motion::follow_update(
+        "figure",
+        if follow { f.follow } else { 0 },
+        f.max_help_weights.filter(|_| most_help),
+    )?;
+    out.follow = FollowUpdate {
+        // A mask that names an absent value takes the default.
+        follow: follow.then(|| given.follow.unwrap_or_default()),
+        most_help: most_help.then(|| given.most_help.flatten()),
+    };
     Ok(out)
 }
 
@@ -306,10 +315,12 @@ pub fn figure_out(f: &FigureInfo) -> pb::Figure {
             help_newton_seconds: f.follows.so_far.impulse,
             help_ratio: f.follows.so_far.help_share(),
             max_help_weights: f.follows.most_help,
+            help_newton_metre_seconds: f.follows.so_far.turning_impulse,
         }),
         fatigue_time_scale: s.options.fatigue_time_scale,
         assist: s.options.assist,
-        max_help_weights: s.options.max_help,
+        follow: motion::follow_out(s.follow.follow).into(),
+        max_help_weights: Some(s.options.max_help),
         self_contact: Some(s.options.self_contact),
         paper: Some(paper_out(&s.params)),
         constraints: f.constraints.iter().map(constraint::out).collect(),

@@ -5,7 +5,7 @@ use super::super::posture::{segment_of_bone, set_joint_rotation};
 use super::super::status::Fault;
 use super::super::types::{
     BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, FollowSettings,
-    MAX_DRIVEN_FIGURES, MotionSample, MotionSource, Playback, RehearsalInfo, Supply,
+    FollowUpdate, MAX_DRIVEN_FIGURES, MotionSample, MotionSource, Playback, RehearsalInfo, Supply,
 };
 use super::names::{BODY, CLIP};
 use super::{
@@ -61,8 +61,13 @@ pub fn bvh_reading(field: &str, o: Option<&pb::BvhOptions>) -> Result<BvhReading
     })
 }
 
-/// A BVH file with its options. The file itself is parsed elsewhere.
-pub fn bvh(field: &str, source: pb::BvhSource, max_bytes: u64) -> Result<MotionSource, Fault> {
+/// A BVH file with its options, to be followed by these means. The file itself is parsed elsewhere.
+pub fn bvh(
+    source: pb::BvhSource,
+    max_bytes: u64,
+    follow: FollowSettings,
+) -> Result<MotionSource, Fault> {
+    let field = "bvh";
     if source.data.is_empty() {
         return Err(Fault::invalid(format!("{field}.data"), "must not be empty"));
     }
@@ -74,19 +79,22 @@ pub fn bvh(field: &str, source: pb::BvhSource, max_bytes: u64) -> Result<MotionS
             retry: None,
         });
     }
-    let reading = bvh_reading(&format!("{field}.options"), source.options.as_ref())?;
+    let mut reading = bvh_reading(&format!("{field}.options"), source.options.as_ref())?;
+    // Help does what the strength of a runner lacks.
+    (reading.walk_runs).get_or_insert(!follow.follow.takes_help());
     Ok(MotionSource::Bvh(source.data, reading))
 }
 
-/// The motion of a new clip.
+/// The motion of a new clip, to be followed by these means.
 pub fn clip_source(
     source: Option<pb::create_clip_request::Source>,
     max_bytes: u64,
+    follow: FollowSettings,
 ) -> Result<MotionSource, Fault> {
     use pb::create_clip_request::Source;
     match source {
         None => Err(Fault::invalid("source", "must be bvh or frames")),
-        Some(Source::Bvh(b)) => bvh("bvh", b, max_bytes),
+        Some(Source::Bvh(b)) => bvh(b, max_bytes, follow),
         Some(Source::Frames(f)) => {
             let rate_hz = within("frames.rate_hz", f.rate_hz, 1.0, 1000.0)?;
             if !(2..=MAX_CLIP_FRAMES).contains(&f.frames.len()) {
@@ -124,10 +132,11 @@ pub fn clip_source(
     }
 }
 
-/// The manner of playing a clip.
-pub fn playback(r: &pb::PlayClipRequest) -> Result<Playback, Fault> {
+/// The manner of playing a clip that is followed by the means `follow`, unless the request says otherwise.
+pub fn playback(r: &pb::PlayClipRequest, follow: FollowSettings) -> Result<Playback, Fault> {
+    let follow = follow.changed(follow_update("", r.follow, r.max_help_weights)?);
     Ok(Playback {
-        max_help: 0.0,
+        max_help: follow.most_help(),
         speed: or_default("speed", r.speed, 1.0, 0.1, 4.0)?,
         looped: r.r#loop,
         start: optional("start_time_s", r.start_time_s, 0.0, 1e9)?,
@@ -576,13 +585,18 @@ pub fn clip_out(c: &ClipInfo, with_report: bool) -> pb::Clip {
             .as_ref()
             .filter(|_| with_report)
             .map(|f| forecast_out(f)),
-        follow: match c.follow.follow {
-            Follow::Strict => pb::Follow::Strict,
-            Follow::Rehearsed => pb::Follow::Rehearsed,
-            Follow::Assisted => pb::Follow::Assisted,
-        }
-        .into(),
-        max_help_weights: c.follow.most_help,
+        follow: follow_out(c.follow.follow).into(),
+        max_help_weights: c.follow.most_help(),
+    }
+}
+
+/// The means of following a motion, for a response.
+pub fn follow_out(follow: Follow) -> pb::Follow {
+    match follow {
+        Follow::Strict => pb::Follow::Strict,
+        Follow::Rehearsed => pb::Follow::Rehearsed,
+        Follow::Assisted => pb::Follow::Assisted,
+        Follow::Always => pb::Follow::Always,
     }
 }
 
@@ -593,6 +607,7 @@ pub fn follow(field: &str, value: i32) -> Result<Option<Follow>, Fault> {
         Ok(pb::Follow::Strict) => Ok(Some(Follow::Strict)),
         Ok(pb::Follow::Rehearsed) => Ok(Some(Follow::Rehearsed)),
         Ok(pb::Follow::Assisted) => Ok(Some(Follow::Assisted)),
+        Ok(pb::Follow::Always) => Ok(Some(Follow::Always)),
         Err(_) => Err(Fault::invalid(field, format!("{value} is not a choice"))),
     }
 }
@@ -614,16 +629,31 @@ pub fn budget(field: &str, given: Option<prost_types::Duration>) -> Result<Durat
     given.ok_or_else(|| Fault::invalid(field, "must be 1 s…1 h"))
 }
 
-/// The means of following a clip and the bound of the help; missing values are those of `unless`.
-pub fn follow_settings(
+/// The means of following a motion and the bound of the help, as far as they are given; `field` is the place of the
+/// message in the request, empty for the request itself.
+///
+/// # Errors
+/// Values out of range, or a bound above 0 for means that take no help.
+pub fn follow_update(
+    field: &str,
     value: i32,
     most_help: Option<f64>,
-    unless: FollowSettings,
-) -> Result<FollowSettings, Fault> {
-    let most_help = optional("max_help_weights", most_help, 0.0, 2.0)?;
-    Ok(FollowSettings {
-        follow: follow("follow", value)?.unwrap_or(unless.follow),
-        most_help: most_help.unwrap_or(unless.most_help),
+) -> Result<FollowUpdate, Fault> {
+    let at = |part: &str| match field {
+        "" => part.to_owned(),
+        _ => format!("{field}.{part}"),
+    };
+    let most_help = optional(&at("max_help_weights"), most_help, 0.0, 2.0)?;
+    let follow = follow(&at("follow"), value)?;
+    if most_help.is_some_and(|m| m > 0.0) && follow.is_some_and(|f| !f.takes_help()) {
+        return Err(Fault::invalid(
+            at("max_help_weights"),
+            "must be 0 or absent, unless `follow` is FOLLOW_ASSISTED or FOLLOW_ALWAYS",
+        ));
+    }
+    Ok(FollowUpdate {
+        follow,
+        most_help: most_help.map(Some),
     })
 }
 
@@ -646,22 +676,17 @@ pub fn rehearsal_out(r: &RehearsalInfo) -> pb::Rehearsal {
         FollowWay::Lost => pb::FollowWay::Lost,
     };
     let [error_m, root_relative_error_m] = r.error;
-    let [
-        help_newton_seconds,
-        help_ratio,
-        help_peak_newtons,
-        helped_ratio,
-    ] = r.help;
     pb::Rehearsal {
         way: way.into(),
         reason: r.reason.clone(),
         lost_at_s: r.lost_at,
         error_m,
         root_relative_error_m,
-        help_newton_seconds,
-        help_ratio,
-        help_peak_newtons,
-        helped_ratio,
+        help_newton_seconds: r.help.impulse,
+        help_ratio: r.help.share,
+        help_peak_newtons: r.help.most_force,
+        help_peak_newton_metres: r.help.most_moment,
+        helped_ratio: r.help.acts,
         hardest_dof: r.hardest.0.clone(),
         hardest_ratio: r.hardest.1,
         stopped: r.stopped,

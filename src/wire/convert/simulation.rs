@@ -22,16 +22,17 @@ pub fn settings(
     max_seconds: f64,
 ) -> Result<(SimulationSource, SimulationSettings), Fault> {
     use pb::simulate_clip_request::Source as S;
+    let figure = figure::settings("figure", r.figure.as_ref())?;
     let source = match r.source {
         None => return Err(Fault::invalid("source", "must be clip or bvh")),
         Some(S::Clip(name)) => SimulationSource::Clip(super::clip_name("clip", &name)?.to_owned()),
-        Some(S::Bvh(b)) => SimulationSource::File(motion::bvh("bvh", b, max_bytes)?),
+        Some(S::Bvh(b)) => SimulationSource::File(motion::bvh(b, max_bytes, figure.follow)?),
     };
     let duration = or_default("duration_s", r.duration_s, 0.0, 0.0, max_seconds)?;
     Ok((
         source,
         SimulationSettings {
-            figure: figure::settings("figure", r.figure.as_ref())?,
+            figure,
             rate_hz: world::rate("rate_hz", r.rate_hz)?,
             substeps: world::substeps("substep_count", r.substep_count)?,
             duration: (duration > 0.0).then_some(duration),

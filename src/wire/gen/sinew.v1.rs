@@ -5683,6 +5683,9 @@ pub struct Rehearsal {
     /// The search was stopped by its budget.
     #[prost(bool, tag = "12")]
     pub stopped: bool,
+    /// Largest moment of the help about the pelvis, N·m.
+    #[prost(double, tag = "13")]
+    pub help_peak_newton_metres: f64,
 }
 impl ::prost::Name for Rehearsal {
     const NAME: &'static str = "Rehearsal";
@@ -5781,7 +5784,8 @@ pub struct BvhOptions {
     #[prost(double, optional, tag = "6")]
     pub cutoff_hz: ::core::option::Option<f64>,
     /// Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is
-    /// measured in people's joints does not run: left as recorded, a run fells its figure. Absent: true.
+    /// measured in people's joints does not run: left as recorded, a run fells its figure. Absent: true, or false if the
+    /// clip, or the figure that is simulated, gets help (FOLLOW_ASSISTED, FOLLOW_ALWAYS).
     #[prost(bool, optional, tag = "7")]
     pub walk_runs: ::core::option::Option<bool>,
 }
@@ -5848,10 +5852,10 @@ pub struct CreateClipRequest {
     #[prost(string, tag = "3")]
     pub body: ::prost::alloc::string::String,
     /// How far it may go so that a figure keeps to it, unless `RehearseClip` or `PlayClip` say otherwise. Absent:
-    /// FOLLOW_STRICT.
+    /// FOLLOW_STRICT, or FOLLOW_ASSISTED if `max_help_weights` is above 0.
     #[prost(enumeration = "Follow", tag = "6")]
     pub follow: i32,
-    /// Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: 0.3.
+    /// Largest force of the help, body weights, 0…2. Absent: 0.3 with FOLLOW_ASSISTED, 1 with FOLLOW_ALWAYS, else 0.
     #[prost(double, optional, tag = "7")]
     pub max_help_weights: ::core::option::Option<f64>,
     /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
@@ -6073,7 +6077,8 @@ pub struct RehearseClipRequest {
     /// How far it may go. Absent: as the clip says.
     #[prost(enumeration = "Follow", tag = "3")]
     pub follow: i32,
-    /// Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: as the clip says.
+    /// Largest force of the help, body weights, 0…2. Absent: as the clip says, or as `follow` says in `CreateClip` if it
+    /// is another one than that of the clip.
     #[prost(double, optional, tag = "4")]
     pub max_help_weights: ::core::option::Option<f64>,
     /// Longest time for the search, 1 s to 1 h: the best that was found until then is the result. Absent: 10 min.
@@ -6140,11 +6145,15 @@ pub struct PlayClipRequest {
     #[prost(message, optional, tag = "7")]
     pub placement: ::core::option::Option<Placement>,
     /// How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
-    /// else the clip is tracked as it is, with FOLLOW_ASSISTED with help while it is being lost (at most as the clip
-    /// says). FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help. Absent: as the clip says, and any
+    /// else the clip is tracked as it is, with FOLLOW_ASSISTED and FOLLOW_ALWAYS with help while it is being lost.
+    /// FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help. Absent: as the clip says, and any
     /// rehearsal.
     #[prost(enumeration = "Follow", tag = "8")]
     pub follow: i32,
+    /// Largest force of the help while it is being lost, body weights, 0…2. Absent: as in `RehearseClip`. Help that is
+    /// part of a rehearsal does not change.
+    #[prost(double, optional, tag = "9")]
+    pub max_help_weights: ::core::option::Option<f64>,
     /// Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
     /// ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
     #[prost(string, tag = "13")]
@@ -6574,8 +6583,11 @@ pub enum Follow {
     Strict = 1,
     /// The clip is rehearsed: what has to be added to it is found out beforehand. Strength alone does it.
     Rehearsed = 2,
-    /// The same, and as little help as will do, in newtons, which every frame tells (`assist`).
+    /// With help while it is being lost: a force and a moment on the pelvis, as little as will do, which frames report
+    /// (`assist`). A rehearsal searches for less help than that.
     Assisted = 3,
+    /// The same to the end of the motion, with as much help as that takes.
+    Always = 4,
 }
 impl Follow {
     /// String value of the enum field names used in the ProtoBuf definition.
@@ -6588,6 +6600,7 @@ impl Follow {
             Self::Strict => "FOLLOW_STRICT",
             Self::Rehearsed => "FOLLOW_REHEARSED",
             Self::Assisted => "FOLLOW_ASSISTED",
+            Self::Always => "FOLLOW_ALWAYS",
         }
     }
     /// Creates an enum from field names used in the ProtoBuf definition.
@@ -6597,6 +6610,7 @@ impl Follow {
             "FOLLOW_STRICT" => Some(Self::Strict),
             "FOLLOW_REHEARSED" => Some(Self::Rehearsed),
             "FOLLOW_ASSISTED" => Some(Self::Assisted),
+            "FOLLOW_ALWAYS" => Some(Self::Always),
             _ => None,
         }
     }
@@ -6653,7 +6667,7 @@ pub enum ForecastVerdict {
     Follows = 1,
     /// It deviates or falls, unless it is helped.
     NeedsHelp = 2,
-    /// No help short of carrying it will do.
+    /// Not by tracking alone, nor with a little help.
     Cannot = 3,
 }
 impl ForecastVerdict {
@@ -8006,11 +8020,16 @@ pub struct Figure {
     /// Step when the capture point has left the feet, and put the arms out in a fall (CONTROLLER_MODERN). Absent: true.
     #[prost(bool, optional, tag = "14")]
     pub protective_steps: ::core::option::Option<bool>,
-    /// Largest force over the weight of the help while its motion is being lost, whatever that is: a clip, a stream, or a
-    /// posture that is held; 0…2. Then a pull on the pelvis and stiff motors keep it with its motion, until it goes on by
-    /// itself; reported in every frame (`assist`). Needs CONTROLLER_MODERN and no `assist`. 0: none, it falls honestly.
-    #[prost(double, tag = "16")]
-    pub max_help_weights: f64,
+    /// How far the figure may go so that it keeps a motion that it would lose: a clip, a stream, or a posture that is
+    /// held. FOLLOW_ASSISTED, FOLLOW_ALWAYS: a force and a moment on the pelvis do what its muscles cannot, until it
+    /// continues by itself; frames report them (`assist`). They need CONTROLLER_MODERN and no `assist`. FOLLOW_REHEARSED
+    /// is the same as FOLLOW_STRICT here. Absent: FOLLOW_STRICT, it falls honestly; FOLLOW_ASSISTED if `max_help_weights`
+    /// is above 0.
+    #[prost(enumeration = "Follow", tag = "18")]
+    pub follow: i32,
+    /// Largest force of that help, body weights, 0…2. Absent: 0.3 with FOLLOW_ASSISTED, 1 with FOLLOW_ALWAYS, else 0.
+    #[prost(double, optional, tag = "16")]
+    pub max_help_weights: ::core::option::Option<f64>,
     /// Keep limbs out of the body and of each other, by forces of soft tissue (STEPPER_TORQUE). What the desired motion
     /// itself does is left alone, and there is none within a rehearsed motion. Controllers do not know of it: with it
     /// they catch sideways pushes and falls a little worse. Absent: false.
@@ -8063,6 +8082,9 @@ pub struct FigureStatus {
     /// is played, whichever allows more. 0: none, as in a rehearsal, where help is what was rehearsed.
     #[prost(double, tag = "8")]
     pub max_help_weights: f64,
+    /// The norm of the moment in `assist` over time, as `help_newton_seconds` is that of the force, N·m·s.
+    #[prost(double, tag = "9")]
+    pub help_newton_metre_seconds: f64,
 }
 impl ::prost::Name for FigureStatus {
     const NAME: &'static str = "FigureStatus";
@@ -8261,8 +8283,8 @@ pub struct UpdateFigureRequest {
     #[prost(message, optional, tag = "1")]
     pub figure: ::core::option::Option<Figure>,
     /// Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-    /// `protective_steps`, `max_help_weights`, `self_contact` to take. Absent or empty: those that are not empty. `*`:
-    /// all. Fields that it does not name are ignored, whatever they hold.
+    /// `protective_steps`, `follow`, `max_help_weights`, `self_contact` to take. Absent or empty: those that are not
+    /// empty. `*`: all. Fields that it does not name are ignored, whatever they hold.
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
     /// Checks the request and answers as if it had been carried out, but changes nothing. Default: false.
@@ -9603,6 +9625,9 @@ pub struct Status {
     /// The same over weight times time.
     #[prost(double, tag = "12")]
     pub help_ratio: f64,
+    /// Its moment over time, N·m·s, as in `FigureStatus`.
+    #[prost(double, tag = "13")]
+    pub help_newton_metre_seconds: f64,
 }
 impl ::prost::Name for Status {
     const NAME: &'static str = "Status";

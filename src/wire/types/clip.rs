@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use sinew_physics::body::Posture;
 use sinew_physics::forecast::Forecast;
 use sinew_physics::plan::ReadingReport;
-use sinew_physics::rehearsal::follow::{Follow, FollowWay, MOST_HELP};
+use sinew_physics::rehearsal::follow::{Follow, FollowWay};
 use std::sync::Arc;
 
 /// The manner of playing a clip.
@@ -89,22 +89,62 @@ pub struct ClipInfo {
     pub follow: FollowSettings,
 }
 
-/// The means that a figure may use to follow a clip, and the bound of the help.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The means that a figure may use to follow a motion, and the bound of the help.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FollowSettings {
     /// The means.
     pub follow: Follow,
-    /// Largest force of the help over the weight.
-    pub most_help: f64,
+    /// Largest force of the help over the weight; `None`: as [`Self::follow`] says.
+    pub most_help: Option<f64>,
 }
 
-impl Default for FollowSettings {
-    fn default() -> Self {
-        Self {
-            follow: Follow::default(),
-            most_help: MOST_HELP,
+/// Changes of [`FollowSettings`]; `None` leaves a part unchanged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FollowUpdate {
+    /// The means.
+    pub follow: Option<Follow>,
+    /// The bound of the help.
+    pub most_help: Option<Option<f64>>,
+}
+
+impl FollowSettings {
+    /// Largest force of the help over the weight; 0: none.
+    pub fn most_help(&self) -> f64 {
+        match self.follow.takes_help() {
+            true => self.most_help.unwrap_or(self.follow.most_help()),
+            false => 0.0,
         }
     }
+
+    /// The settings after a change. A bound is that of its means, so other means begin without; a bound above 0 alone
+    /// asks for help.
+    #[must_use]
+    pub fn changed(self, update: FollowUpdate) -> Self {
+        let stays = update.follow.is_none_or(|f| f == self.follow);
+        let kept = self.most_help.filter(|_| stays);
+        let most_help = update.most_help.unwrap_or(kept);
+        let asks = most_help.is_some_and(|m| m > 0.0) && !self.follow.takes_help();
+        let unless = if asks { Follow::Assisted } else { self.follow };
+        Self {
+            follow: update.follow.unwrap_or(unless),
+            most_help,
+        }
+    }
+}
+
+/// The help that a rehearsal found to be needed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RehearsalHelp {
+    /// Impulse, N·s.
+    pub impulse: f64,
+    /// The same over weight × time.
+    pub share: f64,
+    /// Largest force, N.
+    pub most_force: f64,
+    /// Largest moment about the pelvis, N·m.
+    pub most_moment: f64,
+    /// Share of the time with help.
+    pub acts: f64,
 }
 
 /// Result of a rehearsal.
@@ -118,8 +158,8 @@ pub struct RehearsalInfo {
     pub lost_at: Option<f64>,
     /// Mean distance of the segments from the recording in the world, and with both pelvis origins in one place, m.
     pub error: [f64; 2],
-    /// Impulse of the help, N·s; the same over weight × time; its largest force, N; share of the time with help.
-    pub help: [f64; 4],
+    /// The help.
+    pub help: RehearsalHelp,
     /// The DOF that uses most of its strength, and that share.
     pub hardest: (String, f64),
     /// Whether the budget stopped the search.

@@ -1,5 +1,6 @@
 //! Figures: their settings, their state, and changes.
 
+use super::clip::{FollowSettings, FollowUpdate};
 use super::place::Place;
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{Profile, SegmentId};
@@ -34,6 +35,8 @@ pub struct FigureSettings {
     pub params: ControlParams,
     /// Fatigue, assist and help.
     pub options: FigureOptions,
+    /// The means by which it keeps its motion. `options` have the bound that follows from them.
+    pub follow: FollowSettings,
     /// Its place at the start.
     pub place: Place,
     /// Constraints from the start.
@@ -107,8 +110,8 @@ pub struct FigureUpdate {
     pub fatigue_time_scale: Option<f64>,
     /// Assist.
     pub assist: Option<f64>,
-    /// Most help while its motion is being lost, body weights.
-    pub max_help: Option<f64>,
+    /// The means by which it keeps its motion.
+    pub follow: FollowUpdate,
     /// Whether the body collides with itself.
     pub self_contact: Option<bool>,
     /// All constraints.
@@ -119,11 +122,12 @@ pub struct FigureUpdate {
 
 impl FigureUpdate {
     /// The options of a figure after this update.
-    pub fn options(&self, now: FigureOptions) -> FigureOptions {
+    pub fn options(&self, settings: &FigureSettings) -> FigureOptions {
+        let now = settings.options;
         FigureOptions {
             fatigue_time_scale: self.fatigue_time_scale.unwrap_or(now.fatigue_time_scale),
             assist: self.assist.unwrap_or(now.assist),
-            max_help: self.max_help.unwrap_or(now.max_help),
+            max_help: settings.follow.changed(self.follow).most_help(),
             self_contact: self.self_contact.unwrap_or(now.self_contact),
         }
     }
@@ -131,7 +135,7 @@ impl FigureUpdate {
     /// The settings of a figure after this update.
     #[must_use]
     pub fn applied(self, now: FigureSettings) -> FigureSettings {
-        let options = self.options(now.options);
+        let options = self.options(&now);
         // The paper's controller has no choice of stepping.
         let params = ControlParams {
             protective_steps: self.protective_steps.unwrap_or(now.params.protective_steps),
@@ -143,6 +147,7 @@ impl FigureUpdate {
             controller: self.controller.unwrap_or(now.controller),
             params,
             options,
+            follow: now.follow.changed(self.follow),
             constraints: self.constraints.unwrap_or(now.constraints),
             ..now
         }

@@ -16,6 +16,7 @@
 //! * `people`: ages, sizes, fatigue, percentiles.
 //! * `assist`: the external wrench, and its honest report.
 //! * `help`: the wrench that acts only while a motion is being lost.
+//! * `stream_end`: a stream is followed to its end.
 //! * `symmetry`: left and right, and all directions, are alike.
 //! * `containment`: bad input is refused, and a runaway figure harms no other.
 //!
@@ -43,6 +44,7 @@ mod second_hand;
 mod self_contact;
 mod slide;
 mod stand;
+mod stream_end;
 mod symmetry;
 
 use sinew_physics::body::{Links, State};

@@ -107,6 +107,7 @@ struct Case {
     seconds: f64,
     load: f64,
     push: Vec3,
+    max_help: f64,
 }
 
 /// The scene of a case with its start, clip and disturbances as given.
@@ -121,6 +122,7 @@ fn scene(
     let body = man();
     let mut setup = figure(&body, case.controller, start);
     setup.stepper = case.stepper;
+    setup.options.max_help = case.max_help;
     let mut scene = Scene::of(setup);
     let drive = match play(&clip) {
         MotionSource::Clip(p) => MotionSource::Clip(ClipPlayback { origin, ..p }),
@@ -202,6 +204,9 @@ fn difference(plain: &Scene, other: &Scene, back: &Back<'_>) -> (f64, String) {
         see("torque", r.joints.torque[j], torque[j], 100.0);
     }
     let weight = 735.0;
+    let help = |r: &sinew_physics::figure::TickReport| vec3(r.assist[3], r.assist[4], r.assist[5]);
+    let other = (back.vector)(help(q));
+    vectors(&mut see, "help", help(r), other, weight);
     for s in 0..SEGMENT_COUNT {
         let sum = |r: &sinew_physics::figure::TickReport, s: usize| {
             r.contacts
@@ -260,6 +265,7 @@ fn cases() -> Vec<Case> {
             seconds,
             load,
             push,
+            max_help: 0.0,
         };
     let none = Vec3::zero();
     vec![
@@ -273,6 +279,18 @@ fn cases() -> Vec<Case> {
             0.0,
             vec3(8.0, 15.0, 0.0),
         ),
+        Case {
+            max_help: 0.3,
+            ..case(
+                "modern is pushed and helped",
+                Modern,
+                Torque,
+                &idle,
+                1.5,
+                0.0,
+                vec3(60.0, 45.0, 0.0),
+            )
+        },
         case("modern walks", Modern, Torque, &walk, 3.0, 2.0, none),
         case("modern waves", Modern, Torque, &wave, 3.0, 0.0, none),
         case("paper lifts", Paper, Torque, &lift, 4.0, 2.0, none),

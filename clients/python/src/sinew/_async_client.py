@@ -290,14 +290,17 @@ class Client:
         fit_floor: bool = True,
         lock_feet: bool = True,
         cutoff_hz: float = 6.0,
-        walk_runs: bool = True,
+        walk_runs: bool | None = None,
+        follow: Follow | None = None,
+        max_help_weights: float | None = None,
     ) -> Clip:
         """Stores a BVH file (path or bytes) as a clip; `Clip.report` says how it was understood.
 
         Unit (`unit_m`: metres per unit of the file) and up axis (`x`, `y` or `z`) are guessed unless given; `rate_hz`
         replaces the file's frame time. `fit_floor` puts the lowest sole on z = 0, `lock_feet` holds standing feet,
         `cutoff_hz` is that of the smoothing filter, Hz. Runs are slowed down to walks, which a body of measured
-        strength can follow; `walk_runs=False` keeps them.
+        strength can follow, unless the clip gets help; `walk_runs` decides. `follow` and `max_help_weights` are those
+        with which the clip is played unless `Figure.play` says otherwise.
         """
         bvh = bvh_source(
             source,
@@ -311,7 +314,12 @@ class Client:
         )
         display = "" if isinstance(source, bytes) else Path(source).name[:64]
         request = motion_pb2.CreateClipRequest(
-            clip_id=name, display_name=display, body=resource("bodies", body), bvh=bvh
+            clip_id=name,
+            display_name=display,
+            body=resource("bodies", body),
+            bvh=bvh,
+            follow=requests.follow(follow),
+            max_help_weights=max_help_weights,
         )
         return Clip(self, (await self._ask(self.motions_stub.CreateClip, request)).clip)
 
@@ -415,7 +423,8 @@ class Client:
         paper: Paper | None = None,
         fatigue_time_scale: float = 0.0,
         assist: float = 0.0,
-        max_help_weights: float = 0.0,
+        follow: Follow | None = None,
+        max_help_weights: float | None = None,
         constraints: Iterable[Constraint] = (),
         protective_steps: bool = True,
         self_contact: bool = False,
@@ -432,9 +441,11 @@ class Client:
 
         `disturbances` begin at their `start_s` (s of the clip). `duration_s` (s) 0: the length of the clip. `strength`
         1 is that of the average person; `fatigue_time_scale` 0: no fatigue, 1: as measured; `assist` 0 to 1: share of
-        the help from outside at the pelvis; `max_help_weights`: most help while the motion is being lost, 0 to 2 times
-        the weight. `rate_hz` and `substeps` as in `create_world`; `rate_divisor` n keeps one
-        frame for every n ticks. With `fields=()` the recording has no frames, only `summary` and `events`.
+        the help from outside at the pelvis. `follow`: `strict`; `assisted`, with a force and a moment on the pelvis
+        while the motion is being lost; `always`, with as much of it as the motion takes to its end. `max_help_weights`:
+        that force at most, 0 to 2 times the weight; 0.3 with `assisted`, 1 with `always`. `rate_hz` and `substeps` as
+        in `create_world`; `rate_divisor` n keeps one frame for every n ticks. With `fields=()` the recording has no
+        frames, only `summary` and `events`.
         """
         figure = requests.figure(
             body=body,
@@ -444,6 +455,7 @@ class Client:
             paper=paper,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
+            follows=follow,
             max_help_weights=max_help_weights,
             constraints=constraints,
             protective_steps=protective_steps,
@@ -835,7 +847,8 @@ class World:
         yaw: float = 0.0,
         fatigue_time_scale: float = 0.0,
         assist: float = 0.0,
-        max_help_weights: float = 0.0,
+        follow: Follow | None = None,
+        max_help_weights: float | None = None,
         constraints: Iterable[Constraint] = (),
         protective_steps: bool = True,
         self_contact: bool = False,
@@ -845,8 +858,8 @@ class World:
         counter-clockwise from above).
 
         `strength`: factor on the measured strength, or a `Strength`. `fatigue_time_scale`: 0 no fatigue, 1 as measured,
-        larger is faster. `assist`: help from outside at the pelvis, 0 to 1. `max_help_weights`: most help while its
-        motion is being lost, 0 to 2 times the weight. `constraints`: where parts of it are wanted (m, world).
+        larger is faster. `assist`: help from outside at the pelvis, 0 to 1. `follow` and `max_help_weights`: help while
+        its motion is being lost, as in `Client.simulate`. `constraints`: where parts of it are wanted (m, world).
         `protective_steps`: it may step to keep its balance, and puts its arms out if it falls all the same.
         `self_contact`: limbs do not pass through the body and each other.
         """
@@ -860,6 +873,7 @@ class World:
             yaw=yaw,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
+            follows=follow,
             max_help_weights=max_help_weights,
             constraints=constraints,
             protective_steps=protective_steps,
@@ -1255,6 +1269,7 @@ class Figure:
         paper: Paper | None = None,
         fatigue_time_scale: float | None = None,
         assist: float | None = None,
+        follow: Follow | None = None,
         max_help_weights: float | None = None,
         constraints: Sequence[Constraint] | None = None,
         protective_steps: bool | None = None,
@@ -1268,6 +1283,7 @@ class Figure:
             "paper": paper,
             "fatigue_time_scale": fatigue_time_scale,
             "assist": assist,
+            "follow": follow,
             "max_help_weights": max_help_weights,
             "constraints": constraints,
             "protective_steps": protective_steps,
@@ -1280,6 +1296,7 @@ class Figure:
             paper=paper,
             fatigue_time_scale=fatigue_time_scale,
             assist=assist,
+            follows=follow,
             max_help_weights=max_help_weights,
             constraints=constraints,
             protective_steps=protective_steps,
@@ -1311,6 +1328,7 @@ class Figure:
         position: tuple[float, float] | None = None,
         yaw: float | None = None,
         follow: Follow | None = None,
+        max_help_weights: float | None = None,
     ) -> float:
         """Plays a clip from the next tick on, or from world time `start_s` (s); returns the world time at which its
         first frame plays, s.
@@ -1321,8 +1339,9 @@ class Figure:
         where the figure is, unless `position` (world x, y, m) and `yaw` (rad) are given. A recording is prepared for
         its `speed` (0.5 to 2), which takes a moment the first time.
 
-        `follow` says how far it may go so that the figure keeps to the clip: `strict`, `rehearsed` or `assisted`, else
-        as the clip says; `FigureState.following` tells in which way the figure does.
+        `follow` says how far it may go so that the figure keeps to the clip: `strict`, `rehearsed`, `assisted` or
+        `always`, else as the clip says; `max_help_weights` bounds the help. `FigureState.following` tells in which way
+        the figure does.
         """
         named = clip.name if isinstance(clip, Clip) else clip
         request = motion_pb2.PlayClipRequest(
@@ -1334,6 +1353,7 @@ class Figure:
             reset=reset,
             placement=requests.placement(position, yaw),
             follow=requests.follow(follow),
+            max_help_weights=max_help_weights,
         )
         return (await self._client._ask(self._client.motions_stub.PlayClip, request)).start_time_s
 

@@ -86,7 +86,7 @@ def stepper(name: Stepper) -> figure_pb2.Stepper.ValueType:
 
 
 def follow(name: Follow | None) -> motion_pb2.Follow.ValueType:
-    """How far it may go, by name; as the clip says if there is none."""
+    """How far it may go, by name; the default if there is none."""
     if name is None:
         return motion_pb2.FOLLOW_UNSPECIFIED
     return motion_pb2.Follow.Value(choice(motion_pb2.Follow.keys(), "FOLLOW_", name, "follow"))
@@ -159,6 +159,7 @@ def figure(
     yaw: float | None = None,
     fatigue_time_scale: float | None = None,
     assist: float | None = None,
+    follows: Follow | None = None,
     max_help_weights: float | None = None,
     constraints: Iterable[Constraint] | None = None,
     protective_steps: bool | None = None,
@@ -187,6 +188,8 @@ def figure(
         out.fatigue_time_scale = fatigue_time_scale
     if assist is not None:
         out.assist = assist
+    if follows is not None:
+        out.follow = follow(follows)
     if max_help_weights is not None:
         out.max_help_weights = max_help_weights
     if constraints is not None:

@@ -198,8 +198,14 @@ class FigureState:
         return self.message.status.help_newton_seconds
 
     @property
+    def help_newton_metre_seconds(self) -> float:
+        """The same of its moment about the pelvis, N·m·s."""
+        self._need("status")
+        return self.message.status.help_newton_metre_seconds
+
+    @property
     def help_ratio(self) -> float:
-        """The same over weight times time."""
+        """Impulse of the help over weight times time."""
         self._need("status")
         return self.message.status.help_ratio
 

@@ -124,7 +124,7 @@ def bvh_source(
     fit_floor: bool = True,
     lock_feet: bool = True,
     cutoff_hz: float = 6.0,
-    walk_runs: bool = True,
+    walk_runs: bool | None = None,
 ) -> motion_pb2.BvhSource:
     """A file with how to read it."""
     data = source if isinstance(source, bytes) else Path(source).read_bytes()

@@ -38,7 +38,7 @@ Stepper: TypeAlias = Literal["torque", "kinematic", "staged"]
 """How a figure is moved: by its torques, or by its accelerations as they are demanded."""
 Encoding: TypeAlias = Literal["float", "double", "fixed16"]
 """How numbers of frames travel: 32 bits, 64 bits, or 16 bits with a scale per array."""
-Follow: TypeAlias = Literal["strict", "rehearsed", "assisted"]
+Follow: TypeAlias = Literal["strict", "rehearsed", "assisted", "always"]
 """How far it may go so that a figure keeps to a clip: physics alone; a rehearsal by strength alone; help, too."""
 Mobility: TypeAlias = Literal["fixed", "led", "free"]
 """How an obstacle moves: not at all; with its velocity, whatever it meets; or as a rigid body under gravity."""

@@ -218,7 +218,7 @@ mod tests {
             let now = at(time);
             let samples = &mut self.samples;
             let fed = buffer.feed(now, (RATE, 0.5), |due| {
-                if let DueSample::Sample(p, _) = due {
+                if let DueSample::Sample(p, _) | DueSample::Guess(p, _) = due {
                     samples.push(p.root_position.x / 1.2);
                 }
             });

@@ -237,6 +237,7 @@ fn a_posture_that_is_repeated_breaks_the_stream_off_and_is_no_news() {
         b.push(walking(i, i.min(30)), ScheduledTime(t));
         b.feed(at(t), (RATE, 0.3), |due| match due {
             DueSample::Sample(posture, planted) => motion.push(posture, planted),
+            DueSample::Guess(posture, planted) => motion.push_guess(posture, planted),
             DueSample::Silence => panic!("it sends"),
         });
         news.push(b.has_news());

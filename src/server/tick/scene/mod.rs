@@ -279,7 +279,8 @@ impl Scene {
         let steps = u.protective_steps;
         let found = self.members.iter_mut().find(|m| m.key == key);
         let m = found.ok_or_else(|| Fault::Internal(format!("there is no figure {}", key.0)))?;
-        let options = u.options(m.settings.options);
+        let options = u.options(&m.settings);
+        m.settings.follow = m.settings.follow.changed(u.follow);
         if u.controller.is_some() || u.strength.is_some() || u.params.is_some() || steps.is_some() {
             let controller = u.controller.unwrap_or(m.settings.controller);
             let strength = u.strength.unwrap_or_else(|| m.settings.strength.clone());

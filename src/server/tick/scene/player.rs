@@ -5,7 +5,7 @@
 
 use super::input::PlayerKey;
 use crate::engine::{self, Figure, FigureKey, LivePlayback};
-use crate::ingest::jitter_buffer::{DueSample, GridEnd, JitterBuffer, Now, StreamSeam};
+use crate::ingest::jitter_buffer::{DueSample, GridEnd, JitterBuffer, Now, Resync, StreamSeam};
 use crate::ingest::time::SourceTime;
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::{Body, Posture, State};
@@ -54,6 +54,19 @@ pub struct PlayoutWindow {
     stands: Option<WorldTime>,
     /// How far the figure is behind the window, because it was led into a stream that began in motion.
     late: WindowLag,
+    /// Samples since the stream fell silent, while its figure does not follow it yet.
+    silent: i64,
+}
+
+/// Progress on the way into a stream that begins in motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum EntryProgress {
+    /// More of it has to arrive, or a plan to be made.
+    Waits,
+    /// The figure can follow now.
+    Begins,
+    /// The figure cannot be led into what has arrived.
+    Impossible(Resync),
 }
 
 /// How far a figure is behind the window of its stream.
@@ -91,6 +104,7 @@ impl PlayoutWindow {
             begun: false,
             stands: None,
             late: WindowLag::default(),
+            silent: 0,
         }
     }
 
@@ -127,39 +141,49 @@ impl PlayoutWindow {
     }
 
     /// Leads the figure into a stream that begins in motion: by steps, to a moment of the stream, once enough of it has
-    /// arrived. The window has been fed up to `fed`. Returns false while it is not ready.
-    fn leads_in(&mut self, figure: &mut Figure, fed: GridEnd, time: WorldTime) -> bool {
+    /// arrived, or all of it. The window has been fed up to `fed`.
+    fn lead_in_by_steps(
+        &mut self,
+        figure: &mut Figure,
+        fed: GridEnd,
+        time: WorldTime,
+    ) -> EntryProgress {
         let Some(live) = &mut self.waiting else {
-            return true;
+            return EntryProgress::Begins;
         };
         if let Some(found) = figure.take_stream_entry() {
             let Some(way) = found else {
-                // No moment was within reach, but later samples may be.
-                *self = Self::after_stop(figure.body(), self.length, time);
-                return false;
+                // Later samples may be within reach.
+                return EntryProgress::Impossible(Resync::OutOfReach);
             };
             live.motion = live.motion.led_in(LEAD_IN, &way);
-            // The stream begins here, so all of it that is due is the lag.
-            let begins = StreamTime(0.0);
+            // The stream begins here, so all of it that is due is the lag. A stream shorter than the window, with the
+            // way into it, begins a little later instead.
+            let due = due_time(&live.motion, fed, self.length);
             self.late = WindowLag {
-                by: due_time(&live.motion, fed, self.length) - begins,
+                by: due.0.max(0.0),
                 from: (LEAD_IN + way.samples.len()) as i64,
             };
-            live.align(time, begins);
-            return true;
+            live.align(time, due.min(StreamTime(0.0)));
+            return EntryProgress::Begins;
         }
         if figure.plans_stream_entry() {
-            return false;
+            return EntryProgress::Waits;
         }
         if !figure.can_be_led() || !live.motion.begins_in_motion(LEAD_IN) {
-            return true;
+            return EntryProgress::Begins;
         }
         let needed = StreamBeginning::needed();
         let came: Vec<_> = (live.motion.waiting().skip(LEAD_IN).take(needed)).collect();
-        if came.len() == needed {
-            figure.plan_stream_entry(came, time);
+        let enough = came.len() == needed;
+        if !enough && self.silent == 0 {
+            return EntryProgress::Waits;
         }
-        false
+        if came.len() < StreamBeginning::least() {
+            return EntryProgress::Impossible(Resync::TooShort);
+        }
+        figure.plan_stream_entry(came, time);
+        EntryProgress::Waits
     }
 
     /// Continues from the present desired posture of the figure: a stream that begins elsewhere is moved there.
@@ -181,7 +205,8 @@ impl Player {
         let window = self.window.as_ref();
         waits
             && window.is_none_or(|w| {
-                let known = (0.0..=2.0).contains(&w.length) && w.late.is_valid();
+                let silent = (0..1 << 41).contains(&w.silent);
+                let known = (0.0..=2.0).contains(&w.length) && w.late.is_valid() && silent;
                 known && w.stands.is_none_or(WorldTime::is_finite)
             })
             && self.takeover.is_none_or(|t| (0.0..=1e3).contains(&t))
@@ -278,29 +303,26 @@ impl Player {
             None => figure.stream_mut()?,
         };
         let motion = &mut live.motion;
-        let (mut given, mut silent) = (0, false);
-        let tick = self.buffer.tick();
+        let (mut given, mut silent) = (0, window.silent);
         let all = length + window.late.by;
         let fed = self.buffer.feed(now, (RATE, all), |due| match due {
             DueSample::Sample(posture, planted) => {
                 motion.push(posture, planted);
-                given += 1;
+                (given, silent) = (given + 1, 0);
             }
-            DueSample::Silence => silent = true,
+            DueSample::Guess(posture, planted) => {
+                motion.push_guess(posture, planted);
+                (given, silent) = (given + 1, 0);
+            }
+            DueSample::Silence => {
+                // A stream that a figure follows is played to its end.
+                if !waits {
+                    motion.fall_silent();
+                }
+                silent += 1;
+            }
         })?;
-        if silent {
-            if waits {
-                return None;
-            }
-            // Earlier samples are still being played.
-            window.late.by -= tick;
-            if window.late.by <= 0.0 {
-                // The figure finishes its step and stands.
-                window.late.by = 0.0;
-                figure.stop(time);
-                return None;
-            }
-        }
+        window.silent = if waits { silent } else { 0 };
         let late = &mut window.late;
         let due = fed.next.rem_euclid(CATCH_UP_STRIDE) < given;
         if !waits && due && late.by > 0.0 && motion.taken() >= late.from {
@@ -309,10 +331,31 @@ impl Player {
         let at = due_time(motion, fed, length);
         live.align(time, at);
         live.offset -= late.by;
-        let begins = waits
-            && live.stream_time(time).0 >= 0.0
-            && (!window.begun || window.leads_in(figure, fed, time));
-        let mut live = window.waiting.take_if(|_| begins)?;
+        if !waits {
+            let is_over = silent > 0
+                && live
+                    .motion
+                    .ends_at()
+                    .is_some_and(|end| end <= live.stream_time(time));
+            if is_over {
+                // The last posture is one in which it stands, or from which no steps lead to a stand.
+                figure.stop(time);
+            }
+            return None;
+        }
+        // A stream that fell silent before it filled the window is as long as it will be.
+        if live.stream_time(time).0 + window.silent as f64 / RATE < 0.0 {
+            return None;
+        }
+        let start = match window.begun {
+            true => window.lead_in_by_steps(figure, fed, time),
+            false => EntryProgress::Begins,
+        };
+        if let EntryProgress::Impossible(why) = start {
+            *window = PlayoutWindow::after_stop(figure.body(), length, time);
+            self.buffer.note(why);
+        }
+        let mut live = (window.waiting).take_if(|_| start == EntryProgress::Begins)?;
         live.motion.advance(live.stream_time(time) + 1.0 / RATE);
         let first = live.motion.sample(live.stream_time(time));
         figure.set_drive(engine::Motion::Live(live));

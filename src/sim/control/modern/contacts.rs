@@ -47,6 +47,12 @@ const REST_FULL: f64 = 0.2;
 const LIFTED: (f64, f64) = (0.02, 0.06);
 /// Share of hold and force that segments other than feet get.
 const OTHER_SEGMENT: f64 = 1e-3;
+/// The same for a helped figure, where they touch the floor and the motion has them below the first height, and not at
+/// all above the second, m. Without them a body that lies is planned as if it flew, and carried. They hold little: a
+/// hand or a back that sticks to the floor cannot move on.
+const HELPED_SEGMENT: f64 = 0.5;
+const HELPED_HOLD: f64 = 0.02;
+const HELPED_FADE: (f64, f64) = (0.02, 0.06);
 
 impl Modern {
     /// Contact points that the plan keeps down, faded by height, with the acceleration that brings them to rest.
@@ -105,6 +111,7 @@ impl Modern {
                 let z = t.segment_position(s).z + r.z;
                 let mut fade = fall(z, FADE);
                 let (mut slides, mut held) = (false, 1.0);
+                let mut last = self.memory.force[s * POINTS + vertex];
                 if let Some(floor) = input.contacts.floor {
                     slides = floor.slides[s];
                     let meant = fall(floor.heights[s * POINTS + vertex], MEANT_FADE);
@@ -118,6 +125,12 @@ impl Modern {
                 } else if foot {
                     let side = usize::from(s >= R_FOOT.index());
                     fade *= roll[side].kept(input, s, *p);
+                } else if let Some(help) = &input.help {
+                    let meant = fall(help.heights[s * POINTS + vertex], HELPED_FADE);
+                    fade = HELPED_SEGMENT * fall(z, FLOOR_FADE) * meant;
+                    (slides, held) = (true, HELPED_HOLD);
+                    // The plan does not know whether the point rises, so it counts on what the floor really gave.
+                    last = help.floor[s * POINTS + vertex];
                 } else {
                     fade *= OTHER_SEGMENT;
                 }
@@ -131,7 +144,7 @@ impl Modern {
                 let a = stop((z, v), spin, input.dt) - t.point_bias(s, *p);
                 let ease = if on_feet { 1.0 } else { ease(s, foot) };
                 let inverse_r = ease * fade.max(OTHER_SEGMENT) / weight::FORCE;
-                let c = self.memory.force[s * POINTS + vertex] * (-FORCE_MEMORY / inverse_r);
+                let c = last * (-FORCE_MEMORY / inverse_r);
                 let slot = self.contacts.slot(&t.kin, s);
                 self.contacts.points.push(PointRow {
                     slot,

@@ -16,6 +16,8 @@ pub struct ModernMemory {
     /// Contact forces by segment × 8 + vertex, N.
     #[serde(with = "sparse")]
     pub(super) force: Box<[Vec3; MAX_CONTACTS]>,
+    /// Moment and force on the pelvis, N·m and N.
+    pub(super) wrench: [Vec3; 2],
 }
 
 impl Default for ModernMemory {
@@ -24,6 +26,7 @@ impl Default for ModernMemory {
             price: [0.0; NV],
             torque: [0.0; DOF_COUNT],
             force: Box::new([Vec3::zero(); MAX_CONTACTS]),
+            wrench: [Vec3::zero(); 2],
         }
     }
 }
@@ -31,7 +34,8 @@ impl Default for ModernMemory {
 impl ModernMemory {
     /// Whether this value is one that a checkpoint could hold.
     pub fn is_valid(&self) -> bool {
-        let forces = self.force.iter().flat_map(|f| f.to_array());
+        let forces = self.force.iter().chain(&self.wrench);
+        let forces = forces.flat_map(|f| f.to_array());
         let numbers = self.price.iter().chain(&self.torque).copied();
         numbers.chain(forces).all(f64::is_finite)
     }
@@ -41,6 +45,7 @@ impl ModernMemory {
         self.price = [0.0; NV];
         self.torque = [0.0; DOF_COUNT];
         self.force.fill(Vec3::zero());
+        self.wrench = [Vec3::zero(); 2];
     }
 }
 

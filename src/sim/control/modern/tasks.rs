@@ -40,6 +40,8 @@ const NEEDS_SEAT: (f64, f64) = (-0.02, 0.03);
 /// A motion sits down if its centre of mass is over neither of two planted feet: fully if it is inside by less than the
 /// first, not yet from the second on, m (negative: outside).
 const SITS_DOWN: (f64, f64) = (-0.05, -0.01);
+/// A planted foot of a helped figure whose sole is higher than this hovers, and is led to its place, m.
+const HOVERS: f64 = 0.01;
 /// Segments on which a figure sits. Hands that lean on a seat do not make it one.
 const SEATED_ON: [SegmentId; 3] = [PELVIS, L_THIGH, R_THIGH];
 
@@ -57,7 +59,10 @@ impl Modern {
             }
             let urgency = self.urgency(input);
             let a = a - t.com_bias;
-            let mut com = weight::COM;
+            let mut com = match input.help {
+                Some(_) => weight::COM_HELPED,
+                None => weight::COM,
+            };
             if input.contacts.phase == StancePhase::LiftOff {
                 com[2] = weight::COM_LIFT_OFF;
             }
@@ -110,7 +115,8 @@ impl Modern {
             } else {
                 weight::SWING_ROTATION
             };
-            if !next.planted[side] && input.contacts.floor.is_none() {
+            let is_led = !next.planted[side] || hovers(input, foot);
+            if is_led && input.contacts.floor.is_none() {
                 self.point_task(
                     t,
                     &swing_law,
@@ -254,6 +260,17 @@ impl Modern {
             self.rows.push(TaskRow { row, weight, value });
         }
     }
+}
+
+/// Whether a foot that a helped figure should have on the floor is above it: contact rows do not lead it down.
+fn hovers(input: &ControlInput<'_>, foot: usize) -> bool {
+    let low = |s: usize| {
+        let points = input.body.segments[s].contact_points.iter();
+        let heights = points.map(|p| input.terms.point_world(s, *p).z);
+        heights.fold(f64::INFINITY, f64::min)
+    };
+    let helped = input.help.is_some_and(|help| help.as_it_lies);
+    helped && low(foot).min(low(foot + 1)) > HOVERS
 }
 
 /// Whether all contact points of a segment, at `heights`, are clear of the floor in the motion.

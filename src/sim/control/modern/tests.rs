@@ -5,7 +5,7 @@
 use super::contacts::FORCE_MEMORY;
 use super::*;
 use crate::control::ConstraintGoal;
-use crate::control::testing::{DT, Scene};
+use crate::control::testing::{DT, Scene, SceneHelp};
 use crate::math::vec3::vec3;
 use crate::support::testing::{
     GRAVITY, Rng, mannequin, on_floor, random_stance, random_state, standing,
@@ -47,19 +47,22 @@ struct Primal {
     torque: Vec<(f64, f64)>,
     /// Jacobian (3 rows), rest and cost of each contact force.
     contacts: Vec<([[f64; WIDTH]; 3], Vec3, f64)>,
-    /// Cost of assist; `None` without assist.
+    /// Cost of assist, or of help; `None` without either.
     assist: Option<[f64; 2]>,
+    /// The wrench that help is pulled to, and its largest moment and force.
+    help: Option<([Vec3; 2], [f64; 2])>,
     mu: f64,
 }
 
 impl Primal {
-    /// For the problem that `c` has just solved for `s`; `torques` and `forces` are those of the previous tick, by DOF
-    /// and by contact point.
+    /// For the problem that `c` has just solved for `s`; `torques`, `forces` and `wrench` are those of the previous
+    /// tick, by DOF, by contact point, and on the pelvis.
     fn new(
         c: &Modern,
         s: &Scene,
         torques: &[f64; DOF_COUNT],
         forces: &[Vec3; MAX_CONTACTS],
+        wrench: &[Vec3; 2],
     ) -> Self {
         let t = &s.terms;
         let input = s.input();
@@ -134,7 +137,14 @@ impl Primal {
                     value,
                 });
             }
-            let rest = forces[p.segment * POINTS + p.vertex] * FORCE_MEMORY;
+            let foot = crate::body::topology::FEET.map(|f| f.index());
+            let on_foot = foot.contains(&p.segment) || foot.contains(&p.segment.wrapping_sub(1));
+            let last = if s.help.is_some() && !on_foot {
+                &s.floor
+            } else {
+                forces
+            };
+            let rest = last[p.segment * POINTS + p.vertex] * FORCE_MEMORY;
             contacts.push((j, rest, 1.0 / p.inverse_r));
         }
         let torque = (0..DOF_COUNT).map(|j| {
@@ -143,6 +153,13 @@ impl Primal {
             (rest, weight::TORQUE / (half * half))
         });
         let with = s.assist[0] > 0.0;
+        let assist = with.then(|| input.assist.map(|a| 1.0 / a));
+        // ½ w²/c + ½ (w − last)² k/((1 − k) c), up to a constant.
+        let helped = s.help.map(|help| {
+            let cost = help.compliance.map(|c| 1.0 / ((1.0 - help.kept) * c));
+            let rest = std::array::from_fn(|i| wrench[i].capped(help.most[i]) * help.kept);
+            (cost, (rest, help.most))
+        });
         Self {
             terms: all,
             m: (0..NV)
@@ -153,7 +170,8 @@ impl Primal {
             upper: s.upper,
             torque: torque.collect(),
             contacts,
-            assist: with.then(|| input.assist.map(|a| 1.0 / a)),
+            assist: helped.map(|h| h.0).or(assist),
+            help: helped.map(|h| h.1),
             mu: FRICTION * FRICTION_MARGIN,
         }
     }
@@ -176,10 +194,15 @@ impl Primal {
         }
         if let Some(k) = self.assist {
             for (i, w) in s.assist.iter().enumerate() {
-                sum += 0.5 * k[i / 3] * w * w;
+                sum += 0.5 * k[i / 3] * (w - self.rest(i)).powi(2);
             }
         }
         sum
+    }
+
+    /// Component of the wrench that help is pulled to.
+    fn rest(&self, i: usize) -> f64 {
+        self.help.map_or(0.0, |h| h.0[i / 3].to_array()[i % 3])
     }
 
     /// Largest component of `M v̇ + h − Sᵀτ − Jᵀf − assist`, N·m or N.
@@ -213,6 +236,11 @@ impl Primal {
         for f in &s.force {
             worst = worst.max(-f.z);
             worst = worst.max(f.x.hypot(f.y) - self.mu * f.z);
+        }
+        if let Some((_, most)) = self.help {
+            for (w, most) in s.assist.chunks(3).zip(most) {
+                worst = worst.max(vec3(w[0], w[1], w[2]).norm() - most);
+            }
         }
         worst
     }
@@ -249,6 +277,7 @@ impl Primal {
         if let Some(k) = self.assist {
             for i in 0..6 {
                 p[assist + i][assist + i] = k[i / 3];
+                q[assist + i] = -k[i / 3] * self.rest(i);
             }
         }
         // A z + s = b, s in the cones.
@@ -282,6 +311,14 @@ impl Primal {
             cones.push(SupportedConeT::SecondOrderConeT(3));
             for (axis, scale) in [(2, self.mu), (0, 1.0), (1, 1.0)] {
                 rows.push((b.len(), force + 3 * c + axis, -scale));
+                b.push(0.0);
+            }
+        }
+        for (part, most) in self.help.iter().flat_map(|h| h.1).enumerate() {
+            cones.push(SupportedConeT::SecondOrderConeT(4));
+            b.push(1.0);
+            for axis in 0..3 {
+                rows.push((b.len(), assist + 3 * part + axis, -1.0 / most));
                 b.push(0.0);
             }
         }
@@ -353,8 +390,11 @@ fn decided(c: &Modern) -> Solution {
         acceleration: c.command.acceleration,
         torque: c.command.torque,
         force: c.newton.force[..n].to_vec(),
-        // Stationarity: assist = −compliance × price.
-        assist: std::array::from_fn(|i| -c.assist[i / 3] * c.memory.price[i]),
+        assist: std::array::from_fn(|i| match c.wrench {
+            Some(_) => c.command.wrench[i / 3].to_array()[i % 3],
+            // Stationarity: assist = −compliance × price.
+            None => -c.assist[i / 3] * c.memory.price[i],
+        }),
     }
 }
 
@@ -397,6 +437,22 @@ fn scene(rng: &mut Rng, kind: usize, round: usize) -> Scene {
                 });
             }
         }
+        7 => {
+            let weight = s.terms.mass * GRAVITY;
+            let most = [0.01, 0.1, 0.3, 1.0][rng.between(0.0, 4.0) as usize % 4] * weight;
+            let price = 0.02 + 10.0 * rng.unit().abs();
+            let compliance = [0.9 * most, most].map(|m| 0.5 * m * m / price);
+            let kept = [0.0, 0.5, 0.9][round / 8 % 3];
+            s.help = Some(SceneHelp {
+                compliance,
+                most: [0.9 * most, most],
+                kept,
+            });
+            for (f, z) in s.floor.iter_mut().zip(s.heights.iter_mut()) {
+                *f = vec3(rng.unit(), rng.unit(), 2.0 + rng.unit()) * 20.0;
+                *z = 0.05 * rng.unit();
+            }
+        }
         _ => {}
     }
     s
@@ -410,6 +466,8 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
     let mut rng = Rng::new(77);
     let mut c = Modern::new(FRICTION);
     let (mut jammed, mut saturated, mut sliding, mut flying) = (0, 0, 0, 0);
+    // Helps within, and at, their bounds.
+    let mut helped = [0; 2];
     let mut counts = Vec::new();
     let (mut cost, mut torque, mut force, mut acceleration) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
     for round in 0..ROUNDS {
@@ -418,11 +476,12 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
             c.reset();
         }
         let (torques, forces) = (c.memory.torque, c.memory.force.clone());
+        let wrench = c.memory.wrench;
         c.control(&s.input());
         let forces: [Vec3; MAX_CONTACTS] = *forces;
         counts.push(c.command.iterations);
         // Within limits and cones, whatever the residual.
-        let primal = Primal::new(&c, &s, &torques, &forces);
+        let primal = Primal::new(&c, &s, &torques, &forces, &wrench);
         let ours = decided(&c);
         assert!(
             primal.excess(&ours) < 1e-9,
@@ -455,14 +514,23 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
         }
         saturated += usize::from(c.command.saturated != 0);
         flying += usize::from(ours.force.is_empty());
+        for (w, most) in (c.command.wrench)
+            .iter()
+            .zip(s.help.map_or([0.0; 2], |h| h.most))
+        {
+            if most > 0.0 {
+                helped[usize::from(w.norm() > (1.0 - 1e-9) * most)] += 1;
+            }
+        }
         let edge = |f: &&Vec3| f.z > 1.0 && f.x.hypot(f.y) > 0.999 * primal.mu * f.z;
         sliding += usize::from(ours.force.iter().any(|f| edge(&f)));
     }
     counts.sort_unstable();
     let text = format!(
-        "{ROUNDS} compared ({saturated} saturated, {sliding} at the cone, {flying} in flight); iterations: median {}, \
-         99 % {}, {} at most, {jammed} through the interior; cost {cost:.1e}, torque {torque:.1e} of its range, force \
-         {force:.1e} of the weight, acceleration {acceleration:.1e} of the largest",
+        "{ROUNDS} compared ({saturated} saturated, {sliding} at the cone, {flying} in flight, {helped:?} wrenches \
+         within and at their bounds); iterations: median {}, 99 % {}, {} at most, {jammed} through the interior; cost \
+         {cost:.1e}, torque {torque:.1e} of its range, force {force:.1e} of the weight, acceleration \
+         {acceleration:.1e} of the largest",
         counts[ROUNDS / 2],
         counts[ROUNDS * 99 / 100],
         counts[ROUNDS - 1],
@@ -472,9 +540,111 @@ fn the_kernel_solves_the_problem_that_an_interior_point_method_solves() {
         jammed > 60 && saturated > 60 && sliding > 20 && flying > 20,
         "{text}"
     );
+    assert!(helped.iter().all(|n| *n > 10), "{text}");
     assert!(cost < 1e-6, "{text}");
     assert!(
         torque < 1e-4 && force < 1e-4 && acceleration < 1e-4,
         "{text}"
     );
+}
+
+/// A man in a desired stand, allowed a wrench with these bounds over his weight.
+fn helped_stand(most: f64) -> Scene {
+    let body = mannequin();
+    let state = standing(&body);
+    let mut s = Scene::new(&state, &state, 1.0);
+    s.plant([true; 2]);
+    let most = most * s.terms.mass * GRAVITY;
+    s.help = Some(SceneHelp {
+        compliance: [0.05 * most * most; 2],
+        most: [most; 2],
+        kept: 0.0,
+    });
+    s
+}
+
+#[test]
+fn a_wrench_without_room_or_without_need_is_zero() {
+    let mut c = Modern::new(FRICTION);
+    let mut off = helped_stand(0.0);
+    off.help = Some(SceneHelp {
+        compliance: [1e4; 2],
+        most: [0.0; 2],
+        kept: 0.9,
+    });
+    off.com.shift(vec3(0.3, 0.1, 0.2));
+    for _ in 0..3 {
+        let command = c.control(&off.input());
+        assert_eq!(command.wrench, [Vec3::zero(); 2]);
+        assert!(!command.flags.has(Flags::CONTROL_BOUND));
+    }
+    // In a desired stand the floor carries all of the weight: its force costs next to nothing.
+    let mut c = Modern::new(FRICTION);
+    let mut stands = helped_stand(1.0);
+    let weight = stands.terms.mass * GRAVITY;
+    // The price while all is well.
+    stands.help.as_mut().unwrap().compliance = [1.5e-5 * weight * weight; 2];
+    let mut force = 0.0;
+    for _ in 0..60 {
+        force = c.control(&stands.input()).wrench[1].norm();
+    }
+    println!("a stand is helped by {force:.3} N");
+    assert!(force < 1e-3 * weight, "{force} N");
+}
+
+/// Optimality of the ball: inside, the wrench is what its price buys; at the bound it points where the price asks for
+/// more.
+#[test]
+fn a_wrench_is_what_its_price_buys_or_at_its_bound_along_it() {
+    let (mut inside, mut bound) = (0, 0);
+    for far in [0.01, 0.03, 0.1, 0.3, 1.0] {
+        for direction in [Vec3::X, Vec3::Y, Vec3::Z, vec3(1.0, -1.0, 1.0)] {
+            let mut c = Modern::new(FRICTION);
+            let mut s = helped_stand(0.3);
+            s.com.shift(direction * far);
+            c.control(&s.input());
+            let ball = c.wrench.unwrap();
+            for (part, ball) in ball.0.iter().enumerate() {
+                let price = RootWrench::seen(&c.memory.price, part);
+                let (w, free) = (c.command.wrench[part], price * -ball.gain);
+                if free.norm() <= ball.most {
+                    inside += 1;
+                    assert!((w - free).norm() < 1e-9, "{w:?} {free:?}");
+                } else {
+                    bound += 1;
+                    assert!((w.norm() - ball.most).abs() < 1e-9 * ball.most);
+                    assert!(
+                        w.cross(free).norm() < 1e-9 * w.norm() * free.norm() && w.dot(free) > 0.0
+                    );
+                }
+            }
+        }
+    }
+    assert!(
+        inside > 5 && bound > 5,
+        "{inside} inside, {bound} at the bound"
+    );
+}
+
+/// The price on its change: a wrench that is needed all at once comes in steps.
+#[test]
+fn a_wrench_whose_change_has_a_price_comes_gradually_to_the_same_size() {
+    let forces = |kept: f64| -> Vec<f64> {
+        let mut c = Modern::new(FRICTION);
+        let mut s = helped_stand(1.0);
+        s.help.as_mut().unwrap().kept = kept;
+        s.com.shift(Vec3::Z * 0.1);
+        (0..200)
+            .map(|_| c.control(&s.input()).wrench[1].norm())
+            .collect()
+    };
+    let (at_once, gradual) = (forces(0.0), forces(0.9));
+    assert!(
+        gradual[0] < 0.5 * at_once[0],
+        "{} {}",
+        gradual[0],
+        at_once[0]
+    );
+    let ends = [at_once[199], gradual[199]];
+    assert!((ends[0] - ends[1]).abs() < 0.05 * ends[0], "{ends:?}");
 }

@@ -117,10 +117,10 @@ impl MotionState {
         &self.following
     }
 
-    /// Notes how the motion was followed in a tick of `dt` s: helped by a force of norm `force`, for a body of this
-    /// weight, N.
-    pub fn note(&mut self, mode: FollowMode, force: f64, weight: f64, dt: f64) {
-        self.following.add(mode, force, weight, dt);
+    /// Notes how the motion was followed in a tick of `dt` s: helped by a moment (N·m) and a force (N) of these norms,
+    /// for a body of this weight, N.
+    pub fn note(&mut self, mode: FollowMode, help: [f64; 2], weight: f64, dt: f64) {
+        self.following.add(mode, help, weight, dt);
     }
 
     /// Forgets how the motion was followed.

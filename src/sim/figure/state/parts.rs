@@ -197,6 +197,8 @@ pub(in crate::figure) struct StageResults {
     pub undecided: bool,
     /// Assist towards the desired pose of the pelvis, if it is on.
     pub assist: Option<Assist>,
+    /// The wrench on the pelvis that the controller planned, N·m and N, if it was allowed one.
+    pub planned_help: Option<[Vec3; 2]>,
     /// State at the start of the tick.
     pub before: State,
 }
@@ -217,6 +219,7 @@ impl StageResults {
             },
             undecided: false,
             assist: None,
+            planned_help: None,
             before: *state,
         }
     }

@@ -12,6 +12,7 @@ use crate::math::Vec3;
 use crate::paper::controller::PaperMemory;
 use crate::paper::prescribed_step::KinematicStepper;
 use crate::paper::prescribed_step::SupportAnchor;
+use crate::report::MAX_CONTACTS;
 use crate::stepper::forces::TickForces;
 use crate::stepper::torque_step::TorqueStepper;
 use serde::{Deserialize, Serialize};
@@ -26,6 +27,16 @@ pub(crate) struct Workspace {
     pub(in crate::figure) tasks: TaskWorkspace,
     pub(in crate::figure) controllers: Controllers,
     pub(in crate::figure) steppers: Steppers,
+    pub(in crate::figure) floor: Box<FloorFacts>,
+}
+
+/// Facts about the floor and each contact point, by segment × 8 + vertex, for a figure that is helped.
+#[derive(Debug)]
+pub(in crate::figure) struct FloorFacts {
+    /// Height of the point in the motion, m.
+    pub heights: [f64; MAX_CONTACTS],
+    /// Force of the floor on it in the last tick, N.
+    pub forces: [Vec3; MAX_CONTACTS],
 }
 
 /// The steppers, one of which moves the body.
@@ -72,6 +83,10 @@ impl Default for Workspace {
                 torque: TorqueStepper::new(1.0),
                 kinematic: Box::new(KinematicStepper::new(1.0)),
             },
+            floor: Box::new(FloorFacts {
+                heights: [0.0; MAX_CONTACTS],
+                forces: [Vec3::zero(); MAX_CONTACTS],
+            }),
         }
     }
 }

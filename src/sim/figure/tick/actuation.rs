@@ -1,18 +1,24 @@
 //! Stages 4 and 5: the torque that the muscles can give, the demands of the motion, and the controller's answer.
 
+use crate::body::SegmentId;
 use crate::body::topology::DOF_COUNT;
-use crate::control::{CentroidalTarget, ContactTargets, ControlInput, MomentumTarget, StancePhase};
+use crate::control::{
+    CentroidalTarget, ContactTargets, ControlInput, HelpAllowance, MomentumTarget, StancePhase,
+};
 use crate::figure::balance::bracing;
 use crate::figure::motion::source::MotionSource;
 use crate::figure::motion::tasks::TaskPoints;
 use crate::figure::params::bracing::HORIZON;
 use crate::figure::params::fall;
+use crate::figure::params::help::HOME_TIME;
 use crate::figure::state::controllers::mode;
 use crate::figure::state::figure::Figure;
 use crate::figure::state::parts::StageResults;
 use crate::figure::state::workspace::Workspace;
 use crate::figure::tick::StepDemand;
+use crate::math::Vec3;
 use crate::motion::{Target, TargetPair};
+use crate::report::POINTS_PER_SEGMENT;
 use crate::setup::{ControlParams, StrengthScale};
 use crate::stepper::command::MotorCommand;
 use crate::stepper::pelvis_wrench::Assist;
@@ -46,12 +52,12 @@ impl Figure {
         if !self.steps() {
             return self.motion.source().targets(time, dt);
         }
-        let carried = self.is_carried();
+        let fade = self.is_carried().then_some(HOME_TIME);
         let drive = self.motion.source();
         let plan_time = |t| drive.plan_time(t);
         let (tracker, terms) = (&mut self.desired.tracker, &self.workspace.terms);
         let pair = |now, next| drive.pair(now, next);
-        tracker.targets(time, dt, terms, plan_time, pair, carried)
+        tracker.targets(time, dt, terms, plan_time, pair, fade)
     }
 
     /// Whether steps follow events: the mode makes steps, and the figure is up. Full assist pins the pelvis to its
@@ -129,6 +135,7 @@ impl Figure {
         tasks: &TaskPoints,
         steps: StepDemand,
     ) -> MotorCommand {
+        self.scratch.results.planned_help = None;
         let stiff = self.rehearsed_command(world);
         if let Some(command) = stiff.or_else(|| self.carried_command(world)) {
             return command;
@@ -142,8 +149,16 @@ impl Figure {
         let mode = mode(kind);
         let unled = (!mode.decides()).then(|| self.unled(world.gravity));
         let unled = unled.as_ref();
+        let help = self.help_terms(world.dt).filter(|_| mode.can_be_helped());
+        if help.is_some() {
+            self.look_at_floor();
+        }
+        let as_it_lies = self.is_carried();
         let Workspace {
-            terms, controllers, ..
+            terms,
+            controllers,
+            floor,
+            ..
         } = &mut *self.workspace;
         let input = ControlInput {
             carried: self.desired.load_compensation.in_hands(),
@@ -178,9 +193,18 @@ impl Figure {
             dt: world.dt,
             assist: Assist::new(&self.setup.body, self.setup.options.assist)
                 .map_or([0.0; 2], |a| a.planned()),
+            help: help.map(|help| HelpAllowance {
+                compliance: help.compliance,
+                most: help.most,
+                kept: help.kept,
+                heights: &floor.heights,
+                floor: &floor.forces,
+                as_it_lies,
+            }),
             kinematic: self.stepping.is_prescribed(),
         };
         let command = controllers.get_mut(kind).control(&input);
+        self.scratch.results.planned_help = help.map(|_| command.wrench);
         let saturation_speed = unled
             .and_then(|u| u.saturation_speed)
             .unwrap_or(mode.saturation_speed());
@@ -195,6 +219,23 @@ impl Figure {
         self.outcome.report.flags = command.flags;
         self.stepping.note_tipping(command.pivot.is_some());
         out
+    }
+
+    /// Notes for each contact point how high the motion has it, and how the floor pushed it in the last tick.
+    fn look_at_floor(&mut self) {
+        let Workspace { tasks, floor, .. } = &mut *self.workspace;
+        let (body, target) = (&self.setup.body, &self.desired.target);
+        for s in SegmentId::all() {
+            let points = body.segment(s).contact_points.iter();
+            for (vertex, p) in points.take(POINTS_PER_SEGMENT).enumerate() {
+                floor.heights[s.index() * POINTS_PER_SEGMENT + vertex] =
+                    tasks.desired_point(target, s, *p).z;
+            }
+        }
+        floor.forces.fill(Vec3::zero());
+        for c in &self.outcome.report.contacts {
+            floor.forces[c.segment.index() * POINTS_PER_SEGMENT + c.vertex] = c.force;
+        }
     }
 
     /// The target of motors without a controller: a fallen figure is limp, and a falling one braces itself.

@@ -31,7 +31,8 @@ impl Figure {
     pub(in crate::figure) fn watch_balance(&mut self, world: &TickContext) {
         let s = &self.setup;
         let falls = self.may_prescribe();
-        let knows = self.motion.gets_up() || self.motion.rehearsed().is_some() || self.is_carried();
+        let helped = self.is_carried() || self.surroundings.help.acts();
+        let knows = self.motion.gets_up() || self.motion.rehearsed().is_some() || helped;
         let watched = !(knows || falls || !s.params.hand_over || s.options.assist > 0.0);
         let reach = self.mode().balance_reach(&s.params);
         let Some(reach) = reach.filter(|_| watched) else {
@@ -79,8 +80,7 @@ impl Figure {
 
     /// The chosen controller, or motors alone once balance is lost or the figure lies on the ground.
     pub(in crate::figure) fn controller_in_charge(&self) -> ControllerKind {
-        let motors =
-            self.motion.is_limp() || self.motion.rehearsed().is_some() || self.is_carried();
+        let motors = self.motion.is_limp() || self.motion.rehearsed().is_some() || self.is_stiff();
         if motors || self.surroundings.balance.lost() {
             ControllerKind::Motors
         } else {

@@ -76,7 +76,8 @@ impl Figure {
         self.commands(world);
         if self.physical.frozen {
             self.outcome.report.flags = Flags::QUARANTINED;
-            self.motion.note(FollowMode::Nothing, 0.0, 0.0, world.dt);
+            self.motion
+                .note(FollowMode::Nothing, [0.0; 2], 0.0, world.dt);
         } else {
             let PhysicalState { links, state, .. } = &self.physical;
             self.scratch.placement.set_state(links, state);
@@ -145,7 +146,7 @@ impl Figure {
     fn update_activity(&mut self, world: &TickContext) {
         self.break_off_if_barred(world);
         self.leave_rehearsal_if_over(world);
-        self.leave_broken_stream(world.time());
+        self.leave_ended_stream(world.time());
         self.follow_exit_if_due(world);
         self.begin_next_if_ready(world);
         self.settle_stream_entry_if_due(world);
@@ -243,6 +244,7 @@ impl Figure {
             // The tick ends with `contain`; until then the numbers must not reach any figure nearby.
             command.acceleration.fill(0.0);
             command.torque.fill(0.0);
+            self.scratch.results.planned_help = None;
         }
         self.scratch.results.command = command;
         self.update_hand_over(world.dt);
@@ -364,19 +366,20 @@ impl Figure {
 
     /// The steppers, their input, and the state that they move.
     fn integration<'a>(&'a mut self, world: &'a TickContext) -> Integration<'a> {
-        let (carried, pull) = (self.is_carried(), self.pull());
+        let (stiff, pull) = (self.is_stiff(), self.pull());
         let meets_itself = self.meets_itself();
         let results = &self.scratch.results;
         let target = &self.desired.target;
         let spring = results.assist.as_ref();
         let assist = match self.motion.rehearsed() {
             Some(play) => play.help(world.time()),
-            None => match pull {
-                Some(pull) => Some(PelvisHelp::Pull(pull, target)),
-                None => spring.map(|a| PelvisHelp::Desired(a, target)),
+            None => match (pull, results.planned_help) {
+                (Some(pull), _) => Some(PelvisHelp::Pull(pull, target)),
+                (None, Some(wrench)) => Some(PelvisHelp::Planned(wrench)),
+                (None, None) => spring.map(|a| PelvisHelp::Desired(a, target)),
             },
         };
-        let accuracy = if carried || self.motion.rehearsed().is_some() {
+        let accuracy = if stiff || self.motion.rehearsed().is_some() {
             Accuracy::REHEARSED
         } else {
             Accuracy::default()

@@ -4,7 +4,7 @@
 use crate::figure::events::FigureEvent;
 use crate::figure::motion::exit::{ExitGoal, ExitPlan, ExitProblem};
 use crate::figure::motion::plan_task::PlanTask;
-use crate::figure::motion::source::{ClipPlayback, LivePlayback, MotionSource, QueuedClip};
+use crate::figure::motion::source::{ClipPlayback, MotionSource, QueuedClip};
 use crate::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP_TIME};
 use crate::figure::state::figure::Figure;
 use crate::motion::clip::{Clip, PlanarTransform};
@@ -25,6 +25,8 @@ struct Given {
     /// Sample up to which the motion still plays.
     now: usize,
     streamed: bool,
+    /// Whether it is a stream of which no more is expected.
+    ended: bool,
 }
 
 /// Times of a switch.
@@ -157,18 +159,30 @@ impl Figure {
         let to = StandGoal {
             posture,
             streamed: given.streamed,
+            whole: given.ended,
         };
         let ends = StopCandidates::new(&self.setup.body, so_far, given.now, to);
         leaving.ends = Some(Arc::new(ends));
     }
 
-    /// A stream that breaks off in the middle of a step, with its last posture held, is left by the steps to a stand.
-    /// Allocates.
-    pub(in crate::figure) fn leave_broken_stream(&mut self, time: WorldTime) {
-        let broken = |live: &LivePlayback| live.motion.breaks_off();
-        let streams = self.motion.exit().is_none()
-            && matches!(self.motion.source(), MotionSource::Live(live) if broken(live));
-        if streams && self.steps() && self.desired.tracker.is_walking() {
+    /// A stream that has broken off in the middle of a step, or fallen silent there, is left for a motion that plays
+    /// the rest of it and then walks to a stand. The window would prepare the rest as if the body stopped within a
+    /// sample, and balance would be lost on that; a carried figure does not rely on it, and plays the rest as it came.
+    /// Allocates in that case.
+    pub(in crate::figure) fn leave_ended_stream(&mut self, time: WorldTime) {
+        let from = time - self.desired.tracker.lag();
+        let MotionSource::Live(live) = self.motion.source() else {
+            return;
+        };
+        let Some(end) = live.motion.ends_at() else {
+            return;
+        };
+        let ahead = LEAD as f64 / splice::RATE;
+        let over = end - live.stream_time(from) < ahead + 0.5 / splice::RATE;
+        // Samples that wait before the window, behind a way into the stream, are not known yet.
+        let known = live.motion.taken() >= live.motion.moved();
+        let may = self.motion.exit().is_none() && self.steps() && known;
+        if may && (over || !self.is_carried()) && self.desired.tracker.is_walking() {
             self.leave_for_a_stand(LEAD, time);
         }
     }
@@ -306,11 +320,11 @@ impl Figure {
     fn motion_until_stop(&mut self, time: WorldTime, after: usize) -> (Given, Vec<Sample>) {
         let from = time - self.desired.tracker.lag();
         let (begin, so_far) = self.motion_around(from, after as f64 / splice::RATE);
-        let (streamed, before) = match self.motion.source() {
-            MotionSource::Clip(play) => (false, play.motion_time(begin).0),
-            MotionSource::Live(live) => (true, live.stream_time(begin).0),
+        let (live, before) = match self.motion.source() {
+            MotionSource::Clip(play) => (None, play.motion_time(begin).0),
+            MotionSource::Live(live) => (Some(live), live.stream_time(begin).0),
             MotionSource::Hold(_) | MotionSource::External(_) | MotionSource::Rehearsed(_) => {
-                (false, 0.0)
+                (None, 0.0)
             }
         };
         let now = ((from - begin) * splice::RATE).max(0.0) as usize;
@@ -319,7 +333,8 @@ impl Figure {
             before,
             // It continues at least to that sample, even if a checkpoint says otherwise.
             now: now.saturating_add(after).min(so_far.len()),
-            streamed,
+            streamed: live.is_some(),
+            ended: live.is_some_and(|live| live.motion.ends_at().is_some()),
         };
         (given, so_far)
     }

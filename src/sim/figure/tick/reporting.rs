@@ -103,7 +103,8 @@ impl Figure {
     /// Notes how the motion was followed, and the help that it took.
     fn note_following(&mut self, world: &TickContext, frozen: bool) {
         if frozen {
-            self.motion.note(FollowMode::Nothing, 0.0, 0.0, world.dt);
+            self.motion
+                .note(FollowMode::Nothing, [0.0; 2], 0.0, world.dt);
             return;
         }
         let assist = &self.outcome.report.assist;
@@ -120,8 +121,9 @@ impl Figure {
         } else {
             FollowMode::Nothing
         };
-        let force = Vec3::from_array([assist[3], assist[4], assist[5]]).norm();
+        let [mx, my, mz, fx, fy, fz] = *assist;
+        let help = [[mx, my, mz], [fx, fy, fz]].map(|v| Vec3::from_array(v).norm());
         let weight = self.setup.body.profile.mass * GRAVITY;
-        self.motion.note(mode, force, weight, world.dt);
+        self.motion.note(mode, help, weight, world.dt);
     }
 }

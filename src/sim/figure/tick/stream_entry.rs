@@ -19,7 +19,7 @@ impl Figure {
 
     /// Begins to work out the way from its stand into a stream, at world time `time`.
     ///
-    /// * `came`: the beginning of the stream, at least [`StreamBeginning::needed`] samples, in its own place.
+    /// * `came`: the beginning of the stream, as [`StreamBeginning::new`] takes it, in its own place.
     pub fn plan_stream_entry(&mut self, came: Vec<(Posture, Option<[bool; 2]>)>, time: WorldTime) {
         let stand = self.desired.target.next.posture;
         self.motion.plan_stream_entry(

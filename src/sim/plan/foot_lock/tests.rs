@@ -194,6 +194,27 @@ fn feet_that_turn_together_step_in_turn_and_one_of_them_always_stands() {
 }
 
 #[test]
+fn a_foot_without_any_stance_stays_as_it_was_recorded() {
+    let n = 240;
+    // It shuffles along just above the floor, where a swing would be raised.
+    let ankles: Vec<Vec3> = (0..n)
+        .map(|i| Vec3::from_array([0.002 * f64::from(i), 0.1, 0.081]))
+        .collect();
+    let rotations: Vec<Quat> = (0..n)
+        .map(|i| Quat::exp(Vec3::Z * (0.001 * f64::from(i))))
+        .collect();
+    let n = n as usize;
+    let (stances, f) = locked(&ankles, &rotations, &vec![false; n], &vec![false; n]);
+    assert!(stances.is_empty() && f.planted.iter().all(|on| !on));
+    for (k, pose) in f.poses.iter().enumerate() {
+        assert_eq!((pose.ankle, pose.rotation), (ankles[k], rotations[k]));
+    }
+    // The same foot is raised if the recording has a stance of the other one: it swings then.
+    let (_, f) = locked(&ankles, &rotations, &vec![false; n], &vec![true; n]);
+    assert!(f.poses[n / 2].ankle.z > ankles[n / 2].z + 0.005);
+}
+
+#[test]
 fn a_step_of_which_the_label_saw_only_the_middle_takes_the_time_that_it_needs() {
     let (n, first, last) = (360, 172, 188);
     // A quarter of a metre in 0.36 s, close to the floor; the label covers 0.13 s of it.

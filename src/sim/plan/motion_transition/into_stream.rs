@@ -49,7 +49,13 @@ impl StreamBeginning {
         (0.5 * transition::AHEAD * stream::RATE) as usize + samples_after() + 1
     }
 
-    /// * `came`: at least [`Self::needed`] samples, 1/[`stream::RATE`] s apart.
+    /// Number of samples of a stream that has ended with which a path can be sought.
+    pub fn least() -> usize {
+        samples_after() + 1
+    }
+
+    /// * `came`: [`Self::needed`] samples, or all of a stream that has ended, if they are at least [`Self::least`];
+    ///   1/[`stream::RATE`] s apart.
     /// * `stand`: how the figure stands.
     pub fn new(body: &Arc<Body>, came: Vec<Came>, stand: Posture) -> Self {
         Self {

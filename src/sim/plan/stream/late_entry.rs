@@ -78,6 +78,12 @@ impl StreamPlan {
             return 0.0;
         };
         self.input.pending.drain(..k);
+        let (from, skipped) = (self.count, k as i64);
+        // An end that is skipped with the samples before it is none.
+        self.input.ends = match self.input.ends {
+            Some(n) if n > from => (n > from + skipped).then(|| n - skipped),
+            before => before,
+        };
         self.placement.join = Some((self.count, transition::BLEND_TIME));
         k as f64 / RATE
     }

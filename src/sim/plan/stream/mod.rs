@@ -156,6 +156,10 @@ struct Timing {
 struct Input {
     pending: VecDeque<Raw>,
     newest: RepeatedSamples,
+    /// Samples at the end that were guessed.
+    guessed: i64,
+    /// Number of samples up to where the stream broke off in motion, or fell silent.
+    ends: Option<i64>,
 }
 
 /// The samples already output.
@@ -240,6 +244,8 @@ impl StreamPlan {
             input: Input {
                 pending: VecDeque::with_capacity(MOST_PENDING),
                 newest: RepeatedSamples::default(),
+                guessed: 0,
+                ends: None,
             },
             count: 0,
             ring: vec![blank; length],
@@ -287,6 +293,11 @@ impl StreamPlan {
             && self.output.knots.len() == fresh.output.knots.len()
             && self.input.pending.len() <= MOST_PENDING
             && self.input.newest.is_valid()
+            && is_sample(self.input.guessed)
+            && self
+                .input
+                .ends
+                .is_none_or(|n| (0..=self.fed()).contains(&n))
             && is_sample(self.count)
             && self.count >= 0
             && self.output.last == out.max(-1)
@@ -315,14 +326,17 @@ impl StreamPlan {
         self.count + self.input.pending.len() as i64
     }
 
-    /// The same without repeated samples at the end, if the stream breaks off with them.
+    /// The same up to where the stream broke off in motion or fell silent, if it did.
     pub fn moved(&self) -> i64 {
-        let repeated = if self.breaks_off() {
-            self.input.newest.repeated()
-        } else {
-            0
-        };
-        self.fed() - repeated
+        self.input.ends.unwrap_or_else(|| self.fed())
+    }
+
+    /// Time of the last sample before the stream broke off in motion or fell silent, s. The motion is played up to
+    /// there, even if the stream moves again afterwards: in between it stood in a posture in which a body cannot stay.
+    pub fn ends_at(&self) -> Option<StreamTime> {
+        self.input
+            .ends
+            .map(|n| StreamTime((n - 1).max(0) as f64 * H))
     }
 
     /// Whether its samples have repeated one in the middle of a movement for so long that the stream is over: no body
@@ -343,13 +357,49 @@ impl StreamPlan {
     ///
     /// A sample that is not finite is left out.
     pub fn push(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
-        if posture.is_finite() {
-            self.input.newest.take(posture);
-            self.wait(Raw {
-                posture: *posture,
-                planted,
-            });
+        if !posture.is_finite() {
+            return;
         }
+        let input = &mut self.input;
+        input.newest.take(posture);
+        input.guessed = 0;
+        let (moves, played) = (input.newest.repeated() == 0, self.output.last);
+        if moves && input.ends.is_some_and(|n| n <= played) {
+            input.ends = None;
+        }
+        self.wait(Raw {
+            posture: *posture,
+            planted,
+        });
+        if self.breaks_off() {
+            self.end_before(self.input.newest.repeated());
+        }
+    }
+
+    /// [`Self::push`] of a sample that the receiver guessed, since none had arrived in time. If the stream falls silent
+    /// after it, it is not played.
+    pub fn push_guess(&mut self, posture: &Posture, planted: Option<[bool; 2]>) {
+        let guessed = self.input.guessed + 1;
+        self.push(posture, planted);
+        self.input.guessed = guessed;
+    }
+
+    /// No sample has arrived for too long to guess one: the stream ends with the last one that did. Until another
+    /// arrives, it stands still.
+    pub fn fall_silent(&mut self) {
+        let Some(last) = self.input.newest.posture() else {
+            return;
+        };
+        let guessed = self.input.guessed;
+        self.end_before(self.input.newest.repeated().max(guessed));
+        self.push(&last, None);
+        self.input.guessed = guessed + 1;
+    }
+
+    /// Ends the stream before its newest `count` samples, unless it has ended already.
+    fn end_before(&mut self, count: i64) {
+        let end = (self.fed() - count).max(0);
+        self.input.ends.get_or_insert(end);
     }
 
     fn wait(&mut self, raw: Raw) {
@@ -677,8 +727,9 @@ impl StreamPlan {
     pub fn known(&self, from: StreamTime, came: i64) -> (StreamTime, Vec<(Posture, [bool; 2])>) {
         let n = self.output.knots.len() as i64;
         let last = self.count.min(came) - 1;
-        let done = (self.output.last - 2).max(0);
-        let first = ((from.0 * RATE) as i64).clamp((self.output.last - n + 1).max(0), done);
+        let held = (self.output.last - n + 1).max(0);
+        let done = (self.output.last - 2).min(last).max(held);
+        let first = ((from.0 * RATE) as i64).clamp(held, done);
         let mut all: Vec<(Posture, [bool; 2])> = (first..=done)
             .map(|i| {
                 let knot = &self.output.knots[i.rem_euclid(n) as usize];

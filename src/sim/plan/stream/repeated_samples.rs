@@ -46,6 +46,11 @@ impl RepeatedSamples {
         }
     }
 
+    /// The newest sample.
+    pub(super) fn posture(&self) -> Option<Posture> {
+        self.posture
+    }
+
     /// Samples at the end that repeat the one before them.
     pub(super) fn repeated(&self) -> i64 {
         self.repeated

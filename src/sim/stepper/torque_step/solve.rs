@@ -282,6 +282,7 @@ fn substep_kernel(
         motors: &problem.motors,
         limits: &problem.limits,
         contacts: &problem.contacts,
+        wrench: None,
     };
     minimise(&problem, stop, hessian, v, ws)
 }

@@ -397,6 +397,7 @@ class Figure(_message.Message):
     PAPER_FIELD_NUMBER: _builtins.int
     CONSTRAINTS_FIELD_NUMBER: _builtins.int
     PROTECTIVE_STEPS_FIELD_NUMBER: _builtins.int
+    FOLLOW_FIELD_NUMBER: _builtins.int
     MAX_HELP_WEIGHTS_FIELD_NUMBER: _builtins.int
     SELF_CONTACT_FIELD_NUMBER: _builtins.int
     STATUS_FIELD_NUMBER: _builtins.int
@@ -419,11 +420,15 @@ class Figure(_message.Message):
     """
     protective_steps: _builtins.bool
     """Step when the capture point has left the feet, and put the arms out in a fall (CONTROLLER_MODERN). Absent: true."""
-    max_help_weights: _builtins.float
-    """Largest force over the weight of the help while its motion is being lost, whatever that is: a clip, a stream, or a
-    posture that is held; 0…2. Then a pull on the pelvis and stiff motors keep it with its motion, until it goes on by
-    itself; reported in every frame (`assist`). Needs CONTROLLER_MODERN and no `assist`. 0: none, it falls honestly.
+    follow: _motion_pb2.Follow.ValueType
+    """How far the figure may go so that it keeps a motion that it would lose: a clip, a stream, or a posture that is
+    held. FOLLOW_ASSISTED, FOLLOW_ALWAYS: a force and a moment on the pelvis do what its muscles cannot, until it
+    continues by itself; frames report them (`assist`). They need CONTROLLER_MODERN and no `assist`. FOLLOW_REHEARSED
+    is the same as FOLLOW_STRICT here. Absent: FOLLOW_STRICT, it falls honestly; FOLLOW_ASSISTED if `max_help_weights`
+    is above 0.
     """
+    max_help_weights: _builtins.float
+    """Largest force of that help, body weights, 0…2. Absent: 0.3 with FOLLOW_ASSISTED, 1 with FOLLOW_ALWAYS, else 0."""
     self_contact: _builtins.bool
     """Keep limbs out of the body and of each other, by forces of soft tissue (STEPPER_TORQUE). What the desired motion
     itself does is left alone, and there is none within a rehearsed motion. Controllers do not know of it: with it
@@ -476,19 +481,24 @@ class Figure(_message.Message):
         paper: Global___PaperOptions | None = ...,
         constraints: _abc.Iterable[Global___Constraint] | None = ...,
         protective_steps: _builtins.bool | None = ...,
-        max_help_weights: _builtins.float = ...,
+        follow: _motion_pb2.Follow.ValueType = ...,
+        max_help_weights: _builtins.float | None = ...,
         self_contact: _builtins.bool | None = ...,
         status: Global___FigureStatus | None = ...,
         etag: _builtins.str = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "_self_contact", b"_self_contact", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "self_contact", b"self_contact", "status", b"status", "strength", b"strength"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights", "_protective_steps", b"_protective_steps", "_self_contact", b"_self_contact", "max_help_weights", b"max_help_weights", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "self_contact", b"self_contact", "status", b"status", "strength", b"strength"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps", "_self_contact", b"_self_contact", "assist", b"assist", "body", b"body", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "etag", b"etag", "fatigue_time_scale", b"fatigue_time_scale", "max_help_weights", b"max_help_weights", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "self_contact", b"self_contact", "status", b"status", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights", "_protective_steps", b"_protective_steps", "_self_contact", b"_self_contact", "assist", b"assist", "body", b"body", "constraints", b"constraints", "controller", b"controller", "display_name", b"display_name", "etag", b"etag", "fatigue_time_scale", b"fatigue_time_scale", "follow", b"follow", "max_help_weights", b"max_help_weights", "name", b"name", "paper", b"paper", "placement", b"placement", "profile", b"profile", "protective_steps", b"protective_steps", "self_contact", b"self_contact", "status", b"status", "stepper", b"stepper", "strength", b"strength"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__max_help_weights: _TypeAlias = _typing.Literal["max_help_weights"]  # noqa: Y015
+    _WhichOneofArgType__max_help_weights: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights"]  # noqa: Y015
     _WhichOneofReturnType__protective_steps: _TypeAlias = _typing.Literal["protective_steps"]  # noqa: Y015
     _WhichOneofArgType__protective_steps: _TypeAlias = _typing.Literal["_protective_steps", b"_protective_steps"]  # noqa: Y015
     _WhichOneofReturnType__self_contact: _TypeAlias = _typing.Literal["self_contact"]  # noqa: Y015
     _WhichOneofArgType__self_contact: _TypeAlias = _typing.Literal["_self_contact", b"_self_contact"]  # noqa: Y015
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__max_help_weights) -> _WhichOneofReturnType__max_help_weights | None: ...
     @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType__protective_steps) -> _WhichOneofReturnType__protective_steps | None: ...
     @_typing.overload
@@ -510,6 +520,7 @@ class FigureStatus(_message.Message):
     HELP_NEWTON_SECONDS_FIELD_NUMBER: _builtins.int
     HELP_RATIO_FIELD_NUMBER: _builtins.int
     MAX_HELP_WEIGHTS_FIELD_NUMBER: _builtins.int
+    HELP_NEWTON_METRE_SECONDS_FIELD_NUMBER: _builtins.int
     clip: _builtins.str
     """Clip that is playing, `clips/{clip}`; empty if none, and while the figure comes to a stand."""
     next_clip: _builtins.str
@@ -530,6 +541,8 @@ class FigureStatus(_message.Message):
     """Largest force of the help that its motion gets if it is being lost, body weights: by the figure and by how its clip
     is played, whichever allows more. 0: none, as in a rehearsal, where help is what was rehearsed.
     """
+    help_newton_metre_seconds: _builtins.float
+    """The norm of the moment in `assist` over time, as `help_newton_seconds` is that of the force, N·m·s."""
     def __init__(
         self,
         *,
@@ -541,10 +554,11 @@ class FigureStatus(_message.Message):
         help_newton_seconds: _builtins.float = ...,
         help_ratio: _builtins.float = ...,
         max_help_weights: _builtins.float = ...,
+        help_newton_metre_seconds: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["clip", b"clip", "driver_id", b"driver_id", "figure_index", b"figure_index", "following", b"following", "help_newton_seconds", b"help_newton_seconds", "help_ratio", b"help_ratio", "max_help_weights", b"max_help_weights", "next_clip", b"next_clip"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["clip", b"clip", "driver_id", b"driver_id", "figure_index", b"figure_index", "following", b"following", "help_newton_metre_seconds", b"help_newton_metre_seconds", "help_newton_seconds", b"help_newton_seconds", "help_ratio", b"help_ratio", "max_help_weights", b"max_help_weights", "next_clip", b"next_clip"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
@@ -823,8 +837,8 @@ class UpdateFigureRequest(_message.Message):
     @_builtins.property
     def update_mask(self) -> _field_mask_pb2.FieldMask:
         """Which of `display_name`, `strength`, `controller`, `fatigue_time_scale`, `assist`, `paper`, `constraints`,
-        `protective_steps`, `max_help_weights`, `self_contact` to take. Absent or empty: those that are not empty. `*`:
-        all. Fields that it does not name are ignored, whatever they hold.
+        `protective_steps`, `follow`, `max_help_weights`, `self_contact` to take. Absent or empty: those that are not
+        empty. `*`: all. Fields that it does not name are ignored, whatever they hold.
         """
 
     def __init__(

@@ -488,6 +488,7 @@ class Status(_message.Message):
     FOLLOWING_FIELD_NUMBER: _builtins.int
     HELP_NEWTON_SECONDS_FIELD_NUMBER: _builtins.int
     HELP_RATIO_FIELD_NUMBER: _builtins.int
+    HELP_NEWTON_METRE_SECONDS_FIELD_NUMBER: _builtins.int
     flags: _builtins.int
     """Set of flags by bit; `GetServerInfo` lists their names: FLIGHT, TIPPING, OVERLOAD, DAMPED, CONTROL_BOUND,
     STEP_BOUND, FALLEN, QUARANTINED, BALANCE_LOST, HANDED_OVER, SPEED_BOUND.
@@ -514,6 +515,8 @@ class Status(_message.Message):
     """Impulse of the help since its motion began, N·s, as in `FigureStatus`."""
     help_ratio: _builtins.float
     """The same over weight times time."""
+    help_newton_metre_seconds: _builtins.float
+    """Its moment over time, N·m·s, as in `FigureStatus`."""
     @_builtins.property
     def loads(self) -> _containers.RepeatedCompositeFieldContainer[_figure_pb2.CarriedLoad]:
         """Loads carried at the end of the tick."""
@@ -533,10 +536,11 @@ class Status(_message.Message):
         following: _motion_pb2.FollowWay.ValueType = ...,
         help_newton_seconds: _builtins.float = ...,
         help_ratio: _builtins.float = ...,
+        help_newton_metre_seconds: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_iterations", b"control_iterations", "flags", b"flags", "following", b"following", "help_newton_seconds", b"help_newton_seconds", "help_ratio", b"help_ratio", "loads", b"loads", "over_limit", b"over_limit", "penetration_m", b"penetration_m", "saturated", b"saturated", "saturated_secondary", b"saturated_secondary", "step_iterations", b"step_iterations", "tracking_joint_rms_rad", b"tracking_joint_rms_rad"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["control_iterations", b"control_iterations", "flags", b"flags", "following", b"following", "help_newton_metre_seconds", b"help_newton_metre_seconds", "help_newton_seconds", b"help_newton_seconds", "help_ratio", b"help_ratio", "loads", b"loads", "over_limit", b"over_limit", "penetration_m", b"penetration_m", "saturated", b"saturated", "saturated_secondary", b"saturated_secondary", "step_iterations", b"step_iterations", "tracking_joint_rms_rad", b"tracking_joint_rms_rad"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 

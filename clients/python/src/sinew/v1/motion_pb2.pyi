@@ -35,7 +35,11 @@ class _FollowEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Follow.ValueTy
     FOLLOW_REHEARSED: _Follow.ValueType  # 2
     """The clip is rehearsed: what has to be added to it is found out beforehand. Strength alone does it."""
     FOLLOW_ASSISTED: _Follow.ValueType  # 3
-    """The same, and as little help as will do, in newtons, which every frame tells (`assist`)."""
+    """With help while it is being lost: a force and a moment on the pelvis, as little as will do, which frames report
+    (`assist`). A rehearsal searches for less help than that.
+    """
+    FOLLOW_ALWAYS: _Follow.ValueType  # 4
+    """The same to the end of the motion, with as much help as that takes."""
 
 class Follow(_Follow, metaclass=_FollowEnumTypeWrapper):
     """How far it may go so that a figure keeps to a clip that it loses as it is."""
@@ -47,7 +51,11 @@ FOLLOW_STRICT: Follow.ValueType  # 1
 FOLLOW_REHEARSED: Follow.ValueType  # 2
 """The clip is rehearsed: what has to be added to it is found out beforehand. Strength alone does it."""
 FOLLOW_ASSISTED: Follow.ValueType  # 3
-"""The same, and as little help as will do, in newtons, which every frame tells (`assist`)."""
+"""With help while it is being lost: a force and a moment on the pelvis, as little as will do, which frames report
+(`assist`). A rehearsal searches for less help than that.
+"""
+FOLLOW_ALWAYS: Follow.ValueType  # 4
+"""The same to the end of the motion, with as much help as that takes."""
 Global___Follow: _TypeAlias = Follow  # noqa: Y015
 
 class _FollowWay:
@@ -99,7 +107,7 @@ class _ForecastVerdictEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_Forec
     FORECAST_VERDICT_NEEDS_HELP: _ForecastVerdict.ValueType  # 2
     """It deviates or falls, unless it is helped."""
     FORECAST_VERDICT_CANNOT: _ForecastVerdict.ValueType  # 3
-    """No help short of carrying it will do."""
+    """Not by tracking alone, nor with a little help."""
 
 class ForecastVerdict(_ForecastVerdict, metaclass=_ForecastVerdictEnumTypeWrapper):
     """Forecast of how a figure follows a clip."""
@@ -111,7 +119,7 @@ FORECAST_VERDICT_FOLLOWS: ForecastVerdict.ValueType  # 1
 FORECAST_VERDICT_NEEDS_HELP: ForecastVerdict.ValueType  # 2
 """It deviates or falls, unless it is helped."""
 FORECAST_VERDICT_CANNOT: ForecastVerdict.ValueType  # 3
-"""No help short of carrying it will do."""
+"""Not by tracking alone, nor with a little help."""
 Global___ForecastVerdict: _TypeAlias = ForecastVerdict  # noqa: Y015
 
 class _RotationSpace:
@@ -296,6 +304,7 @@ class Rehearsal(_message.Message):
     HARDEST_DOF_FIELD_NUMBER: _builtins.int
     HARDEST_RATIO_FIELD_NUMBER: _builtins.int
     STOPPED_FIELD_NUMBER: _builtins.int
+    HELP_PEAK_NEWTON_METRES_FIELD_NUMBER: _builtins.int
     way: Global___FollowWay.ValueType
     """In which way the figure keeps to the clip."""
     reason: _builtins.str
@@ -320,6 +329,8 @@ class Rehearsal(_message.Message):
     """See `hardest_dof`."""
     stopped: _builtins.bool
     """The search was stopped by its budget."""
+    help_peak_newton_metres: _builtins.float
+    """Largest moment of the help about the pelvis, N·m."""
     def __init__(
         self,
         *,
@@ -335,10 +346,11 @@ class Rehearsal(_message.Message):
         hardest_dof: _builtins.str = ...,
         hardest_ratio: _builtins.float = ...,
         stopped: _builtins.bool = ...,
+        help_peak_newton_metres: _builtins.float = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s", "lost_at_s", b"lost_at_s"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s", "error_m", b"error_m", "hardest_dof", b"hardest_dof", "hardest_ratio", b"hardest_ratio", "help_newton_seconds", b"help_newton_seconds", "help_peak_newtons", b"help_peak_newtons", "help_ratio", b"help_ratio", "helped_ratio", b"helped_ratio", "lost_at_s", b"lost_at_s", "reason", b"reason", "root_relative_error_m", b"root_relative_error_m", "stopped", b"stopped", "way", b"way"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s", "error_m", b"error_m", "hardest_dof", b"hardest_dof", "hardest_ratio", b"hardest_ratio", "help_newton_seconds", b"help_newton_seconds", "help_peak_newton_metres", b"help_peak_newton_metres", "help_peak_newtons", b"help_peak_newtons", "help_ratio", b"help_ratio", "helped_ratio", b"helped_ratio", "lost_at_s", b"lost_at_s", "reason", b"reason", "root_relative_error_m", b"root_relative_error_m", "stopped", b"stopped", "way", b"way"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__lost_at_s: _TypeAlias = _typing.Literal["lost_at_s"]  # noqa: Y015
     _WhichOneofArgType__lost_at_s: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s"]  # noqa: Y015
@@ -461,7 +473,8 @@ class BvhOptions(_message.Message):
     """Corner frequency of the zero-phase low-pass, Hz, 0.5…60. Absent: 6."""
     walk_runs: _builtins.bool
     """Walks what the recording runs: slower and with shorter steps, so that the clip gets longer. The strength that is
-    measured in people's joints does not run: left as recorded, a run fells its figure. Absent: true.
+    measured in people's joints does not run: left as recorded, a run fells its figure. Absent: true, or false if the
+    clip, or the figure that is simulated, gets help (FOLLOW_ASSISTED, FOLLOW_ALWAYS).
     """
     def __init__(
         self,
@@ -584,10 +597,10 @@ class CreateClipRequest(_message.Message):
     """Body to prepare it for: `bodies/{body}`. Empty: `bodies/adult-man`."""
     follow: Global___Follow.ValueType
     """How far it may go so that a figure keeps to it, unless `RehearseClip` or `PlayClip` say otherwise. Absent:
-    FOLLOW_STRICT.
+    FOLLOW_STRICT, or FOLLOW_ASSISTED if `max_help_weights` is above 0.
     """
     max_help_weights: _builtins.float
-    """Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: 0.3."""
+    """Largest force of the help, body weights, 0…2. Absent: 0.3 with FOLLOW_ASSISTED, 1 with FOLLOW_ALWAYS, else 0."""
     request_id: _builtins.str
     """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
     ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
@@ -874,7 +887,9 @@ class RehearseClipRequest(_message.Message):
     follow: Global___Follow.ValueType
     """How far it may go. Absent: as the clip says."""
     max_help_weights: _builtins.float
-    """Largest force of the help that FOLLOW_ASSISTED may take, body weights, 0…2. Absent: as the clip says."""
+    """Largest force of the help, body weights, 0…2. Absent: as the clip says, or as `follow` says in `CreateClip` if it
+    is another one than that of the clip.
+    """
     request_id: _builtins.str
     """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
     ten minutes is not carried out again: it gets the answer of the first. Empty: every request counts.
@@ -941,6 +956,7 @@ class PlayClipRequest(_message.Message):
     RESET_FIELD_NUMBER: _builtins.int
     PLACEMENT_FIELD_NUMBER: _builtins.int
     FOLLOW_FIELD_NUMBER: _builtins.int
+    MAX_HELP_WEIGHTS_FIELD_NUMBER: _builtins.int
     REQUEST_ID_FIELD_NUMBER: _builtins.int
     CONTROL_TOKEN_FIELD_NUMBER: _builtins.int
     figure: _builtins.str
@@ -963,9 +979,13 @@ class PlayClipRequest(_message.Message):
     """
     follow: Global___Follow.ValueType
     """How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
-    else the clip is tracked as it is, with FOLLOW_ASSISTED with help while it is being lost (at most as the clip
-    says). FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help. Absent: as the clip says, and any
+    else the clip is tracked as it is, with FOLLOW_ASSISTED and FOLLOW_ALWAYS with help while it is being lost.
+    FOLLOW_STRICT: always as it is. FOLLOW_REHEARSED: no rehearsal with help. Absent: as the clip says, and any
     rehearsal.
+    """
+    max_help_weights: _builtins.float
+    """Largest force of the help while it is being lost, body weights, 0…2. Absent: as in `RehearseClip`. Help that is
+    part of a rehearsal does not change.
     """
     request_id: _builtins.str
     """Name of the request, at most 64 bytes of printable ASCII, a UUID for example. A repeat with the same name within
@@ -992,15 +1012,21 @@ class PlayClipRequest(_message.Message):
         reset: _builtins.bool = ...,
         placement: _types_pb2.Placement | None = ...,
         follow: Global___Follow.ValueType = ...,
+        max_help_weights: _builtins.float | None = ...,
         request_id: _builtins.str = ...,
         control_token: _builtins.str = ...,
     ) -> None: ...
-    _HasFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "placement", b"placement", "start_time_s", b"start_time_s"]  # noqa: Y015
+    _HasFieldArgType: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights", "_start_time_s", b"_start_time_s", "max_help_weights", b"max_help_weights", "placement", b"placement", "start_time_s", b"start_time_s"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s", "clip", b"clip", "control_token", b"control_token", "figure", b"figure", "follow", b"follow", "loop", b"loop", "placement", b"placement", "request_id", b"request_id", "reset", b"reset", "speed", b"speed", "start_time_s", b"start_time_s"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights", "_start_time_s", b"_start_time_s", "clip", b"clip", "control_token", b"control_token", "figure", b"figure", "follow", b"follow", "loop", b"loop", "max_help_weights", b"max_help_weights", "placement", b"placement", "request_id", b"request_id", "reset", b"reset", "speed", b"speed", "start_time_s", b"start_time_s"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
+    _WhichOneofReturnType__max_help_weights: _TypeAlias = _typing.Literal["max_help_weights"]  # noqa: Y015
+    _WhichOneofArgType__max_help_weights: _TypeAlias = _typing.Literal["_max_help_weights", b"_max_help_weights"]  # noqa: Y015
     _WhichOneofReturnType__start_time_s: _TypeAlias = _typing.Literal["start_time_s"]  # noqa: Y015
     _WhichOneofArgType__start_time_s: _TypeAlias = _typing.Literal["_start_time_s", b"_start_time_s"]  # noqa: Y015
+    @_typing.overload
+    def WhichOneof(self, oneof_group: _WhichOneofArgType__max_help_weights) -> _WhichOneofReturnType__max_help_weights | None: ...
+    @_typing.overload
     def WhichOneof(self, oneof_group: _WhichOneofArgType__start_time_s) -> _WhichOneofReturnType__start_time_s | None: ...
 
 Global___PlayClipRequest: _TypeAlias = PlayClipRequest  # noqa: Y015
