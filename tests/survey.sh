@@ -29,7 +29,7 @@ setting() {
     assisted-100) options="--follow always" ;;
     rehearsed-30) options="--follow assisted --rehearse" ;;
     *)
-        echo "survey: no setting $1" >&2
+        echo "survey: no setting $1; there are:" $(sed -n 's/^    \([a-z0-9-]*\)) [os].*;;$/\1/p' "$0") >&2
         exit 2
         ;;
     esac

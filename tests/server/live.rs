@@ -242,6 +242,16 @@ async fn push_frames(
     }
 }
 
+/// Speed of the pelvis of the only figure, m/s, which must not have fallen.
+async fn upright_speed(server: &TestServer, world: &str) -> f64 {
+    let frame = server.frame(world, &["status", "velocity"]).await;
+    let f = &frame.figures[0];
+    let flags = f.status.as_ref().unwrap().flags;
+    assert_eq!(flags & (FALLEN | FROZEN), 0, "after {} s", frame.time_s);
+    let v = sinew_wire::frame::values(f.velocity.as_ref().unwrap());
+    v[3].hypot(v[4])
+}
+
 /// A driver is restarted while its figure walks, and commands it to stand: the figure finishes its step and stands.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
@@ -265,12 +275,7 @@ async fn a_walk_ends_in_a_stand_if_its_driver_starts_again() {
             .collect();
         feedback = push_frames(&server, &header, frames).await;
         server.step(&world, 3).await;
-        let frame = server.frame(&world, &["status", "velocity"]).await;
-        let f = &frame.figures[0];
-        let flags = f.status.as_ref().unwrap().flags;
-        assert_eq!(flags & (FALLEN | FROZEN), 0, "after {} s", frame.time_s);
-        let v = sinew_wire::frame::values(f.velocity.as_ref().unwrap());
-        speed.push(v[3].hypot(v[4]));
+        speed.push(upright_speed(&server, &world).await);
     }
     let f = &feedback.unwrap().figures[0];
     assert_eq!(f.resync_count, 1, "{f:?}");
@@ -417,12 +422,7 @@ async fn walk_from_its_middle(seconds: f64) -> Entered {
             push_frames(&server, &header, frames).await;
         }
         server.step(&world, 3).await;
-        let frame = server.frame(&world, &["status", "velocity"]).await;
-        let f = &frame.figures[0];
-        let flags = f.status.as_ref().unwrap().flags;
-        assert_eq!(flags & (FALLEN | FROZEN), 0, "after {} s", frame.time_s);
-        let v = sinew_wire::frame::values(f.velocity.as_ref().unwrap());
-        out.last = v[3].hypot(v[4]);
+        out.last = upright_speed(&server, &world).await;
         out.fastest = out.fastest.max(out.last);
     }
     while let Ok(Ok(Some(told))) =
