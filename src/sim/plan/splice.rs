@@ -29,9 +29,9 @@ pub(crate) use super::params::stream::RATE;
 /// A sample: its posture, and whether each foot is planted.
 pub type Sample = (Posture, [bool; 2]);
 
-/// The ways to end a motion by steps that bring it to a stand. The moments of the coming step are tried in turn as the
-/// beginning of the end, until one asks little of the ground; if none does, the one that asks least is taken. Each can
-/// be planned on its own.
+/// The ways to end a motion by steps that bring it to a stand. Moments are tried in turn as the beginning of the end,
+/// until one asks little of the ground; if none does, the one that asks least is taken. A clip tries those of the
+/// coming step, a stream that is over those around its end. Each can be planned on its own.
 #[derive(Serialize, Deserialize)]
 pub struct StopCandidates {
     #[serde(with = "crate::saved::definition")]
