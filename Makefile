@@ -38,6 +38,7 @@ test: prepare $(PARTS) ## every test that needs nothing from outside the reposit
 recordings: ## the tests that need real motion capture in SINEW_MOCAP_DIR
 	@$(ROOT)/tests/recordings/check.sh
 	cd $(ROOT) && $(CARGO) $(TESTS) --test recordings
+	cd $(ROOT) && $(CARGO) $(TESTS) --test server offline -- --include-ignored
 	@$(ROOT)/tests/survey.sh strict live-30
 	@echo "make recordings: passed, with $(SINEW_MOCAP_DIR)."
 
@@ -109,7 +110,8 @@ pages: setup ## the viewer's page in a browser where pictures are compared or ti
 
 surveys: ## all stored surveys: of tests/corpus, and of recordings where SINEW_MOCAP_DIR has them
 	$(ROOT)/tests/survey.sh corpus $(if $(SINEW_MOCAP_DIR),strict noise loads live live-30 live-100 live-500ms \
-		live-500ms-100 live-300ms live-300ms-100 assisted assisted-100 rehearsed-30)
+		live-500ms-100 live-300ms live-300ms-100 assisted assisted-100 rehearsed-30 \
+		$(foreach c,push load woman child 30hz 120hz noise,live-$(c) live-$(c)-30 live-$(c)-100))
 
 benches: ## the benches build, and are linted
 	cd $(ROOT) && $(CARGO) build --locked -p benches --all-targets

@@ -10,29 +10,41 @@ set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 
 # Options of `sinew survey` by setting, and the section of docs/limits.md that shows it, if there is one. `corpus` reads
-# tests/corpus, all others read the recordings.
+# tests/corpus, all others read the recordings. A setting of live streams that ends with -30 or -100 is helped with at
+# most that share of the weight.
 setting() {
-    options="" section=""
+    options="" section="" help=""
+    base=$1
     case $1 in
+    live-30 | live-*-30) help=" --follow assisted" base=${1%-30} ;;
+    live-100 | live-*-100) help=" --follow always" base=${1%-100} ;;
+    esac
+    live="--live-window 1$help"
+    case $base in
     corpus) section=own-corpus ;;
     strict) section=recordings ;;
     noise) options="--copies 20 --noise 1mm,0.2deg" section=noise ;;
     loads) options="--load 10@r_hand" section=loads ;;
-    live) options="--live-window 1" section=live ;;
-    live-30) options="--live-window 1 --follow assisted" ;;
-    live-100) options="--live-window 1 --follow always" ;;
-    live-500ms) options="--live-window 0.5 --follow assisted" ;;
-    live-500ms-100) options="--live-window 0.5 --follow always" ;;
-    live-300ms) options="--live-window 0.3 --follow assisted" ;;
-    live-300ms-100) options="--live-window 0.3 --follow always" ;;
     assisted) options="--follow assisted" ;;
     assisted-100) options="--follow always" ;;
     rehearsed-30) options="--follow assisted --rehearse" ;;
+    live) options="$live" section=live ;;
+    live-500ms) options="--live-window 0.5${help:- --follow assisted}" ;;
+    live-300ms) options="--live-window 0.3${help:- --follow assisted}" ;;
+    live-noise) options="$live --copies 20 --noise 1mm,0.2deg" ;;
+    live-push) options="$live --push 20@random" ;;
+    live-load) options="$live --load 5@r_hand" ;;
+    live-woman) options="$live --body adult-woman" ;;
+    live-child) options="$live --body child" ;;
+    live-30hz) options="$live --rate 30" ;;
+    live-120hz) options="$live --rate 120" ;;
     *)
         echo "survey: no setting $1; there are:" $(sed -n 's/^    \([a-z0-9-]*\)) [os].*;;$/\1/p' "$0") >&2
         exit 2
         ;;
     esac
+    # Pages show what physics alone does.
+    [ -z "$help" ] || section=""
 }
 
 store=""

@@ -337,5 +337,6 @@ fn info(found: &FollowResult) -> RehearsalInfo {
         },
         hardest: (report.hardest_dof, report.hardest_share),
         stopped: report.stopped,
+        begins_in_motion: found.motion.as_ref().is_some_and(|m| !m.begins_at_rest()),
     }
 }

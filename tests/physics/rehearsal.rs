@@ -2,9 +2,10 @@
 //! rehearsal bit for bit; the hold exerts no force on its path, leads back to it, and lets go when the path is out of
 //! reach; help keeps its bound. Method: short parts of built-in motions, searched with few samples.
 
-use sinew_physics::body::topology::CHEST;
+use sinew_physics::body::topology::{CHEST, DOF_COUNT};
 use sinew_physics::body::{Body, NV, State};
-use sinew_physics::figure::motion::rehearsed::RehearsalWorld;
+use sinew_physics::figure::motion::rehearsal_playback::{ENTRY_TIME, RehearsalEntry};
+use sinew_physics::figure::motion::rehearsed::{JointOffset, RehearsalWorld};
 use sinew_physics::figure::{ControllerKind, Perturbation, StrengthScale};
 use sinew_physics::math::Vec3;
 use sinew_physics::motion::Clip;
@@ -262,8 +263,8 @@ fn a_figure_that_stands_plays_a_clip_as_it_was_rehearsed() {
         let key = world.add_figure(setup).unwrap();
         let figure = world.figure_mut(key).unwrap();
         let origin = play.origin;
+        play.rehearsed = Some(Arc::clone(&motion));
         figure.play(play, false, WorldTime(0.0));
-        figure.rehearse(Arc::clone(&motion));
         world.step();
         let rehearsed = is_rehearsed(&world, key);
         (1..motion.ticks()).for_each(|_| world.step());
@@ -276,6 +277,135 @@ fn a_figure_that_stands_plays_a_clip_as_it_was_rehearsed() {
     assert!(!played(1.0).0, "it does not stand as the motion begins");
 }
 
+/// Lets a figure that stands at ease play a clip that begins in motion, until 0.1 s after its rehearsal has begun.
+fn begun_in_motion(found: &Rehearsal, clip: &Arc<Clip>, max_help: f64) -> Begun {
+    let p = problem();
+    let stand = builtin(&p.body, "idle").unwrap().sample(0.0).posture;
+    let mut world = World::new(WorldParams::default()).unwrap();
+    let setup = FigureSetup::new(
+        Arc::clone(&p.body),
+        ControllerKind::Modern,
+        State::at_rest(stand),
+    );
+    let key = world.add_figure(setup).unwrap();
+    let mut play = ClipPlayback::new(Arc::clone(clip), WorldTime(0.0));
+    play.max_help = max_help;
+    play.rehearsed = Some(Arc::new(found.motion.clone()));
+    let figure = world.figure_mut(key).unwrap();
+    let entry = figure.rehearsal_entry(&play);
+    figure.play(play, false, WorldTime(0.0));
+    let mut out = Begun {
+        entry,
+        plays: false,
+        off: f64::INFINITY,
+        most: 0.0,
+    };
+    let ticks = (ENTRY_TIME / world.dt()).round() as usize + 6;
+    for _ in 0..ticks {
+        world.step();
+        let help = world.figure(key).unwrap().report().unwrap().assist;
+        out.most = out
+            .most
+            .max(Vec3::from_array([help[3], help[4], help[5]]).norm());
+    }
+    let figure = world.figure(key).unwrap();
+    if let MotionSource::Rehearsed(play) = figure.drive() {
+        let wanted = play.origin.point(found.states[6].posture.root_position);
+        out.plays = true;
+        out.off = (figure.state().posture.root_position - wanted).norm();
+    }
+    out
+}
+
+/// A rehearsal of a motion that begins in motion.
+struct Begun {
+    entry: Option<RehearsalEntry>,
+    plays: bool,
+    /// Distance of the pelvis from its path, m.
+    off: f64,
+    /// Largest help, N.
+    most: f64,
+}
+
+#[test]
+fn a_figure_that_stands_is_led_into_a_motion_only_with_help_and_within_its_bound() {
+    let mut p = problem();
+    p.most_help = 0.3;
+    let clip = Arc::new(slide(&p.body));
+    let found = rehearse(&p, &clip, &few(), 2, &mut |_| true).unwrap();
+    assert!(!found.motion.begins_at_rest());
+    let weight = p.body.profile.mass * p.stage.gravity;
+    let helped = begun_in_motion(&found, &clip, 1.0);
+    assert_eq!(helped.entry, Some(RehearsalEntry::Led));
+    assert!(helped.plays && helped.off < 0.08, "{} m", helped.off);
+    assert!(helped.most > 0.1 * weight && helped.most <= weight * (1.0 + 1e-9));
+    let strict = begun_in_motion(&found, &clip, 0.0);
+    assert_eq!(
+        (strict.entry, strict.plays, strict.most),
+        (None, false, 0.0)
+    );
+    // Too little help to get there: the clip is tracked with what there is.
+    let weak = begun_in_motion(&found, &clip, 0.01);
+    assert_eq!((weak.entry, weak.plays), (Some(RehearsalEntry::Led), false));
+}
+
+#[test]
+fn a_figure_is_put_into_a_motion_that_begins_in_motion() {
+    let p = problem();
+    let clip = slide(&p.body);
+    let found = rehearse(&p, &clip, &few(), 2, &mut |_| true).unwrap();
+    let mut motion = found.motion.clone();
+    motion.hold.most = [0.0; 2];
+    let motion = Arc::new(motion);
+    let stand = builtin(&p.body, "idle").unwrap().sample(0.0).posture;
+    for (kind, able) in [
+        (ControllerKind::Modern, true),
+        (ControllerKind::Paper, false),
+    ] {
+        let mut world = World::new(WorldParams::default()).unwrap();
+        let setup = FigureSetup::new(Arc::clone(&p.body), kind, State::at_rest(stand));
+        let key = world.add_figure(setup).unwrap();
+        let play = RehearsedPlayback::new(Arc::clone(&motion), WorldTime(0.0));
+        let done = world.figure_mut(key).unwrap().rehearse_from_start(play);
+        assert_eq!((done, is_rehearsed(&world, key)), (able, able));
+        for (k, wanted) in found.states.iter().enumerate().skip(1).take(20) {
+            world.step();
+            let same = world.figure(key).unwrap().state() == wanted;
+            assert_eq!(same, able, "after tick {k}");
+        }
+    }
+}
+
+/// In each joint the offsets change by no more between two ticks than in half a window, shared out evenly.
+#[test]
+fn offsets_do_not_jump_between_windows() {
+    let mut p = problem();
+    p.most_help = 0.3;
+    let motion = rehearse(&p, &slide(&p.body), &few(), 2, &mut |_| true);
+    let motion = motion.unwrap().motion;
+    assert!(motion.ramp >= motion.window.div_ceil(2));
+    let share = 1.0 / motion.ramp as f64;
+    let mut last = JointOffset::default();
+    let mut moved = 0.0f64;
+    for k in 0..motion.ticks() {
+        let w = k / motion.window;
+        let before = w
+            .checked_sub(1)
+            .map_or(JointOffset::default(), |w| motion.offsets[w]);
+        let now = motion.offset(k);
+        for j in 0..DOF_COUNT {
+            let step = now.0[j] - last.0[j];
+            let on_the_way = k % motion.window < motion.ramp;
+            let wanted =
+                if on_the_way { share } else { 0.0 } * (motion.offsets[w].0[j] - before.0[j]);
+            assert!((step - wanted).abs() < 1e-12, "DOF {j}, tick {k}");
+            moved = moved.max(step.abs());
+        }
+        last = now;
+    }
+    assert!(moved > 0.0);
+}
+
 #[test]
 fn what_ends_at_rest_ends_with_a_stand_and_what_does_not_does_not() {
     let (p, settings) = (problem(), few());
@@ -284,7 +414,7 @@ fn what_ends_at_rest_ends_with_a_stand_and_what_does_not_does_not() {
     let of = |clip: &Clip| Reference::new(&p, clip, &settings.rest).unwrap();
     let (stands, goes) = (of(&still), of(&slide(&p.body)));
     let ticks = |s: f64| (s * 60.0f64).round() as usize;
-    let [before, after] = [settings.rest.settling, settings.rest.after].map(ticks);
+    let [before, after] = [settings.rest.times.settling, settings.rest.after].map(ticks);
     assert_eq!(stands.recorded, [before, before + 30]);
     assert_eq!(stands.ticks(), before + 30 + after);
     assert_eq!((goes.recorded, goes.ticks()), ([0, 40], 40));
@@ -329,11 +459,15 @@ fn a_search_that_does_not_get_beyond_its_first_window_asks_and_gives_up() {
 #[test]
 fn taking_help_away_can_be_stopped() {
     let mut p = problem();
-    p.most_help = 0.3;
+    p.most_help = 2.0;
     let settings = few();
-    let r = rehearse(&p, &slide(&p.body), &settings, 1, &mut |progress| {
-        progress.polished < settings.trials.polish.rounds
-    });
+    let r = rehearse(
+        &p,
+        &moved(&p.body, Vec3::Z),
+        &settings,
+        1,
+        &mut |progress| progress.polished < settings.trials.polish.rounds,
+    );
     let r = r.unwrap();
     assert!(r.work.stopped && r.work.reached[0] == r.work.reached[1]);
     assert!(r.help.impulse > 0.0 && r.motion.is_valid());
@@ -341,13 +475,18 @@ fn taking_help_away_can_be_stopped() {
 
 /// A body that slides on its soles, faster than it could walk: which no strength can do.
 fn slide(body: &Body) -> Clip {
+    moved(body, Vec3::X)
+}
+
+/// A stiff body that moves in a direction.
+fn moved(body: &Body, direction: Vec3) -> Clip {
     let stand = builtin(body, "idle").unwrap().sample(0.0).posture;
     let postures = (0..=40).map(|i| {
         let mut p = stand;
-        p.root_position.x += 1.5 * i as f64 / 60.0;
+        p.root_position += direction * (1.5 * f64::from(i) / 60.0);
         p
     });
-    Clip::from_postures("slide", 60.0, postures.collect(), vec![[false; 2]; 41]).unwrap()
+    Clip::from_postures("moved", 60.0, postures.collect(), vec![[false; 2]; 41]).unwrap()
 }
 
 #[test]

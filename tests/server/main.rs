@@ -22,6 +22,7 @@ mod limits;
 mod live;
 mod long_work;
 mod obstacles;
+mod offline;
 #[cfg(feature = "otlp")]
 mod otlp;
 mod pages;

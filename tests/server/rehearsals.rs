@@ -28,6 +28,11 @@ const FALLEN: i32 = 1 << 6;
 
 /// A body at ease slides forward from a stand, faster than it could walk.
 fn slide(id: &str) -> pb::CreateClipRequest {
+    slide_from(id, 0)
+}
+
+/// The same from a later frame on, in motion.
+fn slide_from(id: &str, first: i64) -> pb::CreateClipRequest {
     let body = Body::adult_man();
     let frame = |i: i64| {
         let mut posture = at_ease(&body);
@@ -41,7 +46,7 @@ fn slide(id: &str) -> pb::CreateClipRequest {
         clip_id: id.into(),
         source: Some(pb::create_clip_request::Source::Frames(pb::FrameSource {
             rate_hz: 60.0,
-            frames: (0..FRAMES).map(frame).collect(),
+            frames: (first..FRAMES).map(frame).collect(),
         })),
         follow: pb::Follow::Assisted.into(),
         max_help_weights: Some(HELP),
@@ -108,18 +113,26 @@ impl Played {
 
 /// Plays a clip from the same stand each time.
 async fn played(server: &TestServer, clip: &str, follow: pb::Follow) -> Played {
+    let request = pb::PlayClipRequest {
+        clip: format!("clips/{clip}"),
+        follow: follow.into(),
+        ..Default::default()
+    };
+    played_as(server, request).await.1
+}
+
+/// [`played`] by a request for it, with its answer.
+async fn played_as(
+    server: &TestServer,
+    mut request: pb::PlayClipRequest,
+) -> (pb::PlayClipResponse, Played) {
     let reset = pb::ResetFigureRequest {
         name: FIGURE.into(),
         ..Default::default()
     };
     server.client.figures().reset_figure(reset).await.unwrap();
-    let request = pb::PlayClipRequest {
-        figure: FIGURE.into(),
-        clip: format!("clips/{clip}"),
-        follow: follow.into(),
-        ..Default::default()
-    };
-    server.client.motions().play_clip(request).await.unwrap();
+    request.figure = FIGURE.into();
+    let answer = server.client.motions().play_clip(request).await;
     let mut out = Played {
         path: Vec::new(),
         help: 0.0,
@@ -140,7 +153,7 @@ async fn played(server: &TestServer, clip: &str, follow: pb::Follow) -> Played {
         out.ways.insert(status.following());
     }
     out.status = server.look(FIGURE).await.status.unwrap();
-    out
+    (answer.unwrap().into_inner(), out)
 }
 
 /// The files of rehearsals in a data directory.
@@ -215,4 +228,55 @@ async fn a_figure_does_what_was_rehearsed_for_it_also_after_a_restart() {
     third.client.motions().delete_clip(delete).await.unwrap();
     assert!(files(&folder).is_empty());
     third.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_clip_that_begins_in_motion_is_played_as_it_was_rehearsed() {
+    let server = start(&[]).await;
+    server.paused_world("w").await;
+    server.figure("worlds/w", "a").await;
+    let made = server
+        .client
+        .motions()
+        .create_clip(slide_from("slide", 15))
+        .await;
+    made.unwrap();
+    let found = rehearse(&server, "slide").await;
+    assert!(found.begins_in_motion, "{found:?}");
+    let request = pb::PlayClipRequest {
+        clip: "clips/slide".into(),
+        ..Default::default()
+    };
+    let reset = pb::PlayClipRequest {
+        reset: true,
+        ..request.clone()
+    };
+    let (answer, put) = played_as(&server, reset.clone()).await;
+    assert!(answer.rehearsed && answer.start() == pb::ClipStart::Reset);
+    let (_, again) = played_as(&server, reset.clone()).await;
+    assert!(put.is(&again), "{}", put.off(&again, 100));
+    assert!(put.ways.contains(&found.way()), "{:?}", put.ways);
+
+    // From a stand only with help, and the answer says so.
+    let (answer, led) = played_as(&server, request.clone()).await;
+    assert!(answer.rehearsed && answer.start() == pb::ClipStart::Led);
+    assert!(led.ways.contains(&found.way()), "{:?}", led.ways);
+    let strict = pb::PlayClipRequest {
+        follow: pb::Follow::Strict.into(),
+        ..reset
+    };
+    let (answer, plain) = played_as(&server, strict).await;
+    assert!(!answer.rehearsed && answer.start() == pb::ClipStart::Reset);
+    assert!(plain.help == 0.0 && plain.off(&put, 60) > SAME);
+    let alone = pb::PlayClipRequest {
+        max_help_weights: Some(0.0),
+        ..request
+    };
+    let (answer, _) = played_as(&server, alone).await;
+    let own = [pb::ClipStart::AtOnce, pb::ClipStart::Switch];
+    assert!(
+        !answer.rehearsed && own.contains(&answer.start()),
+        "{answer:?}"
+    );
+    server.stop().await;
 }

@@ -103,7 +103,9 @@ def test_it_says_in_which_way_a_figure_follows_its_motion(server: sinew.Client) 
         figure = world.add_figure("anna")
         world.step(2)
         assert figure.state().following == "", "there is nothing to follow"
-        figure.play("wave", follow="assisted")
+        begins = figure.play("wave", follow="assisted")
+        assert (begins.start, begins.rehearsed) == ("switch", False), "the clip begins in another stand"
+        assert begins.time_s > 2 / 60
         world.step(30)
         state, status = figure.state(), figure.get().status
         with pytest.raises(ValueError, match="follow 'maybe' is none of strict, rehearsed, assisted"):

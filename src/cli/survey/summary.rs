@@ -8,6 +8,7 @@ use sinew_evaluate::survey::stats::median;
 use sinew_evaluate::survey::tables::SurveyTable;
 use sinew_evaluate::survey::{MeasuredClip, SurveyOutcome, TrackingErrors};
 use sinew_physics::rehearsal::follow::FollowWay;
+use sinew_physics::rehearsal::result::LOST;
 use std::path::Path;
 
 /// The page, in the folder.
@@ -64,6 +65,16 @@ fn page(all: &[NamedSurvey]) -> String {
         medians against the recordings.\n\n"
         .to_owned();
     out += &surveys(all).markdown();
+    let helped = with_help(all);
+    if !helped.rows.is_empty() {
+        out += &format!(
+            "\n## With help against alone\n\nKept runs (clips and their noisy copies) alone and with help. Of \
+             those that alone stay within {:.1} m of the recording, *safely*, and of the others: lost at 30 % + at \
+             100 % / all. Help is the median within the recording.\n\n{}",
+            LOST - SPARE,
+            helped.markdown()
+        );
+    }
     if let Some(listed) = all.iter().find(|s| s.name == LISTED) {
         out += &format!(
             "\n## Clips\n\nHow the survey *{LISTED}* keeps the clips that tracking alone does not, and with how much \
@@ -72,6 +83,135 @@ fn page(all: &[NamedSurvey]) -> String {
         );
     }
     out
+}
+
+/// Distance from losing with which a run is kept safely, m.
+const SPARE: f64 = 0.1;
+
+/// Settings of help: surveys that differ in no others have the same runs, with and without help.
+const HELP: [&str; 5] = ["follow", "max_help", "keep_runs", "rehearsed", "seed"];
+
+/// The setting of streams.
+const WINDOW: &str = "live_window_s";
+
+/// The largest distances of all runs, m, with `None` for those that are lost, by clip.
+type Distances<'a> = Vec<(&'a str, Vec<Option<f64>>)>;
+
+impl NamedSurvey {
+    fn is_helped(&self) -> bool {
+        self.survey.settings.contains_key(HELP[0])
+    }
+
+    /// Its settings but those of help.
+    fn without_help(&self) -> Map<String, Value> {
+        let mut out = self.survey.settings.clone();
+        out.retain(|name, _| !HELP.contains(&name.as_str()));
+        out
+    }
+
+    /// Whether it streams under conditions other than the usual ones, which *With help against alone* is about.
+    fn is_condition(&self, usual: &Map<String, Value>) -> bool {
+        let own = self.without_help();
+        let differs = |name: &&str| usual.get(*name) != own.get(*name);
+        let names = own.keys().map(String::as_str);
+        !usual.is_empty() && differs(&WINDOW) && names.filter(|n| *n != WINDOW).any(|n| differs(&n))
+    }
+
+    fn distances(&self) -> Distances<'_> {
+        let of = |m: &MeasuredClip| {
+            let own = m.outcome.farthest_m.filter(|_| m.outcome.completed);
+            let copies = m.copies.iter().flat_map(|c| c.farthest_m.iter().copied());
+            std::iter::once(own).chain(copies).collect()
+        };
+        self.clips().map(|(name, m)| (name, of(m))).collect()
+    }
+}
+
+/// Runs alone, and the same runs with help.
+#[derive(Default)]
+struct HelpAgainstAlone {
+    /// Safely kept alone, and of these lost with help.
+    safely: [usize; 2],
+    /// Kept less safely alone, and of these lost with help.
+    barely: [usize; 2],
+    /// Kept with help.
+    kept: usize,
+}
+
+impl HelpAgainstAlone {
+    fn new(alone: &NamedSurvey, helped: &NamedSurvey) -> Self {
+        let mut out = Self::default();
+        let helped = helped.distances();
+        for (name, before) in alone.distances() {
+            let Some((_, after)) = helped.iter().find(|(n, _)| *n == name) else {
+                continue;
+            };
+            for (before, after) in before.iter().zip(after) {
+                out.kept += usize::from(after.is_some());
+                let counted = match before {
+                    Some(d) if *d <= LOST - SPARE => &mut out.safely,
+                    Some(_) => &mut out.barely,
+                    None => continue,
+                };
+                counted[0] += 1;
+                counted[1] += usize::from(after.is_none());
+            }
+        }
+        out
+    }
+}
+
+/// One row per survey of which there is one with help of up to 30 % and one of up to 100 % of the weight.
+fn with_help(all: &[NamedSurvey]) -> SurveyTable {
+    let row = |alone: &NamedSurvey| {
+        let settings = alone.without_help();
+        let helped = |follow: &str| {
+            all.iter().find(|s| {
+                s.survey.settings.get(HELP[0]).and_then(Value::as_str) == Some(follow)
+                    && !s.survey.settings.contains_key("rehearsed")
+                    && s.without_help() == settings
+                    && s.clips().map(|c| c.0).eq(alone.clips().map(|c| c.0))
+            })
+        };
+        let both = [helped("assisted")?, helped("always")?];
+        if alone.is_helped() {
+            return None;
+        }
+        let [some, all] = both.map(|s| HelpAgainstAlone::new(alone, s));
+        let help = both.map(|s| {
+            let shares = s
+                .clips()
+                .map(|(_, m)| 100.0 * m.outcome.assist_recorded_share);
+            median(&shares.collect::<Vec<_>>()).unwrap_or_default()
+        });
+        let lost = |of: fn(&HelpAgainstAlone) -> [usize; 2]| {
+            format!("{}+{}/{}", of(&some)[1], of(&all)[1], of(&some)[0])
+        };
+        let runs: usize = alone.distances().iter().map(|(_, runs)| runs.len()).sum();
+        Some(vec![
+            alone.name.clone(),
+            runs.to_string(),
+            (some.safely[0] + some.barely[0]).to_string(),
+            some.kept.to_string(),
+            all.kept.to_string(),
+            lost(|c| c.safely),
+            lost(|c| c.barely),
+            help.map(|h| format!("{h:.1}")).join("/"),
+        ])
+    };
+    SurveyTable {
+        head: vec![
+            "survey",
+            "runs",
+            "kept alone",
+            "at 30 %",
+            "at 100 %",
+            "safely kept, lost",
+            "barely kept, lost",
+            "help, %",
+        ],
+        rows: all.iter().filter_map(row).collect(),
+    }
 }
 
 /// The settings of a survey that differ from the usual ones.
@@ -147,7 +287,11 @@ fn surveys(all: &[NamedSurvey]) -> SurveyTable {
             "help within the recording, %",
             "help in all, %",
         ],
-        rows: all.iter().map(row).collect(),
+        rows: all
+            .iter()
+            .filter(|s| !s.is_condition(usual))
+            .map(row)
+            .collect(),
     }
 }
 

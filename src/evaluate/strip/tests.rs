@@ -87,7 +87,7 @@ fn help_is_drawn_and_explained_where_there_is_some() {
         let drawing = draw(&body, &[frame], &StripOptions::default());
         svg::write(&drawing)
     };
-    let arrows = |text: &str| text.matches("#e69f00").count();
+    let arrows = |text: &str| text.matches("#5b2bc4").count();
     let (with, without) = (drawn(Vec3::Z * 200.0), drawn(Vec3::zero()));
     let explained = |text: &str| text.contains(">\nhelp\n<");
     assert!(explained(&with) && !explained(&without));

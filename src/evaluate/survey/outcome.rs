@@ -36,6 +36,9 @@ pub struct SurveyOutcome {
     pub completed: bool,
     /// Time at which it exceeded that, s.
     pub lost_at_s: Option<f64>,
+    /// Largest mean distance from the recording, m.
+    #[serde(default)]
+    pub farthest_m: Option<f64>,
     /// Time at which the pelvis was off by 0.25 m in height or 0.8 in tilt, s.
     pub anchor_lost_at_s: Option<f64>,
     /// Time at which the mean distance from the motion as prepared exceeded 0.5 m, before that motion's end, s: a
@@ -127,6 +130,9 @@ pub struct Copies {
     pub completed_share: [f64; 2],
     /// Number of copies that fell.
     pub fell: usize,
+    /// [`SurveyOutcome::farthest_m`] of each copy, m; `None` where it did not complete.
+    #[serde(default)]
+    pub farthest_m: Vec<Option<f64>>,
     /// Measures over the copies, in the order of [`MEASURES`]; `None` where no copy has a value.
     pub measures: Vec<Option<Quartiles>>,
 }
@@ -140,6 +146,9 @@ impl Copies {
             completed,
             completed_share: wilson(completed, outcomes.len()).map(short),
             fell: outcomes.iter().filter(|o| o.fell_at_s.is_some()).count(),
+            farthest_m: (outcomes.iter())
+                .map(|o| o.farthest_m.filter(|_| o.completed))
+                .collect(),
             measures: MEASURES
                 .iter()
                 .map(|m| {

@@ -4,7 +4,7 @@ use super::contacts::{match_touch_downs, precision_recall, settled};
 use super::errors::{PlacedPosture, TrackedTick, errors, jerk_ratio};
 use super::outcome::SurveyOutcome;
 use super::stats::median;
-use super::verdict::{anchor_lost, phc_lost};
+use super::verdict::{anchor_lost, farthest, phc_lost};
 use crate::experiments::walk::FootSliding;
 use crate::metrics::{Metrics, Tick};
 use sinew_physics::body::Body;
@@ -175,6 +175,7 @@ impl Course {
         SurveyOutcome {
             completed: trial.completed,
             lost_at_s: trial.lost_at,
+            farthest_m: Some(short(farthest(recorded, |s| &s.recorded))),
             anchor_lost_at_s: anchor_lost(recorded).map(short),
             prepared_lost_at_s: phc_lost(whole, |s| &s.prepared).map(short),
             fell_at_s: trial.fell_at,

@@ -18,6 +18,12 @@ pub fn phc_lost(
     samples.iter().find(lost).map(|s| s.time)
 }
 
+/// Largest mean distance from the motion that `of` picks, m; 0 without samples.
+pub fn farthest(samples: &[TrackedTick], of: impl Fn(&TrackedTick) -> &PlacedPosture) -> f64 {
+    let distances = samples.iter().map(|s| s.actual.distance(of(s)));
+    distances.fold(0.0, f64::max)
+}
+
 /// First time at which the pelvis is too high or too low, or tilted too far, s.
 pub fn anchor_lost(samples: &[TrackedTick]) -> Option<f64> {
     let lost = |s: &&TrackedTick| {
@@ -40,6 +46,8 @@ mod tests {
         let of = |s: &[TrackedTick]| phc_lost(s, |s| &s.recorded);
         assert_eq!(of(&apart(far(0.6), 60)), Some(0.5));
         assert_eq!(of(&apart(far(0.49), 60)), None);
+        let most = farthest(&apart(far(0.49), 60), |s| &s.recorded);
+        assert!((most - 0.49).abs() < 1e-9, "{most}");
     }
 
     #[test]

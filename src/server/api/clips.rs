@@ -362,14 +362,12 @@ impl MotionService for Api {
                         .await?
                 }
             };
-            let start = handle
+            let begins = handle
                 .call(origin(&request), move |s| {
                     s.play(&figure, &clip_id, (clip, &rehearsed), playback, &who)
                 })
                 .await?;
-            Ok(pb::PlayClipResponse {
-                start_time_s: start.0,
-            })
+            Ok(motion::clip_beginning_out(&begins))
         })
         .await
     }

@@ -1,11 +1,11 @@
 //! Rehearsal: finds the offsets with which a body of human strength performs a recording in our own simulator.
 //!
-//! The problem: given a body, its strength and loads, a world and a recording, find offsets of the desired joints,
-//! constant over windows of a tenth of a second, for which stiff motors within strength keep the body near the
-//! recording: posture, turn, feet and hands over the floor, centre of mass and its velocity, angular momentum. There is
-//! no model but the simulator: samples are simulated, and the best survive ([`search`]). If strength is not enough, a
-//! bounded wrench on the pelvis helps, as little as possible. The result ([`RehearsedMotion`]) is played by a figure,
-//! and runs there exactly as it did here.
+//! The problem: given a body, its strength and loads, a world and a recording, find offsets of the desired joints, at
+//! the ends of windows of a tenth of a second and linear in between, for which stiff motors within strength keep the
+//! body near the recording: posture, turn, feet and hands over the floor, centre of mass and its velocity, angular
+//! momentum. There is no model but the simulator: samples are simulated, and the best survive ([`search`]). If strength
+//! is not enough, a bounded wrench on the pelvis helps, as little as possible. The result ([`RehearsedMotion`]) is
+//! played by a figure, and runs there exactly as it did here.
 //!
 //! [`follow`] chooses the easiest way in which a clip is followed, by trials ([`trial`]): plain tracking, a rehearsal,
 //! help.

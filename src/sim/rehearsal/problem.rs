@@ -4,7 +4,6 @@ use super::look::{Look, Looker, Off};
 use super::settings::{Rest, Settings};
 use crate::body::{Body, Links, Posture, State};
 use crate::figure::motion::rehearsed::{MAX_TICKS, RehearsalWorld};
-use crate::math::curve::smootherstep;
 use crate::motion::{Clip, Target, TargetPair};
 use crate::setup::StrengthScale;
 use crate::strength::{MuscleScale, Strength};
@@ -106,7 +105,7 @@ impl Reference {
         let whole = |seconds: f64| (seconds / dt + 1e-6).floor().clamp(0.0, 1e6) as usize;
         let (lead, ticks) = (whole(clip.lead_in() + 0.999 * dt), whole(clip.duration()));
         let out = whole(clip.lead_out() + 0.999 * dt);
-        let count = lead + ticks + out + whole(rest.settling) + whole(rest.after);
+        let count = lead + ticks + out + whole(rest.times.settling) + whole(rest.after);
         if ticks < 1 || count > MAX_TICKS {
             return Err(ProblemError::Length {
                 seconds: clip.duration(),
@@ -131,25 +130,18 @@ impl Reference {
         let mut before = 0;
         let mut stands_from = usize::MAX;
         if ends[1] {
-            stands_from = targets.len() - 1 + whole(rest.settling);
-            targets.extend(to_rest(
-                &last,
-                &stand(&last, 1),
-                (rest, dt),
-                whole(rest.after),
-            ));
+            stands_from = targets.len() - 1 + whole(rest.times.settling);
+            let stand = stand(&last, 1);
+            let at = |k: usize| last.to_rest(&stand, rest.times, k as f64 * dt, dt);
+            targets.extend((1..=whole(rest.after)).map(at));
         }
         if ends[0] && lead == 0 {
             // The same backwards in time.
-            before = whole(rest.settling);
-            let mut way = to_rest(
-                &backwards(first.clone()),
-                &stand(&first, 0),
-                (rest, dt),
-                before,
-            );
-            way.reverse();
-            targets.splice(0..0, way.into_iter().map(backwards));
+            before = whole(rest.times.settling);
+            let stand = stand(&first, 0);
+            let first = first.backwards();
+            let at = |k: usize| first.to_rest(&stand, rest.times, k as f64 * dt, dt);
+            targets.splice(0..0, (1..=before).rev().map(|k| at(k).backwards()));
         }
         let mut low: Vec<f64> = targets
             .iter()
@@ -214,38 +206,4 @@ fn near(a: &Posture, b: &Posture) -> bool {
     let off = a.difference(b);
     let way = off[3..6].iter().map(|x| x * x).sum::<f64>().sqrt();
     way < SHIFT && off[..3].iter().chain(&off[6..]).all(|x| x.abs() < BEND)
-}
-
-/// The same instant of the motion backwards in time.
-fn backwards(mut target: Target) -> Target {
-    target.velocity = target.velocity.map(|v| -v);
-    target
-}
-
-/// The `count` ticks after `end`: moving parts come to rest, and the body to a stand.
-fn to_rest(end: &Target, stand: &Posture, (rest, dt): (&Rest, f64), count: usize) -> Vec<Target> {
-    let posture = |k: usize| {
-        let t = k as f64 * dt;
-        let left = (1.0 - t / rest.stopping).max(0.0);
-        let mut p = end.posture;
-        p.integrate(
-            &end.velocity,
-            rest.stopping * (1.0 - left * left * left) / 3.0,
-        );
-        let way = p.difference(stand);
-        p.integrate(&way, smootherstep(t / rest.settling));
-        p
-    };
-    let postures: Vec<Posture> = (0..=count + 1).map(posture).collect();
-    let rate = |a: &Posture, b: &Posture, h: f64| a.difference(b).map(|x| x / h);
-    let of = |w: &[Posture]| {
-        let (before, after) = (rate(&w[0], &w[1], dt), rate(&w[1], &w[2], dt));
-        Target {
-            posture: w[1],
-            velocity: rate(&w[0], &w[2], 2.0 * dt),
-            acceleration: std::array::from_fn(|i| (after[i] - before[i]) / dt),
-            planted: end.planted,
-        }
-    };
-    postures.windows(3).map(of).collect()
 }

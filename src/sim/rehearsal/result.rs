@@ -2,9 +2,9 @@
 //! recorded.
 
 use super::problem::{Problem, ProblemError, Reference};
-use super::search::{Path, Progress, Search, window_ticks};
+use super::search::{Path, Progress, Search};
 use super::settings::Settings;
-use super::simulator::{Action, Simulator};
+use super::simulator::{Action, Simulator, WindowTicks};
 use crate::body::State;
 use crate::body::topology::{DOF_COUNT, SEGMENT_COUNT};
 use crate::figure::motion::rehearsed::RehearsedMotion;
@@ -76,6 +76,7 @@ pub struct Work {
 /// A run from beginning to end.
 #[derive(Clone, Debug)]
 struct Run {
+    windows: WindowTicks,
     states: Vec<State>,
     path: Vec<RootStep>,
     effort: Vec<[f64; DOF_COUNT]>,
@@ -96,7 +97,8 @@ pub fn rehearse(
 ) -> Result<Rehearsal, ProblemError> {
     let reference = Reference::new(problem, clip, &settings.rest)?;
     let mut search = Search::new(problem, &reference, settings, threads);
-    let count = reference.ticks().div_ceil(window_ticks(problem, settings));
+    let windows = WindowTicks::new(problem, settings);
+    let count = reference.ticks().div_ceil(windows.length);
     let Path {
         mut actions,
         reached,
@@ -109,7 +111,7 @@ pub fn rehearse(
     let mut stage = Playing {
         problem,
         reference: &reference,
-        window: window_ticks(problem, settings),
+        windows,
         settings,
         sim: &mut sim,
     };
@@ -143,7 +145,7 @@ pub fn rehearse(
 struct Playing<'a> {
     problem: &'a Problem,
     reference: &'a Reference,
-    window: usize,
+    windows: WindowTicks,
     settings: &'a Settings,
     sim: &'a mut Simulator,
 }
@@ -154,6 +156,7 @@ impl Playing<'_> {
         let n = self.reference.ticks();
         let mut state = self.reference.start();
         let mut out = Run {
+            windows: self.windows,
             states: vec![state],
             path: Vec::with_capacity(n * self.problem.stage.substeps as usize),
             effort: Vec::with_capacity(n),
@@ -162,10 +165,10 @@ impl Playing<'_> {
         let mut counted = 0usize;
         let e = &mut out.errors;
         for k in 0..n {
-            let action = &actions[k / self.window];
+            let action = Action::at(actions, k, self.windows);
             let path = &mut out.path;
             self.sim
-                .tick(&mut state, &self.reference.pairs[k], action, |s| {
+                .tick(&mut state, &self.reference.pairs[k], &action, |s| {
                     path.push(s)
                 });
             out.states.push(state);
@@ -196,13 +199,13 @@ impl Playing<'_> {
     fn kept(&mut self, actions: &[Action], first: usize, from: &State) -> Option<Vec<State>> {
         let mut state = *from;
         let mut out = Vec::new();
-        for k in first * self.window..self.reference.ticks() {
-            if k % self.window == 0 {
+        for k in first * self.windows.length..self.reference.ticks() {
+            if k % self.windows.length == 0 {
                 out.push(state);
             }
-            let action = &actions[k / self.window];
+            let action = Action::at(actions, k, self.windows);
             self.sim
-                .tick(&mut state, &self.reference.pairs[k], action, |_| ());
+                .tick(&mut state, &self.reference.pairs[k], &action, |_| ());
             let off = self.sim.look(&state).off(&self.reference.looks[k + 1]);
             if !self.reference.is_kept(&off, k + 1, self.settings) {
                 return None;
@@ -287,7 +290,8 @@ impl Rehearsal {
                 reach: share.reach,
             },
             lead: reference.recorded[0],
-            window: window_ticks(problem, settings),
+            window: run.windows.length,
+            ramp: run.windows.ramp,
             desired: reference.targets.clone(),
             offsets: actions.iter().map(|a| a.offset).collect(),
             path: run.path,

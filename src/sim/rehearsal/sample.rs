@@ -51,6 +51,8 @@ pub(super) struct Window<'a> {
     pub parents: &'a [Node],
     pub index: usize,
     pub ticks: [usize; 2],
+    /// Ticks in which its offsets are reached.
+    pub ramp: usize,
     pub mean: &'a Vector,
     pub spread: &'a Vector,
     pub first: &'a Vector,
@@ -111,11 +113,12 @@ impl Window<'_> {
     fn simulate(&self, sim: &mut Simulator, i: usize, give_up: f64) -> Node {
         let (vector, parent) = self.draw(i);
         let from = &self.parents[parent];
-        let action = action(&vector);
+        let (before, after) = (action(&from.vector), action(&vector));
         let mut state = from.state;
         let [first, end] = self.ticks;
         let (mut sum, mut last) = (0.0, 0.0);
         for k in first..end {
+            let action = after.on_the_way(&before.offset, k - first, self.ramp);
             sim.tick(&mut state, &self.reference.pairs[k], &action, |_| ());
             if !state.is_finite() {
                 return from.child(from.state, parent, vector, DROPPED);

@@ -10,7 +10,7 @@ use super::look::Cost;
 use super::problem::{Problem, Reference};
 use super::sample::{D, HELP, Node, Vector, Window, action, chosen, pool_score, simulate_all};
 use super::settings::{Settings, Tries};
-use super::simulator::{Action, Simulator};
+use super::simulator::{Action, Simulator, WindowTicks};
 
 /// The progress of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,6 +48,7 @@ pub struct Search<'a> {
     reference: &'a Reference,
     settings: &'a Settings,
     cost: Cost,
+    windows: WindowTicks,
     /// First tick of each window, and the end.
     bounds: Vec<usize>,
     means: Vec<Vector>,
@@ -103,8 +104,8 @@ impl<'a> Search<'a> {
         threads: usize,
     ) -> Self {
         let n = reference.ticks();
-        let window = window_ticks(problem, settings);
-        let bounds: Vec<usize> = (0..n).step_by(window).chain([n]).collect();
+        let windows = WindowTicks::new(problem, settings);
+        let bounds: Vec<usize> = (0..n).step_by(windows.length).chain([n]).collect();
         let count = bounds.len() - 1;
         let mut first = [0.0; D];
         first[..HELP].copy_from_slice(&settings.spread.each());
@@ -121,6 +122,7 @@ impl<'a> Search<'a> {
             reference,
             settings,
             cost: Cost::new(settings.sizes),
+            windows,
             bounds,
             means: vec![[0.0; D]; count],
             spreads: vec![first; count],
@@ -303,6 +305,7 @@ impl<'a> Search<'a> {
             parents,
             index: w,
             ticks: [self.bounds[w], self.bounds[w + 1]],
+            ramp: self.windows.ramp,
             mean: &self.means[w],
             spread: &self.spreads[w],
             first: &self.first,
@@ -403,11 +406,6 @@ impl<'a> Search<'a> {
         }
         (self.state.reached, self.state.total) = (now, total);
     }
-}
-
-/// Ticks of a window.
-pub(super) fn window_ticks(problem: &Problem, settings: &Settings) -> usize {
-    ((settings.window / problem.stage.dt).round() as usize).max(1)
 }
 
 #[cfg(test)]

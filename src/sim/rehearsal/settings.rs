@@ -1,6 +1,7 @@
 //! All numbers of a rehearsal, with units and reasons. One set for all clips.
 
 use crate::body::topology::{ABDOMEN, CHEST, DOF_COUNT, DOF_SEGMENT, HEAD, L_THIGH};
+use crate::motion::target::RestTimes;
 use crate::stepper::motor_law::MotorLaw;
 
 /// Joint DOFs that a sample offsets: waist, thorax, shoulders without rotation, hips, knees, ankles without rotation.
@@ -18,6 +19,9 @@ pub struct Settings {
     pub motors: MotorLaw,
     /// Length of a window, s: about the time that a body needs to change its momentum.
     pub window: f64,
+    /// Share of a window in which its offsets are reached. Motors that act over a whole window act half a window late,
+    /// which costs motions that need all their strength; a jump shows as a twitch.
+    pub ramp: f64,
     /// How a motion begins from a stand and comes to one.
     pub rest: Rest,
     /// Standard deviation of offsets in the first round, rad.
@@ -48,10 +52,9 @@ pub struct Rest {
     /// Speed of the centre of mass below which a recording counts as standing, m/s: a body then stops within a hand's
     /// breadth.
     pub speed: f64,
-    /// Moving parts come to rest within this time, s, before the first frame and after the last.
-    pub stopping: f64,
-    /// The body comes to a balanced stand, on the feet as they are, within this time, s.
-    pub settling: f64,
+    /// Before the first frame and after the last, moving parts come to rest, and the body to a balanced stand on the
+    /// feet as they are.
+    pub times: RestTimes,
     /// After that it does not count as standing if its extrapolated centre of mass, relative to the feet, is farther
     /// than this from that of the stand, m: half a foot's length.
     pub steady: f64,
@@ -235,10 +238,13 @@ impl Default for Settings {
         Self {
             motors: MotorLaw::STIFF,
             window: 0.1,
+            ramp: 0.5,
             rest: Rest {
                 speed: 0.3,
-                stopping: 0.3,
-                settling: 0.5,
+                times: RestTimes {
+                    stopping: 0.3,
+                    settling: 0.5,
+                },
                 steady: 0.12,
                 after: 1.0,
             },

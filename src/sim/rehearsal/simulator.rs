@@ -27,7 +27,7 @@ use std::sync::Arc;
 /// The addition of a sample to the desired motion in a window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Action {
-    /// Offsets of the joints, rad.
+    /// Offsets of the joints at the end of the window, rad.
     pub offset: JointOffset,
     /// Largest force towards the desired pelvis over the weight.
     pub help: f64,
@@ -39,6 +39,43 @@ impl Action {
         offset: JointOffset([0.0; DOF_COUNT]),
         help: 0.0,
     };
+
+    /// The action in tick `k` of a window that begins with the offsets `before` and leaves them in `ramp` ticks.
+    #[must_use]
+    pub fn on_the_way(&self, before: &JointOffset, k: usize, ramp: usize) -> Self {
+        Self {
+            offset: self.offset.on_the_way(before, k, ramp),
+            help: self.help,
+        }
+    }
+
+    /// The action in tick `k` of a motion with these in its windows.
+    pub fn at(actions: &[Self], k: usize, windows: WindowTicks) -> Self {
+        let (w, within) = (k / windows.length, k % windows.length);
+        let before = w.checked_sub(1).map_or(Self::NONE, |w| actions[w]);
+        actions[w].on_the_way(&before.offset, within, windows.ramp)
+    }
+}
+
+/// Ticks of a window that the end of the motion does not cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WindowTicks {
+    /// All of them.
+    pub length: usize,
+    /// Those in which its offsets are reached.
+    pub ramp: usize,
+}
+
+impl WindowTicks {
+    /// Those of a problem.
+    pub fn new(problem: &Problem, settings: &Settings) -> Self {
+        let length = ((settings.window / problem.stage.dt).round() as usize).max(1);
+        let ramp = (settings.ramp * length as f64).round() as usize;
+        Self {
+            length,
+            ramp: ramp.clamp(1, length),
+        }
+    }
 }
 
 /// A body with its motors on the floor; made once per thread.
@@ -121,7 +158,8 @@ impl Simulator {
         })
     }
 
-    /// One tick. The velocities of `target` are set back. `record` is called after each substep.
+    /// One tick with an action that is on its way. The velocities of `target` are set back. `record` is called after
+    /// each substep.
     pub fn tick(
         &mut self,
         state: &mut State,

@@ -49,7 +49,7 @@ pub struct Spring {
 #[derive(Clone, Copy, Debug)]
 pub enum PelvisHelp<'a> {
     /// A spring towards its desired pose.
-    Desired(&'a Assist, &'a TargetPair),
+    Desired(Assist, &'a TargetPair),
     /// A pull towards its desired pose, computed from its pose at the start of a substep.
     Pull(PelvisHold, &'a TargetPair),
     /// The moment, N·m, and the force, N, that the controller planned, constant over the tick.
@@ -91,6 +91,21 @@ impl Assist {
                 share * STIFFNESS * p.mass,
             ],
         })
+    }
+
+    /// As stiff as at share 1, with at most this force over the weight.
+    pub fn bounded(body: &Body, most: f64) -> Self {
+        let p = body.profile;
+        let most_force = most * p.mass * GRAVITY;
+        Self {
+            share: 1.0,
+            most_force,
+            most_moment: LEVER * most_force * p.height,
+            stiffness: [
+                STIFFNESS * INERTIA * p.mass * p.height * p.height,
+                STIFFNESS * p.mass,
+            ],
+        }
     }
 
     /// Compliance that a plan may assume: moment and force that [`PLANNED_COST`] buys, `½ f²/κ`.

@@ -4,8 +4,9 @@ use super::super::pb;
 use super::super::posture::{segment_of_bone, set_joint_rotation};
 use super::super::status::Fault;
 use super::super::types::{
-    BvhReading, ClipInfo, Delay, DriveOpen, DriveSettings, Feedback, FigureSample, FollowSettings,
-    FollowUpdate, MAX_DRIVEN_FIGURES, MotionSample, MotionSource, Playback, RehearsalInfo, Supply,
+    BvhReading, ClipBeginning, ClipInfo, ClipStart, Delay, DriveOpen, DriveSettings, Feedback,
+    FigureSample, FollowSettings, FollowUpdate, MAX_DRIVEN_FIGURES, MotionSample, MotionSource,
+    Playback, RehearsalInfo, Supply,
 };
 use super::names::{BODY, CLIP};
 use super::{
@@ -690,6 +691,22 @@ pub fn rehearsal_out(r: &RehearsalInfo) -> pb::Rehearsal {
         hardest_dof: r.hardest.0.clone(),
         hardest_ratio: r.hardest.1,
         stopped: r.stopped,
+        begins_in_motion: r.begins_in_motion,
+    }
+}
+
+/// How a clip begins, for a response.
+pub fn clip_beginning_out(b: &ClipBeginning) -> pb::PlayClipResponse {
+    let start = match b.start {
+        ClipStart::Reset => pb::ClipStart::Reset,
+        ClipStart::AtOnce => pb::ClipStart::AtOnce,
+        ClipStart::Switch => pb::ClipStart::Switch,
+        ClipStart::Led => pb::ClipStart::Led,
+    };
+    pb::PlayClipResponse {
+        start_time_s: b.time.0,
+        start: start.into(),
+        rehearsed: b.rehearsed,
     }
 }
 

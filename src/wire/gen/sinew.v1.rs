@@ -5686,6 +5686,10 @@ pub struct Rehearsal {
     /// Largest moment of the help about the pelvis, N·m.
     #[prost(double, tag = "13")]
     pub help_peak_newton_metres: f64,
+    /// It begins in motion, and no steps lead into it. A figure that stands is led into it with help, within a second, or
+    /// plays the clip without the rehearsal if it may not be helped; `PlayClipRequest.reset` needs neither.
+    #[prost(bool, tag = "14")]
+    pub begins_in_motion: bool,
 }
 impl ::prost::Name for Rehearsal {
     const NAME: &'static str = "Rehearsal";
@@ -6136,8 +6140,9 @@ pub struct PlayClipRequest {
     /// World time at which the clip starts, s, or later if the figure does not stand by then. Absent: at the next tick.
     #[prost(double, optional, tag = "5")]
     pub start_time_s: ::core::option::Option<f64>,
-    /// Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
-    /// by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
+    /// Puts the figure into the clip's first posture and velocity at once, or into the first state of its rehearsal, which
+    /// begins with the steps that lead into the recording. Default: false, it comes into it from standing, by steps of its
+    /// own if the recording begins in motion. Without `loop` it ends standing in the same way.
     #[prost(bool, tag = "6")]
     pub reset: bool,
     /// Where the clip begins, with the steps that lead into it. Absent: where the figure is, or where its feet are once it
@@ -6182,6 +6187,13 @@ pub struct PlayClipResponse {
     /// clip begins when the figure has settled, up to 2 s sooner or 3 s later.
     #[prost(double, tag = "1")]
     pub start_time_s: f64,
+    /// How the figure is going to come into it.
+    #[prost(enumeration = "ClipStart", tag = "2")]
+    pub start: i32,
+    /// Whether it plays what `RehearseClip` found. If the figure does not stand as that begins when its time has come, the
+    /// clip is tracked after all, as `FigureStatus.following` tells.
+    #[prost(bool, tag = "3")]
+    pub rehearsed: bool,
 }
 impl ::prost::Name for PlayClipResponse {
     const NAME: &'static str = "PlayClipResponse";
@@ -6690,6 +6702,47 @@ impl ForecastVerdict {
             "FORECAST_VERDICT_FOLLOWS" => Some(Self::Follows),
             "FORECAST_VERDICT_NEEDS_HELP" => Some(Self::NeedsHelp),
             "FORECAST_VERDICT_CANNOT" => Some(Self::Cannot),
+            _ => None,
+        }
+    }
+}
+/// How a figure comes into a clip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum ClipStart {
+    /// Not told.
+    Unspecified = 0,
+    /// It was put into the first state.
+    Reset = 1,
+    /// As it stands, with the steps that the clip begins with.
+    AtOnce = 2,
+    /// It ends first what it does, and steps from there, or from its stand, into the clip.
+    Switch = 3,
+    /// As it stands or will stand, it is led with help into the first state of the rehearsal, which is in motion.
+    Led = 4,
+}
+impl ClipStart {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "CLIP_START_UNSPECIFIED",
+            Self::Reset => "CLIP_START_RESET",
+            Self::AtOnce => "CLIP_START_AT_ONCE",
+            Self::Switch => "CLIP_START_SWITCH",
+            Self::Led => "CLIP_START_LED",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "CLIP_START_UNSPECIFIED" => Some(Self::Unspecified),
+            "CLIP_START_RESET" => Some(Self::Reset),
+            "CLIP_START_AT_ONCE" => Some(Self::AtOnce),
+            "CLIP_START_SWITCH" => Some(Self::Switch),
+            "CLIP_START_LED" => Some(Self::Led),
             _ => None,
         }
     }

@@ -6,6 +6,7 @@ use sinew_physics::body::Posture;
 use sinew_physics::forecast::Forecast;
 use sinew_physics::plan::ReadingReport;
 use sinew_physics::rehearsal::follow::{Follow, FollowWay};
+use sinew_physics::time::WorldTime;
 use std::sync::Arc;
 
 /// The manner of playing a clip.
@@ -23,6 +24,30 @@ pub struct Playback {
     pub place: Option<Place>,
     /// Most help while the motion is being lost, body weights.
     pub max_help: f64,
+}
+
+/// How a figure comes into a clip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClipStart {
+    /// It was put into the first state.
+    Reset,
+    /// As it stands.
+    AtOnce,
+    /// It ends what it does first, or steps into the clip.
+    Switch,
+    /// Led by help into the first state of the rehearsal.
+    Led,
+}
+
+/// How a clip begins, as far as is known when it is requested.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClipBeginning {
+    /// When its first frame plays.
+    pub time: WorldTime,
+    /// How the figure comes into it.
+    pub start: ClipStart,
+    /// Whether what was rehearsed is played.
+    pub rehearsed: bool,
 }
 
 /// The reading options of a BVH file; `None` leaves the choice to the reader.
@@ -164,4 +189,6 @@ pub struct RehearsalInfo {
     pub hardest: (String, f64),
     /// Whether the budget stopped the search.
     pub stopped: bool,
+    /// Whether what was found begins in motion.
+    pub begins_in_motion: bool,
 }

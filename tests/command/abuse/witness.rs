@@ -110,6 +110,7 @@ fn alone(tick: i64) -> i64 {
         figure,
         name: CLIP.into(),
         clip,
+        rehearsed: None,
         playback: Playback {
             speed: 1.0,
             looped: true,

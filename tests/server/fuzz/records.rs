@@ -35,6 +35,7 @@ fn records() -> Vec<RoundRecord> {
     out.extend(scene.take_record());
     let walk = Arc::new(engine::builtin(&body, "walk").unwrap());
     let play = SceneInput::Play {
+        rehearsed: None,
         figure,
         name: "walk".into(),
         clip: walk,

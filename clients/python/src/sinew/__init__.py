@@ -32,7 +32,7 @@ from sinew.errors import (
     UnimplementedError,
     WorldPausedError,
 )
-from sinew.frames import Contact, Event, FigureState, Frame, ObstacleState, Touch
+from sinew.frames import Beginning, Contact, Event, FigureState, Frame, ObstacleState, Touch
 from sinew.local import serve
 from sinew.motion import Motion, Pose
 from sinew.recording import RECORDED, Recording, Recordings, Saturation
@@ -63,6 +63,7 @@ __all__ = [
     "RECORDED",
     "AbortedError",
     "AlreadyExistsError",
+    "Beginning",
     "Body",
     "Box",
     "Capsule",

@@ -31,7 +31,7 @@ from sinew.errors import (
     paused,
     with_names,
 )
-from sinew.frames import Event, FigureState, Frame
+from sinew.frames import Beginning, Event, FigureState, Frame
 from sinew.frames import frame as to_frame
 from sinew.motion import Motion, Pose, bvh_source, is_file
 from sinew.recording import RECORDED, Recording, Recordings, collect
@@ -1329,9 +1329,8 @@ class Figure:
         yaw: float | None = None,
         follow: Follow | None = None,
         max_help_weights: float | None = None,
-    ) -> float:
-        """Plays a clip from the next tick on, or from world time `start_s` (s); returns the world time at which its
-        first frame plays, s.
+    ) -> Beginning:
+        """Plays a clip from the next tick on, or from world time `start_s` (s); returns how and when it begins.
 
         A figure that walks goes over to it from step to step where the two motions are alike; else it finishes its step
         and stands first. The time is what is expected then, and until then `status.next_clip` of `get()` names the
@@ -1355,7 +1354,7 @@ class Figure:
             follow=requests.follow(follow),
             max_help_weights=max_help_weights,
         )
-        return (await self._client._ask(self._client.motions_stub.PlayClip, request)).start_time_s
+        return Beginning.of(await self._client._ask(self._client.motions_stub.PlayClip, request))
 
     async def stop(self) -> None:
         """Ends its clip and takes back one that waits.

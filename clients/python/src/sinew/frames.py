@@ -83,6 +83,28 @@ class ObstacleState:
 
 
 @dataclass(frozen=True)
+class Beginning:
+    """How a figure begins a clip, as far as is known when it is asked for."""
+
+    time_s: float
+    """World time at which the first frame plays, s."""
+    start: str
+    """`reset`: it was put into the first state; `at_once`: as it stands; `switch`: it ends what it does first, or steps
+    into the clip; `led`: help leads it into the first state of a rehearsal."""
+    rehearsed: bool
+    """Whether it plays what was rehearsed."""
+
+    @classmethod
+    def of(cls, m: motion_pb2.PlayClipResponse) -> Beginning:
+        """From a message."""
+        try:
+            start = motion_pb2.ClipStart.Name(m.start).removeprefix("CLIP_START_").lower()
+        except ValueError:  # of a newer server
+            start = f"start_{m.start}"
+        return cls(m.start_time_s, start, m.rehearsed)
+
+
+@dataclass(frozen=True)
 class Event:
     """Something that happened: `type` in lower case, for example `saturated`, `balance_lost`, `fell`, `way_barred`.
 

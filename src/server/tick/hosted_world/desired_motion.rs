@@ -9,9 +9,8 @@ use crate::rehearsals::{Performer, Rehearsed};
 use crate::telemetry::metrics::ticks;
 use crate::tick::drives::{DrivenFigure, DriverSession};
 use crate::tick::scene::{InputResult, SceneInput};
-use sinew_physics::time::WorldTime;
 use sinew_wire::status::Fault;
-use sinew_wire::types::{ControlKey, DriveOpen, EventKind, Feedback, Playback};
+use sinew_wire::types::{ClipBeginning, ControlKey, DriveOpen, EventKind, Feedback, Playback};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -33,8 +32,7 @@ impl HostedWorld {
         Performer::of(self.scene.figure(key), world.params(), world.time())
     }
 
-    /// Lets a figure play a clip, in its rehearsed form if it was rehearsed for this figure. Returns the world time of
-    /// its start.
+    /// Lets a figure play a clip, in its rehearsed form if it was rehearsed for this figure.
     pub fn play(
         &mut self,
         figure: &str,
@@ -42,14 +40,14 @@ impl HostedWorld {
         (clip, rehearsed): (Arc<Clip>, &[Arc<Rehearsed>]),
         playback: Playback,
         who: &ControlKey,
-    ) -> Result<WorldTime, Fault> {
+    ) -> Result<ClipBeginning, Fault> {
         self.working()?;
         let i = self.member(figure)?;
         self.may_direct(figure, who)?;
         let key = self.scene.members()[i].key;
         let reset = playback.reset;
         let rehearsed = match rehearsed {
-            _ if reset || playback.looped => None,
+            _ if playback.looped => None,
             [] => None,
             all => self.performer(figure).ok().and_then(|mine| {
                 let like = |r: &&Arc<Rehearsed>| r.performer.is_like(&mine);
@@ -61,17 +59,12 @@ impl HostedWorld {
             figure: key,
             name: clip_id.to_owned(),
             clip,
+            rehearsed,
             playback,
         })?;
-        if let Some(motion) = rehearsed {
-            self.scene.apply(SceneInput::Rehearsed {
-                figure: key,
-                motion,
-            })?;
-        }
         self.changed |= reset;
         match done {
-            InputResult::Begins(start) => Ok(start),
+            InputResult::Begins(begins) => Ok(begins),
             _ => Err(Fault::Internal("a clip was played".into())),
         }
     }

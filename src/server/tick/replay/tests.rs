@@ -79,6 +79,7 @@ impl Script {
             figure: self.keys[i],
             name: "walk".into(),
             clip: Arc::clone(&self.walk),
+            rehearsed: None,
             playback: Playback {
                 speed: 1.0,
                 looped: true,

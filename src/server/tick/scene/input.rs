@@ -8,10 +8,10 @@ use crate::engine::{Clip, FigureKey, ObstacleKey};
 use serde::{Deserialize, Serialize};
 use sinew_physics::body::Body;
 use sinew_physics::collide::ObstacleSetup;
-use sinew_physics::time::WorldTime;
 use sinew_physics::world::RehearsedMotion;
 use sinew_wire::types::{
-    DriveSettings, FigureDisturbance, FigureSettings, FigureUpdate, Place, Playback, WorldPace,
+    ClipBeginning, DriveSettings, FigureDisturbance, FigureSettings, FigureUpdate, Place, Playback,
+    WorldPace,
 };
 use std::sync::Arc;
 
@@ -48,6 +48,9 @@ pub enum SceneInput {
         /// The clip, prepared for its body.
         #[serde(with = "sinew_physics::saved::definition")]
         clip: Arc<Clip>,
+        /// Its rehearsal for a figure like this one.
+        #[serde(with = "sinew_physics::saved::definition::option")]
+        rehearsed: Option<Arc<RehearsedMotion>>,
         /// The manner of playing it.
         playback: Playback,
     },
@@ -81,14 +84,6 @@ pub enum SceneInput {
     },
     /// Live motion no longer plays to a figure, which continues what it does.
     Unfollow(PlayerKey),
-    /// Plays the most recently requested clip from its rehearsal, provided that the clip starts from a stand.
-    Rehearsed {
-        /// Figure.
-        figure: FigureKey,
-        /// The rehearsal.
-        #[serde(with = "sinew_physics::saved::definition")]
-        motion: Arc<RehearsedMotion>,
-    },
 }
 
 /// The result of an input.
@@ -100,8 +95,8 @@ pub enum InputResult {
     Figure(FigureKey),
     /// A new obstacle has this name and key.
     Obstacle(String, ObstacleKey),
-    /// A clip begins at this time.
-    Begins(WorldTime),
+    /// A clip begins like this.
+    Begins(ClipBeginning),
     /// A new player has this key.
     Player(PlayerKey),
 }

@@ -194,12 +194,9 @@ impl Scene {
                 figure,
                 name,
                 clip,
+                rehearsed,
                 playback,
-            } => self.play(figure, name, clip, playback),
-            SceneInput::Rehearsed { figure, motion } => {
-                self.figure_mut(figure)?.rehearse(motion);
-                Ok(InputResult::Changed)
-            }
+            } => self.play(figure, name, (clip, rehearsed), playback),
             SceneInput::Stop(key) => {
                 self.member_mut(key)?.clip = None;
                 let time = self.world.time();

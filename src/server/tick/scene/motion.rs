@@ -4,9 +4,11 @@ use super::player::{Player, PlayoutWindow};
 use super::{InputResult, PlayerKey, Scene};
 use crate::engine::{self, Clip, FigureKey, Motion};
 use crate::ingest::jitter_buffer::{JitterBuffer, Now, StreamSeam};
+use sinew_physics::figure::motion::rehearsal_playback::{ENTRY_TIME, RehearsalEntry};
 use sinew_physics::time::WorldTime;
+use sinew_physics::world::{RehearsedMotion, RehearsedPlayback};
 use sinew_wire::status::Fault;
-use sinew_wire::types::{DriveSettings, Place, Playback};
+use sinew_wire::types::{ClipBeginning, ClipStart, DriveSettings, Place, Playback};
 use std::sync::Arc;
 
 impl Scene {
@@ -14,7 +16,7 @@ impl Scene {
         &mut self,
         key: FigureKey,
         name: String,
-        clip: Arc<Clip>,
+        (clip, rehearsed): (Arc<Clip>, Option<Arc<RehearsedMotion>>),
         p: Playback,
     ) -> Result<InputResult, Fault> {
         let now = self.world.time();
@@ -28,15 +30,40 @@ impl Scene {
         // that moves comes to a stand first.
         let mut playback = engine::playback(clip, begin, p.speed, p.looped, (place, !p.reset));
         playback.max_help = p.max_help;
-        let mut start = playback.start;
-        if p.reset {
+        let mut begins = ClipBeginning {
+            time: playback.start,
+            start: ClipStart::Reset,
+            rehearsed: false,
+        };
+        // A rehearsal begins with its way into the recording.
+        let from_start = rehearsed.clone().filter(|_| p.reset && begin <= now);
+        if let Some(motion) = from_start {
+            let origin = engine::placing(engine::place_of(&motion.start().posture), place);
+            begins.time = now + motion.lead_in();
+            begins.rehearsed =
+                f.rehearse_from_start(RehearsedPlayback::new(motion, now).at(origin));
+        }
+        if p.reset && !begins.rehearsed {
+            begins.time = playback.start;
             f.set_drive(Motion::Clip(playback));
             engine::reset(&mut self.world, key, state)?;
-        } else {
-            start = f.play(playback, p.place.is_some(), now);
+        } else if !p.reset {
+            playback.rehearsed = rehearsed;
+            let entry = f.rehearsal_entry(&playback);
+            begins.rehearsed = entry.is_some();
+            begins.time = f.play(playback, p.place.is_some(), now);
+            let waits = f.next_clip().is_some();
+            begins.start = match entry {
+                Some(RehearsalEntry::Led) => ClipStart::Led,
+                _ if waits => ClipStart::Switch,
+                _ => ClipStart::AtOnce,
+            };
+            if begins.start == ClipStart::Led {
+                begins.time = begins.time + ENTRY_TIME;
+            }
         }
         self.member_mut(key)?.clip = Some(name);
-        Ok(InputResult::Begins(start))
+        Ok(InputResult::Begins(begins))
     }
 
     pub(super) fn follow(

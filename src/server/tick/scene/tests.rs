@@ -62,6 +62,7 @@ fn stand(scene: &Scene, key: FigureKey, force: f64) -> Arc<RehearsedMotion> {
         },
         lead: 0,
         window: TICKS,
+        ramp: 1,
         desired: vec![Target::still(posture); TICKS + 1],
         offsets: vec![JointOffset([0.0; DOF_COUNT])],
         path: vec![step; TICKS * stage.substeps as usize],
@@ -81,10 +82,21 @@ fn still(scene: &Scene, key: FigureKey) -> Clip {
 }
 
 fn play(scene: &mut Scene, key: FigureKey, clip: Clip, max_help: f64) {
+    play_rehearsed(scene, key, clip, None, max_help);
+}
+
+fn play_rehearsed(
+    scene: &mut Scene,
+    key: FigureKey,
+    clip: Clip,
+    rehearsed: Option<Arc<RehearsedMotion>>,
+    max_help: f64,
+) {
     let done = scene.apply(SceneInput::Play {
         figure: key,
         name: "clip".into(),
         clip: Arc::new(clip),
+        rehearsed,
         playback: Playback {
             speed: 1.0,
             looped: false,
@@ -164,11 +176,7 @@ fn what_a_rehearsal_needs_is_told_also_after_a_checkpoint() {
         let (mut scene, key) = scene();
         let motion = stand(&scene, key, force);
         let clip = still(&scene, key);
-        play(&mut scene, key, clip, 0.25);
-        let figure = key;
-        scene
-            .apply(SceneInput::Rehearsed { figure, motion })
-            .unwrap();
+        play_rehearsed(&mut scene, key, clip, Some(motion), 0.25);
         let mode = [FollowMode::Rehearsed, FollowMode::Helped][usize::from(force > 0.0)];
         let dt = scene.world.dt();
         let first = told(&mut scene, 10);

@@ -15,7 +15,7 @@
 use crate::body::Posture;
 use crate::figure::motion::exit::ExitPlan;
 use crate::figure::motion::following::{FollowMode, Following};
-use crate::figure::motion::rehearsed::RehearsedPlayback;
+use crate::figure::motion::rehearsal_playback::RehearsedPlayback;
 use crate::figure::motion::source::{MotionSource, QueuedClip};
 use crate::figure::motion::stream_entry::StreamEntryPlan;
 use serde::{Deserialize, Serialize};

@@ -2,10 +2,12 @@
 //! to the next.
 
 pub(in crate::figure) mod activity;
+pub mod clip_playback;
 pub(in crate::figure) mod exit;
 pub mod following;
 pub(in crate::figure) mod get_up;
 pub mod plan_task;
+pub mod rehearsal_playback;
 pub mod rehearsed;
 pub mod source;
 pub(in crate::figure) mod stream_entry;

@@ -1,42 +1,34 @@
-//! A motion that was rehearsed (`sim::rehearsal`), and how a figure plays it.
+//! A motion that was rehearsed (`sim::rehearsal`).
 //!
-//! A rehearsed motion is a recording together with joint offsets for windows of a tenth of a second, which make stiff
-//! motors of human strength perform it in our own simulator. Played from the state in which the rehearsal started, it
-//! runs exactly as it did there. A weak spring, the *hold*, leads the pelvis back to its path in the rehearsal; on that
-//! path its force is zero. If strength alone was not enough, the rehearsal found impulses on the pelvis, the *help*,
-//! which are applied as found. Both are bounded, and reported like any assist.
-//!
-//! During such a motion no step is planned and no balance is watched: the motion itself states which parts touch, and
-//! when. It is over at its end, or when the figure is farther from the path than the hold can correct. Then the figure
-//! stands, recovers or falls as after any other motion.
+//! A rehearsed motion is a recording together with joint offsets at the ends of windows of a tenth of a second, which
+//! make stiff motors of human strength perform it in our own simulator. Played from the state in which the rehearsal
+//! started, it runs exactly as it did there. A weak spring, the *hold*, leads the pelvis back to its path in the
+//! rehearsal; on that path its force is zero. If strength alone was not enough, the rehearsal found impulses on the
+//! pelvis, the *help*, which are applied as found.
 
 use crate::body::topology::DOF_COUNT;
 use crate::body::{NV, State};
-use crate::motion::clip::PlanarTransform;
 use crate::motion::{Target, TargetPair};
 use crate::stepper::motor_law::MotorLaw;
-use crate::stepper::pelvis_wrench::PelvisHelp;
-use crate::stepper::pelvis_wrench::{PelvisHold, PelvisPath, RootStep};
+use crate::stepper::pelvis_wrench::{PelvisHold, RootStep};
 use crate::tick_context::TickContext;
-use crate::time::WorldTime;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 /// How near a figure has to be to the beginning of a rehearsed motion to start it: it must stand in the same posture,
 /// as steadily as a body stands.
-struct StartTolerance {
+pub(super) struct StartTolerance {
     /// Turn of the pelvis, rad.
-    turn: f64,
+    pub turn: f64,
     /// Distance of the pelvis, m.
-    place: f64,
+    pub place: f64,
     /// Root of the sum of the squared errors of all joints, rad.
-    joints: f64,
+    pub joints: f64,
     /// Velocity of the pelvis, m/s.
-    speed: f64,
+    pub speed: f64,
 }
 
 /// See [`StartTolerance`].
-const NEAR: StartTolerance = StartTolerance {
+pub(super) const NEAR: StartTolerance = StartTolerance {
     turn: 0.2,
     place: 0.08,
     joints: 0.6,
@@ -81,9 +73,12 @@ pub struct RehearsedMotion {
     pub lead: usize,
     /// Length of a window, ticks.
     pub window: usize,
+    /// Ticks of a window in which its offsets are reached; with 1 they jump.
+    pub ramp: usize,
     /// The recording with the ways in and out at the start of each tick, and at the end of the last one.
     pub desired: Vec<Target>,
-    /// Offsets of the desired joints, rad, by window.
+    /// Offsets of the desired joints, rad, at the end of each window; none at the start of the first. In between they
+    /// change at a constant rate ([`JointOffset::on_the_way`]).
     pub offsets: Vec<JointOffset>,
     /// The path of the pelvis, by substep.
     pub path: Vec<RootStep>,
@@ -100,6 +95,15 @@ impl Default for JointOffset {
 }
 
 impl JointOffset {
+    /// The offset in tick `k` of a window that reaches this one in `ramp` ticks, from `before`, that of the previous
+    /// window. No allocation.
+    #[must_use]
+    pub fn on_the_way(&self, before: &Self, k: usize, ramp: usize) -> Self {
+        let share = ((k + 1) as f64 / ramp as f64).min(1.0);
+        let between = |j: usize| before.0[j] + share * (self.0[j] - before.0[j]);
+        Self(std::array::from_fn(between))
+    }
+
     /// Adds it to both ends of a tick; the rates stay. No allocation.
     pub fn add_to(&self, target: &mut TargetPair) {
         let mut by = [0.0; NV];
@@ -121,9 +125,22 @@ impl RehearsedMotion {
         self.ticks() as f64 * self.stage.dt
     }
 
+    /// Whether it begins with a body at rest, so that one that stands there can begin it.
+    pub fn begins_at_rest(&self) -> bool {
+        let rate = &self.desired[0].velocity[3..6];
+        rate.iter().map(|x| x * x).sum::<f64>().sqrt() < NEAR.speed
+    }
+
     /// Length of the way into the recording, s.
     pub fn lead_in(&self) -> f64 {
         self.lead as f64 * self.stage.dt
+    }
+
+    /// The joint offsets of tick `k`. No allocation.
+    pub fn offset(&self, k: usize) -> JointOffset {
+        let (w, within) = (k / self.window, k % self.window);
+        let before = w.checked_sub(1).map(|w| self.offsets[w]);
+        self.offsets[w].on_the_way(&before.unwrap_or_default(), within, self.ramp)
     }
 
     /// The state that it was rehearsed from.
@@ -139,6 +156,7 @@ impl RehearsedMotion {
             hold,
             lead,
             window,
+            ramp,
             desired,
             offsets,
             path,
@@ -155,6 +173,7 @@ impl RehearsedMotion {
             && hold.is_valid()
             && *lead <= n
             && (1..=n).contains(window)
+            && (1..=*window).contains(ramp)
             && offsets.len() == n.div_ceil(*window)
             && steps == Some(path.len())
             && desired.iter().all(|t| t.state().is_finite())
@@ -168,115 +187,5 @@ impl RehearsedMotion {
                     && s.rotation.is_finite()
                     && vectors.into_iter().all(|v| v.is_finite())
             })
-    }
-}
-
-/// A rehearsed motion being played.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct RehearsedPlayback {
-    /// The motion.
-    #[serde(with = "crate::saved::definition")]
-    pub motion: Arc<RehearsedMotion>,
-    /// When its first tick begins.
-    pub start: WorldTime,
-    /// Its place in the world.
-    pub origin: PlanarTransform,
-    /// Whether it contains help.
-    helped: bool,
-}
-
-impl RehearsedPlayback {
-    /// `motion` at its own place, from world time `start` on.
-    pub fn new(motion: Arc<RehearsedMotion>, start: WorldTime) -> Self {
-        Self {
-            helped: motion.path.iter().any(RootStep::is_helped),
-            motion,
-            start,
-            origin: PlanarTransform::default(),
-        }
-    }
-
-    /// The same motion at another place.
-    #[must_use]
-    pub fn at(mut self, origin: PlanarTransform) -> Self {
-        self.origin = origin;
-        self
-    }
-
-    /// Whether it contains help.
-    pub fn is_helped(&self) -> bool {
-        self.helped
-    }
-
-    /// World time `t` as the nearest number of ticks since its start.
-    fn ticks_at(&self, t: WorldTime) -> f64 {
-        ((t - self.start) / self.motion.stage.dt).round()
-    }
-
-    /// The tick that begins at world time `t`: the first before its start, the last after its end.
-    fn tick(&self, t: WorldTime) -> usize {
-        (self.ticks_at(t).max(0.0) as usize).min(self.motion.ticks() - 1)
-    }
-
-    /// Whether no tick of it begins at world time `t`.
-    pub fn is_over(&self, t: WorldTime) -> bool {
-        self.ticks_at(t) >= self.motion.ticks() as f64
-    }
-
-    /// The recording at world time `t`. No allocation.
-    pub fn sample(&self, t: WorldTime) -> Target {
-        let at = self.ticks_at(t).max(0.0) as usize;
-        let mut target = self.motion.desired[at.min(self.motion.ticks())].clone();
-        if self.origin != PlanarTransform::default() {
-            self.origin.apply_to(&mut target);
-        }
-        target
-    }
-
-    /// The joint offsets of the tick that begins at world time `t`.
-    pub fn offset(&self, t: WorldTime) -> &JointOffset {
-        &self.motion.offsets[self.tick(t) / self.motion.window]
-    }
-
-    /// The path of the pelvis in the tick that begins at world time `t`.
-    pub fn path(&self, t: WorldTime) -> PelvisPath<'_> {
-        let per_tick = self.motion.stage.substeps as usize;
-        let first = self.tick(t) * per_tick;
-        PelvisPath {
-            steps: &self.motion.path[first..first + per_tick],
-            origin: self.origin,
-        }
-    }
-
-    /// The help for the pelvis in the tick that begins at world time `t`, if there is any.
-    pub(in crate::figure) fn help(&self, t: WorldTime) -> Option<PelvisHelp<'_>> {
-        let (hold, path) = (self.motion.hold, self.path(t));
-        let acts = hold.most.iter().any(|m| *m > 0.0) || path.steps.iter().any(RootStep::is_helped);
-        acts.then_some(PelvisHelp::Rehearsed(hold, path))
-    }
-
-    /// Whether a figure in `state` can start it: the hold can correct the remaining difference.
-    pub(in crate::figure) fn begins_at(&self, state: &State) -> bool {
-        let first = self.sample(self.start);
-        let off = state.posture.difference(&first.posture);
-        let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let rate: [f64; 3] = std::array::from_fn(|i| state.velocity[3 + i] - first.velocity[3 + i]);
-        length(&off[..3]) < NEAR.turn
-            && length(&off[3..6]) < NEAR.place
-            && length(&off[6..]) < NEAR.joints
-            && length(&rate) < NEAR.speed
-    }
-
-    /// Whether a figure in `state` at the start of the tick at `t` can continue with it in this world.
-    pub(in crate::figure) fn goes_on(
-        &self,
-        t: WorldTime,
-        state: &State,
-        world: &TickContext,
-    ) -> bool {
-        let path = self.path(t).step(0).position;
-        !self.is_over(t)
-            && self.motion.stage == RehearsalWorld::of(world)
-            && (path - state.posture.root_position).norm() <= self.motion.hold.reach
     }
 }

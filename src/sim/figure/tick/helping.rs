@@ -2,6 +2,7 @@
 //! of the stiff motors of a figure on the floor.
 
 use crate::figure::balance::live_help::{HelpTerms, LossForecast, Situation};
+use crate::figure::motion::clip_playback::ClipPlayback;
 use crate::figure::motion::following::FollowMode;
 use crate::figure::motion::source::MotionSource;
 use crate::figure::params::fall::{FALLEN_HEIGHT, RISEN_HEIGHT};
@@ -44,6 +45,13 @@ impl Figure {
             MotionSource::Clip(play) => own.max(play.max_help),
             _ => own,
         }
+    }
+
+    /// The same once it plays this clip, if it may be helped at all.
+    pub(in crate::figure) fn help_for(&self, play: &ClipPlayback) -> f64 {
+        let able = self.setup.options.assist == 0.0 && self.mode().can_be_helped();
+        let most = self.setup.options.max_help.max(play.max_help);
+        if able { most } else { 0.0 }
     }
 
     /// Largest force over the weight of the help that it gets if its motion is being lost; 0 disables help.

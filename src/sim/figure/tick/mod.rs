@@ -372,11 +372,11 @@ impl Figure {
         let target = &self.desired.target;
         let spring = results.assist.as_ref();
         let assist = match self.motion.rehearsed() {
-            Some(play) => play.help(world.time()),
+            Some(play) => play.help(world.time(), &self.setup.body, target),
             None => match (pull, results.planned_help) {
                 (Some(pull), _) => Some(PelvisHelp::Pull(pull, target)),
                 (None, Some(wrench)) => Some(PelvisHelp::Planned(wrench)),
-                (None, None) => spring.map(|a| PelvisHelp::Desired(a, target)),
+                (None, None) => spring.map(|a| PelvisHelp::Desired(*a, target)),
             },
         };
         let accuracy = if stiff || self.motion.rehearsed().is_some() {

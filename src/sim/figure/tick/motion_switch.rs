@@ -2,9 +2,10 @@
 //! Both are planned in the background, and taken in a tick that is fixed when they are requested.
 
 use crate::figure::events::FigureEvent;
+use crate::figure::motion::clip_playback::ClipPlayback;
 use crate::figure::motion::exit::{ExitGoal, ExitPlan, ExitProblem};
 use crate::figure::motion::plan_task::PlanTask;
-use crate::figure::motion::source::{ClipPlayback, MotionSource, QueuedClip};
+use crate::figure::motion::source::{MotionSource, QueuedClip};
 use crate::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP_TIME};
 use crate::figure::state::figure::Figure;
 use crate::motion::clip::{Clip, PlanarTransform};

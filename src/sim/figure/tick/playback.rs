@@ -2,11 +2,11 @@
 //! queued clip starts.
 
 use crate::body::Posture;
+use crate::figure::motion::clip_playback::ClipPlayback;
 use crate::figure::motion::exit::ExitGoal;
 use crate::figure::motion::get_up::GetUpDecision;
-use crate::figure::motion::source::{
-    ClipEntry, ClipEntryProblem, ClipPlayback, MotionSource, QueuedClip,
-};
+use crate::figure::motion::rehearsal_playback::RehearsalEntry;
+use crate::figure::motion::source::{ClipEntry, ClipEntryProblem, MotionSource, QueuedClip};
 use crate::figure::params::get_up::UP_HEIGHT;
 use crate::figure::params::switch::{EARLIEST_BEGIN, ENTRY_TIME, LEAD, PATIENCE, STILL, UPRIGHT};
 use crate::figure::state::figure::Figure;
@@ -30,7 +30,8 @@ struct Beginning {
 }
 
 impl Figure {
-    /// Plays a clip from world time `time` on. A figure that walks, or is in the middle of another clip, switches
+    /// Plays a clip from world time `time` on, as it was rehearsed if it was and can be
+    /// ([`Self::rehearsal_entry`]). A figure that walks, or is in the middle of another clip, switches
     /// directly at a matching step if the two motions have one; otherwise it first finishes its step and stands as the
     /// clip begins. The clip then begins at the place of the feet, unless `fixed` says that its origin stays; a way of
     /// its own leads into it if it begins neither as the figure stands nor with steps from there. A figure that already
@@ -39,13 +40,18 @@ impl Figure {
     /// Returns the world time at which the clip's time 0 plays. It is an estimate if the figure switches directly,
     /// has to stand first, or needs a way into the clip: ways are planned in the background, and taken in a tick that
     /// is fixed now. Allocates.
-    pub fn play(&mut self, play: ClipPlayback, fixed: bool, time: WorldTime) -> WorldTime {
+    pub fn play(&mut self, mut play: ClipPlayback, fixed: bool, time: WorldTime) -> WorldTime {
         if self.motion.rehearsed().is_some() {
             self.leave_rehearsal();
         }
+        let rehearsal = self.rehearsal_entry(&play);
+        if rehearsal.is_none() {
+            play.rehearsed = None;
+        }
+        let helped = rehearsal == Some(RehearsalEntry::Led);
         let begin = self.beginning(&play, time);
         let first = begin.first;
-        let led = begin.upright && !fixed;
+        let led = begin.upright && !fixed && !helped;
         let rises = self.motion.gets_up();
         let moves = rises || self.is_busy(time) || led && self.crouches();
         let stands = !moves

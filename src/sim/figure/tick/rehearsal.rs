@@ -1,6 +1,7 @@
 //! A rehearsed motion within the tick: motors, help, and the end of it.
 
-use crate::figure::motion::rehearsed::{RehearsedMotion, RehearsedPlayback};
+use crate::figure::motion::clip_playback::ClipPlayback;
+use crate::figure::motion::rehearsal_playback::{RehearsalEntry, RehearsedPlayback};
 use crate::figure::motion::source::MotionSource;
 use crate::figure::state::figure::Figure;
 use crate::motion::TargetPair;
@@ -12,17 +13,32 @@ use crate::track::planned_to_world::Anchor;
 use std::sync::Arc;
 
 impl Figure {
-    /// Plays the most recently requested clip from its rehearsal, provided that the clip starts from a stand.
-    pub fn rehearse(&mut self, motion: Arc<RehearsedMotion>) {
-        if self.motion.next().is_some() {
-            self.motion.update_next(|q| q.play.rehearsed = Some(motion));
-        } else if let MotionSource::Clip(play) = self.motion.source_mut() {
-            play.rehearsed = Some(motion);
+    /// Puts the figure into the first state of a rehearsed motion, which it plays from there. Returns `false`, without
+    /// any effect, if its controller plays none.
+    pub fn rehearse_from_start(&mut self, play: RehearsedPlayback) -> bool {
+        let able = self.mode().plays_rehearsals();
+        if able {
+            let state = play.sample(play.start).state();
+            self.set_drive(MotionSource::Rehearsed(play));
+            self.reset(state);
         }
+        able
     }
 
-    /// Begins the rehearsal of a clip in the tick in which the clip begins, if the figure stands as the rehearsal does;
-    /// otherwise the clip is tracked as it is.
+    /// How it would come into the rehearsed motion of a clip; `None` if it would play the clip without.
+    pub fn rehearsal_entry(&self, play: &ClipPlayback) -> Option<RehearsalEntry> {
+        let motion = play.rehearsed.as_ref()?;
+        let entry = if motion.begins_at_rest() {
+            RehearsalEntry::FromStand
+        } else {
+            RehearsalEntry::Led
+        };
+        let able = entry == RehearsalEntry::FromStand || self.help_for(play) > 0.0;
+        (able && self.mode().plays_rehearsals()).then_some(entry)
+    }
+
+    /// Begins the rehearsal of a clip in the tick in which the clip begins, if the figure stands as the rehearsal does
+    /// or may be led into it; otherwise the clip is tracked as it is.
     pub(in crate::figure) fn begin_rehearsal_if_due(&mut self, world: &TickContext) {
         let MotionSource::Clip(play) = self.motion.source() else {
             return;
@@ -39,28 +55,42 @@ impl Figure {
         let (tracker, state) = (&self.desired.tracker, &self.physical.state);
         let first = tracker.stance_of(&self.setup.body, &motion.start().posture);
         let feet = Anchor::between(first, tracker.stance(&self.scratch.placement)).transform();
-        let able = self.mode().plays_rehearsals() && !self.motion.has_fallen();
+        let able = self.mode().plays_rehearsals() && !self.motion.has_fallen() && late < world.dt;
         let here = RehearsedPlayback::new(Arc::clone(motion), time);
         let way = [play.origin, feet].map(|origin| here.clone().at(origin));
-        let begins = |way: &RehearsedPlayback| {
-            able && late < world.dt && way.begins_at(state) && way.goes_on(time, state, world)
+        let reaches = |way: &RehearsedPlayback| able && way.goes_on(time, state, world);
+        let begins = |way: &RehearsedPlayback| reaches(way) && way.begins_at(state);
+        let help = self.allowed_help();
+        let led = |way: RehearsedPlayback| way.led_from(state.posture, help, play.clone());
+        let found = match way.iter().find(|way| begins(way)) {
+            Some(way) => Some(way.clone()),
+            None => way
+                .into_iter()
+                .find(|way| help > 0.0 && reaches(way))
+                .map(led),
         };
-        if let Some(way) = way.into_iter().find(begins) {
+        if let Some(way) = found {
             self.set_drive(MotionSource::Rehearsed(way));
         } else if let MotionSource::Clip(play) = self.motion.source_mut() {
             play.rehearsed = None;
         }
     }
 
-    /// Leaves a rehearsed motion that is over, is for another world, or has a path out of reach.
+    /// Leaves a rehearsed motion that is over, is for another world, or has a path out of reach. A figure that could
+    /// not be led into it plays its clip.
     pub(in crate::figure) fn leave_rehearsal_if_over(&mut self, world: &TickContext) {
-        let MotionSource::Rehearsed(play) = self.motion.source() else {
+        let (time, state) = (world.time(), self.physical.state);
+        let follows = self.motion.rehearsed().is_some();
+        let MotionSource::Rehearsed(play) = self.motion.source_mut() else {
             return;
         };
-        let time = world.time();
-        let follows = self.motion.rehearsed().is_some();
-        if !(follows && play.goes_on(time, &self.physical.state, world)) {
-            self.leave_rehearsal();
+        if follows && play.goes_on(time, &state, world) {
+            play.end_entry_if_over(time);
+            return;
+        }
+        match play.take_instead() {
+            Some(clip) => self.set_drive(MotionSource::Clip(clip)),
+            None => self.leave_rehearsal(),
         }
     }
 

@@ -122,6 +122,38 @@ FORECAST_VERDICT_CANNOT: ForecastVerdict.ValueType  # 3
 """Not by tracking alone, nor with a little help."""
 Global___ForecastVerdict: _TypeAlias = ForecastVerdict  # noqa: Y015
 
+class _ClipStart:
+    ValueType = _typing.NewType("ValueType", _builtins.int)
+    V: _TypeAlias = ValueType  # noqa: Y015
+
+class _ClipStartEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_ClipStart.ValueType], _builtins.type):
+    DESCRIPTOR: _descriptor.EnumDescriptor
+    CLIP_START_UNSPECIFIED: _ClipStart.ValueType  # 0
+    """Not told."""
+    CLIP_START_RESET: _ClipStart.ValueType  # 1
+    """It was put into the first state."""
+    CLIP_START_AT_ONCE: _ClipStart.ValueType  # 2
+    """As it stands, with the steps that the clip begins with."""
+    CLIP_START_SWITCH: _ClipStart.ValueType  # 3
+    """It ends first what it does, and steps from there, or from its stand, into the clip."""
+    CLIP_START_LED: _ClipStart.ValueType  # 4
+    """As it stands or will stand, it is led with help into the first state of the rehearsal, which is in motion."""
+
+class ClipStart(_ClipStart, metaclass=_ClipStartEnumTypeWrapper):
+    """How a figure comes into a clip."""
+
+CLIP_START_UNSPECIFIED: ClipStart.ValueType  # 0
+"""Not told."""
+CLIP_START_RESET: ClipStart.ValueType  # 1
+"""It was put into the first state."""
+CLIP_START_AT_ONCE: ClipStart.ValueType  # 2
+"""As it stands, with the steps that the clip begins with."""
+CLIP_START_SWITCH: ClipStart.ValueType  # 3
+"""It ends first what it does, and steps from there, or from its stand, into the clip."""
+CLIP_START_LED: ClipStart.ValueType  # 4
+"""As it stands or will stand, it is led with help into the first state of the rehearsal, which is in motion."""
+Global___ClipStart: _TypeAlias = ClipStart  # noqa: Y015
+
 class _RotationSpace:
     ValueType = _typing.NewType("ValueType", _builtins.int)
     V: _TypeAlias = ValueType  # noqa: Y015
@@ -305,6 +337,7 @@ class Rehearsal(_message.Message):
     HARDEST_RATIO_FIELD_NUMBER: _builtins.int
     STOPPED_FIELD_NUMBER: _builtins.int
     HELP_PEAK_NEWTON_METRES_FIELD_NUMBER: _builtins.int
+    BEGINS_IN_MOTION_FIELD_NUMBER: _builtins.int
     way: Global___FollowWay.ValueType
     """In which way the figure keeps to the clip."""
     reason: _builtins.str
@@ -331,6 +364,10 @@ class Rehearsal(_message.Message):
     """The search was stopped by its budget."""
     help_peak_newton_metres: _builtins.float
     """Largest moment of the help about the pelvis, N·m."""
+    begins_in_motion: _builtins.bool
+    """It begins in motion, and no steps lead into it. A figure that stands is led into it with help, within a second, or
+    plays the clip without the rehearsal if it may not be helped; `PlayClipRequest.reset` needs neither.
+    """
     def __init__(
         self,
         *,
@@ -347,10 +384,11 @@ class Rehearsal(_message.Message):
         hardest_ratio: _builtins.float = ...,
         stopped: _builtins.bool = ...,
         help_peak_newton_metres: _builtins.float = ...,
+        begins_in_motion: _builtins.bool = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s", "lost_at_s", b"lost_at_s"]  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s", "error_m", b"error_m", "hardest_dof", b"hardest_dof", "hardest_ratio", b"hardest_ratio", "help_newton_seconds", b"help_newton_seconds", "help_peak_newton_metres", b"help_peak_newton_metres", "help_peak_newtons", b"help_peak_newtons", "help_ratio", b"help_ratio", "helped_ratio", b"helped_ratio", "lost_at_s", b"lost_at_s", "reason", b"reason", "root_relative_error_m", b"root_relative_error_m", "stopped", b"stopped", "way", b"way"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s", "begins_in_motion", b"begins_in_motion", "error_m", b"error_m", "hardest_dof", b"hardest_dof", "hardest_ratio", b"hardest_ratio", "help_newton_seconds", b"help_newton_seconds", "help_peak_newton_metres", b"help_peak_newton_metres", "help_peak_newtons", b"help_peak_newtons", "help_ratio", b"help_ratio", "helped_ratio", b"helped_ratio", "lost_at_s", b"lost_at_s", "reason", b"reason", "root_relative_error_m", b"root_relative_error_m", "stopped", b"stopped", "way", b"way"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     _WhichOneofReturnType__lost_at_s: _TypeAlias = _typing.Literal["lost_at_s"]  # noqa: Y015
     _WhichOneofArgType__lost_at_s: _TypeAlias = _typing.Literal["_lost_at_s", b"_lost_at_s"]  # noqa: Y015
@@ -974,8 +1012,9 @@ class PlayClipRequest(_message.Message):
     start_time_s: _builtins.float
     """World time at which the clip starts, s, or later if the figure does not stand by then. Absent: at the next tick."""
     reset: _builtins.bool
-    """Puts the figure into the clip's first posture and velocity at once. Default: false, it comes into it from standing,
-    by steps of its own if the recording begins in motion. Without `loop` it ends standing in the same way.
+    """Puts the figure into the clip's first posture and velocity at once, or into the first state of its rehearsal, which
+    begins with the steps that lead into the recording. Default: false, it comes into it from standing, by steps of its
+    own if the recording begins in motion. Without `loop` it ends standing in the same way.
     """
     follow: Global___Follow.ValueType
     """How far it may go. A figure that stands plays what `RehearseClip` found for one like it, once, at its own pace;
@@ -1038,20 +1077,30 @@ class PlayClipResponse(_message.Message):
     DESCRIPTOR: _descriptor.Descriptor
 
     START_TIME_S_FIELD_NUMBER: _builtins.int
+    START_FIELD_NUMBER: _builtins.int
+    REHEARSED_FIELD_NUMBER: _builtins.int
     start_time_s: _builtins.float
     """World time at which its first frame plays, s: later than asked for by the length of the steps that lead into it.
     Gone over to from step to step, up to 0.4 s of a clip are left out, and up to a stride of one that repeats: then
     this may be before the request. If the figure has to stand first, or is led into it, it is what is expected; the
     clip begins when the figure has settled, up to 2 s sooner or 3 s later.
     """
+    start: Global___ClipStart.ValueType
+    """How the figure is going to come into it."""
+    rehearsed: _builtins.bool
+    """Whether it plays what `RehearseClip` found. If the figure does not stand as that begins when its time has come, the
+    clip is tracked after all, as `FigureStatus.following` tells.
+    """
     def __init__(
         self,
         *,
         start_time_s: _builtins.float = ...,
+        start: Global___ClipStart.ValueType = ...,
+        rehearsed: _builtins.bool = ...,
     ) -> None: ...
     _HasFieldArgType: _TypeAlias = _Never  # noqa: Y015
     def HasField(self, field_name: _HasFieldArgType) -> _builtins.bool: ...
-    _ClearFieldArgType: _TypeAlias = _typing.Literal["start_time_s", b"start_time_s"]  # noqa: Y015
+    _ClearFieldArgType: _TypeAlias = _typing.Literal["rehearsed", b"rehearsed", "start", b"start", "start_time_s", b"start_time_s"]  # noqa: Y015
     def ClearField(self, field_name: _ClearFieldArgType) -> None: ...
     def WhichOneof(self, oneof_group: _Never) -> None: ...
 
