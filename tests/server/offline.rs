@@ -89,7 +89,7 @@ fn offline(body: &Arc<Body>, reference: &TrackingReference) -> SampledRun {
         rehearsed: None,
     };
     let mut trial = Trial::new(&conditions, reference).unwrap();
-    let mut course = SampledRun::default();
+    let mut run = SampledRun::default();
     let mut impulse = 0.0;
     let mut ticks = 0;
     while let Some(time) = trial.step() {
@@ -99,11 +99,11 @@ fn offline(body: &Arc<Body>, reference: &TrackingReference) -> SampledRun {
         impulse += Vec3 { x, y, z }.norm() * trial.world().dt();
         if ticks % EVERY == 0 {
             let at = forward(body, &figure.state().posture).map(|(p, _)| p);
-            course.look(&reference.recorded, body, time, &at);
+            run.look(&reference.recorded, body, time, &at);
         }
     }
-    course.help = impulse / (body.profile.mass * GRAVITY * trial.world().time().0);
-    course
+    run.help = impulse / (body.profile.mass * GRAVITY * trial.world().time().0);
+    run
 }
 
 /// Segment origins of the only figure of a world.
@@ -172,7 +172,7 @@ async fn served(server: &TestServer, bytes: Vec<u8>, reference: &TrackingReferen
     let before = server.look(&name).await.status.unwrap();
     let from = before.help_newton_seconds;
     let length = clip.lead_in() + clip.duration() + clip.lead_out() + 1.0;
-    let mut course = SampledRun::default();
+    let mut run = SampledRun::default();
     let mut time = -clip.lead_in();
     let mut left = (length * 60.0).round() as usize;
     while left > 0 {
@@ -181,11 +181,11 @@ async fn served(server: &TestServer, bytes: Vec<u8>, reference: &TrackingReferen
         left -= ticks;
         time += ticks as f64 / 60.0;
         let at = look(server, &world).await;
-        course.look(&reference.recorded, &body, time, &at);
+        run.look(&reference.recorded, &body, time, &at);
     }
     let status = server.look(&name).await.status.unwrap();
     let help = status.help_newton_seconds - from;
-    course.help = help / (body.profile.mass * GRAVITY * length);
+    run.help = help / (body.profile.mass * GRAVITY * length);
     let delete = pb::DeleteWorldRequest {
         name: world,
         ..Default::default()
@@ -198,7 +198,7 @@ async fn served(server: &TestServer, bytes: Vec<u8>, reference: &TrackingReferen
         };
         server.client.motions().delete_clip(delete).await.unwrap();
     }
-    course
+    run
 }
 
 async fn compare(folder: &Path) {

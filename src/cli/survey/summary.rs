@@ -88,8 +88,12 @@ fn page(all: &[NamedSurvey]) -> String {
 /// Distance from losing with which a run is kept safely, m.
 const SPARE: f64 = 0.1;
 
+/// The settings that say that clips are helped, and rehearsed.
+const FOLLOW: &str = "follow";
+const REHEARSED: &str = "rehearsed";
+
 /// Settings of help: surveys that differ in no others have the same runs, with and without help.
-const HELP: [&str; 5] = ["follow", "max_help", "keep_runs", "rehearsed", "seed"];
+const HELP: [&str; 5] = [FOLLOW, "max_help", "keep_runs", REHEARSED, "seed"];
 
 /// The setting of streams.
 const WINDOW: &str = "live_window_s";
@@ -99,7 +103,7 @@ type Distances<'a> = Vec<(&'a str, Vec<Option<f64>>)>;
 
 impl NamedSurvey {
     fn is_helped(&self) -> bool {
-        self.survey.settings.contains_key(HELP[0])
+        self.survey.settings.contains_key(FOLLOW)
     }
 
     /// Its settings but those of help.
@@ -167,8 +171,8 @@ fn with_help(all: &[NamedSurvey]) -> SurveyTable {
         let settings = alone.without_help();
         let helped = |follow: &str| {
             all.iter().find(|s| {
-                s.survey.settings.get(HELP[0]).and_then(Value::as_str) == Some(follow)
-                    && !s.survey.settings.contains_key("rehearsed")
+                s.survey.settings.get(FOLLOW).and_then(Value::as_str) == Some(follow)
+                    && !s.survey.settings.contains_key(REHEARSED)
                     && s.without_help() == settings
                     && s.clips().map(|c| c.0).eq(alone.clips().map(|c| c.0))
             })
@@ -345,6 +349,38 @@ mod tests {
             std::fs::read_to_string(folder.join(PAGE)).unwrap() == page(&all),
             "tests/survey.sh --store writes docs/survey/{PAGE}"
         );
+    }
+
+    #[test]
+    fn runs_that_help_loses_are_counted_by_how_safely_they_were_kept_alone() {
+        let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/survey"));
+        let mut all = read(folder).unwrap();
+        let at = |all: &[NamedSurvey], name: &str| all.iter().position(|s| s.name == name).unwrap();
+        let row = |all: &[NamedSurvey]| {
+            let rows = with_help(all).rows;
+            rows.into_iter().find(|r| r[0] == "live").unwrap()
+        };
+        let (alone, helped) = (at(&all, "live"), at(&all, "live-30"));
+        let before = row(&all);
+        let kept: Vec<usize> = (0..before[1].parse().unwrap())
+            .filter(|k| all[alone].distances()[*k].1[0].is_some())
+            .take(2)
+            .collect();
+        let lose = |s: &mut NamedSurvey, k: usize| {
+            s.survey.rows[k].result.as_mut().unwrap().outcome.completed = false;
+        };
+        for k in &kept {
+            lose(&mut all[helped], *k);
+        }
+        let barely = all[alone].survey.rows[kept[1]].result.as_mut().unwrap();
+        barely.outcome.farthest_m = Some(LOST - 0.5 * SPARE);
+        let after = row(&all);
+        let number = |cell: &str| cell.parse::<usize>().unwrap();
+        assert_eq!(number(&after[3]), number(&before[3]) - 2);
+        assert_eq!([&after[2], &after[4]], [&before[2], &before[4]]);
+        let safely = number(&before[2]) - 1;
+        assert_eq!(after[5], format!("1+0/{safely}"));
+        assert_eq!(after[6], "1+0/1");
     }
 
     #[test]

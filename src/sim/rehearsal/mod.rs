@@ -1,8 +1,8 @@
 //! Rehearsal: finds the offsets with which a body of human strength performs a recording in our own simulator.
 //!
-//! The problem: given a body, its strength and loads, a world and a recording, find offsets of the desired joints, at
-//! the ends of windows of a tenth of a second and linear in between, for which stiff motors within strength keep the
-//! body near the recording: posture, turn, feet and hands over the floor, centre of mass and its velocity, angular
+//! The problem: given a body, its strength and loads, a world and a recording, find offsets of the desired joints, one
+//! for each window of a tenth of a second and reached halfway through it, for which stiff motors within strength keep
+//! the body near the recording: posture, turn, feet and hands over the floor, centre of mass and its velocity, angular
 //! momentum. There is no model but the simulator: samples are simulated, and the best survive ([`search`]). If strength
 //! is not enough, a bounded wrench on the pelvis helps, as little as possible. The result ([`RehearsedMotion`]) is
 //! played by a figure, and runs there exactly as it did here.

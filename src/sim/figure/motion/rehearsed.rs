@@ -77,8 +77,8 @@ pub struct RehearsedMotion {
     pub ramp: usize,
     /// The recording with the ways in and out at the start of each tick, and at the end of the last one.
     pub desired: Vec<Target>,
-    /// Offsets of the desired joints, rad, at the end of each window; none at the start of the first. In between they
-    /// change at a constant rate ([`JointOffset::on_the_way`]).
+    /// Offsets of the desired joints, rad, at the end of each window; none at the start of the first. They are
+    /// reached at a constant rate in `ramp` ticks ([`JointOffset::on_the_way`]).
     pub offsets: Vec<JointOffset>,
     /// The path of the pelvis, by substep.
     pub path: Vec<RootStep>,
