@@ -440,6 +440,8 @@ fn note(metrics: &mut Metrics, event: &FigureEvent) {
             ..load("load_unshared", segment, mass)
         },
         E::WayBarred => kind("way_barred"),
+        E::ClipRestarts => kind("clip_restarts"),
+        E::ClipGivenUp => kind("clip_given_up"),
         E::Quarantined => kind("quarantined"),
         E::Touched { segment, .. } => on("touched", segment),
         E::Parted { segment, .. } => on("parted", segment),

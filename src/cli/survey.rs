@@ -8,6 +8,8 @@ mod identity;
 mod jobs;
 mod page;
 mod push;
+mod pushes;
+mod pushes_spec;
 mod summary;
 
 pub use args::SurveyArgs;
@@ -41,6 +43,9 @@ pub fn run(args: &SurveyArgs) -> Result<()> {
     let old = args.compare.as_deref().map(file::read).transpose()?;
     if let Some(page) = &args.page {
         page.check()?;
+    }
+    if !args.pushes.is_empty() {
+        return pushes::run(args, &body, &clips);
     }
     let settings = settings(args, &body);
     if let Some(old) = &old {

@@ -470,6 +470,7 @@ pub fn playback(
         origin,
         way_in: None,
         rehearsed: None,
+        again: false,
         max_help: 0.0,
     }
 }
@@ -570,6 +571,8 @@ pub fn event_kind(e: &FigureEvent, name: impl Fn(Other) -> String) -> EventKind 
         FigureEvent::LoadDropped { segment, mass } => EventKind::LoadDropped(segment, mass),
         FigureEvent::LoadSlipped { segment, mass } => EventKind::LoadSlipped(segment, mass),
         FigureEvent::WayBarred => EventKind::WayBarred,
+        FigureEvent::ClipRestarts => EventKind::ClipRestarts,
+        FigureEvent::ClipGivenUp => EventKind::ClipGivenUp,
         FigureEvent::LoadShared {
             segment,
             mass,

@@ -13,7 +13,7 @@ use tonic::Code;
 const WORLD: &str = "worlds/w";
 const FIGURE: &str = "worlds/w/figures/a";
 
-async fn push(server: &TestServer) {
+async fn push(server: &TestServer, impulse: f64) {
     let request = pb::ApplyPerturbationsRequest {
         world: WORLD.into(),
         perturbations: vec![pb::Perturbation {
@@ -22,7 +22,7 @@ async fn push(server: &TestServer) {
                 segment: "chest".into(),
                 impulse_newton_seconds: Some(pb::Vector3 {
                     x: 0.0,
-                    y: 90.0,
+                    y: impulse,
                     z: 0.0,
                 }),
                 duration_s: 0.2,
@@ -84,7 +84,7 @@ async fn clients_see_in_which_way_a_figure_follows_its_clip() {
     let strict = status(&server, 60).await;
     assert_eq!(strict.following(), pb::FollowWay::Tracked);
     assert_eq!(strict.max_help_weights, 0.0);
-    push(&server).await;
+    push(&server, 130.0).await;
     let alone = status(&server, 240).await;
     assert_eq!(alone.following(), pb::FollowWay::Unspecified, "it lies");
     assert_eq!(alone.help_newton_seconds, 0.0);
@@ -98,7 +98,7 @@ async fn clients_see_in_which_way_a_figure_follows_its_clip() {
     let before = status(&server, 60).await;
     assert_eq!(before.following(), pb::FollowWay::Tracked);
     assert!(before.max_help_weights > 0.2 && before.help_newton_seconds == 0.0);
-    push(&server).await;
+    push(&server, 90.0).await;
     let mut helped = 0;
     let mut last = before;
     for _ in 0..60 {
@@ -157,7 +157,7 @@ async fn streamed(most_help: f64) -> Vec<pb::FigureStatus> {
     let mut out = Vec::new();
     for step in 0..200 {
         if step == 20 {
-            push(&server).await;
+            push(&server, 90.0).await;
         }
         let request = pb::PushMotionRequest {
             header: Some(header.clone()),

@@ -50,6 +50,10 @@ export function event(e: Event): { text: string; grave: boolean } | undefined {
       return { text: `${figure} drops ${kilograms(e.massKg)} from the ${joint(e.segment)}`, grave: true };
     case EventType.WAY_BARRED:
       return { text: `${figure} stops: something is in the way`, grave: false };
+    case EventType.CLIP_RESTARTS:
+      return { text: `${figure} catches itself and begins the clip again`, grave: false };
+    case EventType.CLIP_GIVEN_UP:
+      return { text: `${figure} catches itself again and stays where it is`, grave: false };
     case EventType.QUARANTINED:
       return { text: `${figure} is frozen: its simulation state became invalid`, grave: true };
     case EventType.DRIVE_BEGAN:
@@ -79,6 +83,10 @@ export function mark(e: Event): { kind: MarkKind; text: string } | undefined {
       return { kind: "fall", text: `${figure} is frozen` };
     case EventType.WAY_BARRED:
       return { kind: "push", text: `${figure} stops: something is in the way` };
+    case EventType.CLIP_RESTARTS:
+      return { kind: "clip", text: `${figure} begins the clip again` };
+    case EventType.CLIP_GIVEN_UP:
+      return { kind: "clip", text: `${figure} gives up the clip` };
     case EventType.PUSHED:
       return { kind: "push", text: `${figure} is pushed: ${e.impulseNewtonSeconds.toFixed(0)} N·s` };
     case EventType.CLIP_BEGAN:

@@ -2,6 +2,7 @@
 
 use super::page::PageSpec;
 use super::push::SurveyPush;
+use super::pushes_spec::PushesSpec;
 use crate::args::{BodyArgs, FollowArg, HelpArgs, LoadSpec};
 use sinew_physics::rehearsal::follow::Follow;
 use sinew_physics::world::WorldParams;
@@ -70,6 +71,16 @@ pub struct SurveyArgs {
     /// How long a push lasts, s.
     #[arg(long, value_name = "S", default_value_t = 0.2)]
     pub push_duration: f64,
+    /// Instead of the survey, pushes the chest while figures start, walk or stand, at 8 moments in 4 or 8 directions,
+    /// and counts how often they stay up: start:20,30, walk:40, stand:50 (repeatable).
+    #[arg(
+        long,
+        value_name = "PHASE:NS,NS…",
+        conflicts_with_all = [
+            "push", "live_window", "rehearse", "compare", "copies", "load", "page", "summary",
+        ],
+    )]
+    pub pushes: Vec<PushesSpec>,
     /// Streams each recording through a preparation window of 0.3 to 1 s instead of preparing it as a whole.
     #[arg(long, value_name = "S")]
     pub live_window: Option<f64>,
@@ -106,6 +117,12 @@ pub struct SurveyArgs {
 }
 
 impl SurveyArgs {
+    /// Threads that run clips.
+    pub fn threads(&self) -> usize {
+        let cores = || std::thread::available_parallelism().ok().map(usize::from);
+        self.jobs.or_else(cores).unwrap_or(1)
+    }
+
     /// Whether runs are followed as they were recorded: with help they can be.
     pub fn keeps_runs(&self) -> bool {
         let helped = Follow::from(self.follow).takes_help() && !self.rehearse;

@@ -122,10 +122,7 @@ pub(super) fn run_all(
     let bar = progress(jobs.len() as u64);
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<Option<JobResult>>> = Mutex::new(vec![None; jobs.len()]);
-    let threads = args
-        .jobs
-        .or_else(|| std::thread::available_parallelism().ok().map(usize::from))
-        .unwrap_or(1);
+    let threads = args.threads();
     std::thread::scope(|scope| {
         for _ in 0..threads.min(jobs.len()) {
             scope.spawn(|| {
@@ -315,6 +312,19 @@ fn job(
     }
     let measured = measured(args, &conditions, &fitted, outcome);
     Ok(JobResult::Clip(Box::new(measured)))
+}
+
+/// A clip as figures track it, and the conditions under which they do.
+pub(super) fn prepared(
+    args: &SurveyArgs,
+    body: &Arc<Body>,
+    source: &ClipSource,
+    bytes: &[u8],
+) -> Result<(Arc<Clip>, Conditions)> {
+    let reference = fitted(args, body, source, bytes, 0)?.reference;
+    let lead = reference.prepared.lead_in();
+    let conditions = conditions(args, body, &reference, (bytes, 0), lead);
+    Ok((reference.prepared, conditions))
 }
 
 /// A built-in motion, or a recording fitted to the body.

@@ -10,6 +10,7 @@ pub mod contacts;
 pub mod errors;
 pub mod kind;
 pub mod outcome;
+pub mod pushes;
 pub mod row;
 pub mod run;
 pub mod stats;

@@ -69,6 +69,10 @@ pub struct SurveyOutcome {
     pub skate_median_mm: Option<f64>,
     /// Largest, mm.
     pub skate_worst_mm: Option<f64>,
+    /// Largest change of the velocity of the desired centre of mass in a tick beyond the recording's, until balance is
+    /// lost, m/s.
+    #[serde(default)]
+    pub target_jump_m_s: Option<f64>,
     /// Deepest contact point below the floor, mm.
     pub penetration_mm: f64,
     /// Largest vertical push of the floor in a tick, body weights.
@@ -203,7 +207,7 @@ const fn measure(
 }
 
 /// The measures by which surveys are compared.
-pub const MEASURES: [SurveyMeasure; 17] = [
+pub const MEASURES: [SurveyMeasure; 18] = [
     measure(
         "followed, s",
         |o| Some(o.followed_s),
@@ -275,6 +279,12 @@ pub const MEASURES: [SurveyMeasure; 17] = [
         |o| o.skate_worst_mm,
         Better::Less,
         (3.0, 0.1),
+    ),
+    measure(
+        "jump of the target's velocity, m/s",
+        |o| o.target_jump_m_s,
+        Better::Less,
+        (0.1, 0.1),
     ),
     measure(
         "penetration, mm",

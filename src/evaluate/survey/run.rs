@@ -11,7 +11,9 @@ use sinew_physics::body::Body;
 use sinew_physics::body::topology::{DOF_COUNT, DOF_NAMES, L_FOOT, L_TOES, R_FOOT, R_TOES};
 use sinew_physics::dynamics::{Kinematics, momentum};
 use sinew_physics::figure::Flags;
+use sinew_physics::math::Vec3;
 use sinew_physics::math::rounding::short;
+use sinew_physics::motion::leg_ik::{center_of_mass, forward};
 use sinew_physics::motion::{Clip, GRAVITY};
 use sinew_physics::rehearsal::trial::{Conditions, Judge, TrackingReference, Trial, TrialResult};
 use sinew_physics::world::{Figure, WorldError};
@@ -41,11 +43,39 @@ struct Course {
     /// Distance slid in the present stance, m, and in the stances that have ended.
     way: [f64; 2],
     ways: Vec<f64>,
+    target: TargetCourse,
     peak: f64,
     impulse: f64,
     limit_ticks: usize,
     fell: bool,
     frozen: bool,
+}
+
+/// How steadily the desired centre of mass moves, until balance is lost.
+#[derive(Default)]
+struct TargetCourse {
+    /// The last two places, of the target and in the recording, m.
+    before: Option<[Vec3; 2]>,
+    earlier: Option<[Vec3; 2]>,
+    lost: bool,
+    /// Largest change of velocity from one tick to the next beyond the recording's, m/s.
+    jump: Option<f64>,
+}
+
+impl TargetCourse {
+    fn observe(&mut self, target: Vec3, recorded: Vec3, lost: bool, dt: f64) {
+        self.lost |= lost;
+        if self.lost {
+            return;
+        }
+        let now = [target, recorded];
+        if let (Some(a), Some(b)) = (self.earlier, self.before) {
+            let change = |k: usize| ((now[k] - b[k]) - (b[k] - a[k])).norm() / dt;
+            let beyond = (change(0) - change(1)).max(0.0);
+            self.jump = Some(self.jump.map_or(beyond, |most| most.max(beyond)));
+        }
+        (self.earlier, self.before) = (self.before, Some(now));
+    }
 }
 
 /// Runs the clip from its beginning to a little after its end, and measures.
@@ -122,6 +152,12 @@ impl Course {
         self.impulse += (floor + report.assist[5]) * dt;
         self.limit_ticks += usize::from(report.joints.saturated != 0);
         self.fell |= figure.is_fallen();
+        let lost = self.fell || report.flags.has(Flags::BALANCE_LOST);
+        let body = figure.body();
+        let recorded = forward(body, &reference.recorded.sample(time).posture);
+        let recorded = center_of_mass(body, &recorded);
+        self.target
+            .observe(report.balance.com_desired, recorded, lost, dt);
         let end = (reference.recorded.duration()).max(reference.prepared.duration());
         let within = time > -1e-9 && time < end + 1e-9;
         if !self.fell {
@@ -190,6 +226,7 @@ impl Course {
             stances: ways.len(),
             skate_median_mm: median(&ways).map(short),
             skate_worst_mm: ways.iter().copied().reduce(f64::max).map(short),
+            target_jump_m_s: self.target.jump.map(short),
             peak_force_weights: short(self.peak),
             jerk_ratio: jerk_ratio(samples),
             assist_share: trial.help.share,
@@ -200,5 +237,32 @@ impl Course {
             limit_s: short(self.limit_ticks as f64 * dt),
             ..SurveyOutcome::default()
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_target_that_jumps_once_is_told_and_one_that_moves_as_recorded_is_not() {
+        let dt = 1.0 / 60.0;
+        let recorded = |i: usize| Vec3::X * (0.5 * (i as f64 * dt).powi(2));
+        let mut steady = TargetCourse::default();
+        let mut jumps = TargetCourse::default();
+        let mut lost = TargetCourse::default();
+        for i in 0..60 {
+            let off = if i < 30 { Vec3::zero() } else { Vec3::Y * 0.05 };
+            steady.observe(recorded(i) + Vec3::Z, recorded(i), false, dt);
+            jumps.observe(recorded(i) + off, recorded(i), false, dt);
+            lost.observe(recorded(i) + off, recorded(i), i > 20, dt);
+        }
+        assert!(steady.jump.is_some_and(|j| j < 1e-9));
+        assert!(
+            jumps.jump.is_some_and(|j| (j - 0.05 / dt).abs() < 0.1),
+            "{:?}",
+            jumps.jump
+        );
+        assert!(lost.jump.is_some_and(|j| j < 1e-9));
     }
 }

@@ -226,11 +226,18 @@ pub enum StancePhase {
     LiftOff,
 }
 
+/// Heights between which a point of a motion of our own comes to touch the floor, m.
+pub const MEANT_BY_US: (f64, f64) = (0.004, 0.012);
+/// The same for a recording, which is seldom that precise, m.
+pub const MEANT_BY_RECORDING: (f64, f64) = (0.02, 0.06);
+
 /// How the body should touch the floor in the motion.
 #[derive(Clone, Copy, Debug)]
 pub struct OnFloor<'a> {
     /// Heights of all contact points at the end of the tick, by segment × 8 + vertex, m.
     pub heights: &'a [f64; MAX_CONTACTS],
+    /// A point should touch if it is below the first height in the motion, and not at all above the second, m.
+    pub meant: (f64, f64),
     /// The trunk lies on the floor: there is no balance to keep.
     pub lies: bool,
     /// It rolls over.

@@ -108,9 +108,6 @@ const POLISHED: f64 = 1e-2;
 /// Most iterations of all kinds; residual of the equations of motion at which it stops, N·m.
 const MAX_ITERATIONS: u32 = 60;
 const TOLERANCE: f64 = 1e-3;
-/// On the floor, a point should touch if it is below the first height in the motion, and not at all above the second,
-/// m.
-const MEANT_FADE: (f64, f64) = (0.004, 0.012);
 /// Points of one segment.
 const POINTS: usize = MAX_CONTACTS / SEGMENT_COUNT;
 

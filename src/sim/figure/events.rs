@@ -98,6 +98,10 @@ pub enum FigureEvent {
     },
     /// A figure or an obstacle is in the way of its steps: it broke off its motion and comes to a stand.
     WayBarred,
+    /// A step had to catch it: it left its clip for a stand, from which it begins the clip again.
+    ClipRestarts,
+    /// The same again: it stays where it stands.
+    ClipGivenUp,
     /// The state became non-finite or ran away; the figure is frozen at its last good state.
     Quarantined,
 }

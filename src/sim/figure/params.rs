@@ -135,7 +135,8 @@ pub mod switch {
         EARLIEST_BEGIN: f64 = 0.4, "s", 0..=1, "docs/locomotion.md#stops";
         /// The joints have come to where a motion leads them when they are closer than this.
         STILL: f64 = 0.05, "rad", 0.01..=0.2, "docs/locomotion.md#stops";
-        /// A clip that waits begins at the latest so long after the motion that leads to it is over.
+        /// A clip that waits begins at the latest so long after the motion that leads to it is over; one that begins
+        /// again, while feet are brought back, after four times that.
         PATIENCE: f64 = 2.0, "s", 0.5..=5, "docs/locomotion.md#stops";
         /// A posture stands upright with the pelvis above this share of its standing height.
         UPRIGHT: f64 = 0.9, "1", 0.8..=1.0, "docs/locomotion.md#stops";

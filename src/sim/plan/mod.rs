@@ -38,7 +38,7 @@ fn ball_joint(segment: SegmentId) -> usize {
 }
 
 /// Index of the hinge of the toes of a side in a posture.
-fn toe_hinge(side: usize) -> usize {
+pub(crate) fn toe_hinge(side: usize) -> usize {
     match JOINT[TOES[side].index()] {
         Joint::Hinge1(h) => h,
         _ => unreachable!("the toes are on a hinge"),

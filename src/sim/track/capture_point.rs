@@ -18,14 +18,15 @@ use super::filter_gain;
 use super::foot_places::{FootPlace, turn};
 use super::leg_collision::foothold;
 use super::params::capture::{
-    CROSSING_FROM, CROSSING_GAIN, CROSSING_MOST, GAIN, LEAST_HEIGHT, LEAST_LOAD, LONGEST_FORECAST,
-    MOMENT_OFFSET, REACH_ACROSS, REACH_ALONG, SEPARATION, SMOOTHING_TIME,
+    CROSSING_GAIN, CROSSING_MOST, GAIN, LEAST_HEIGHT, LEAST_LOAD, LONGEST_FORECAST, MOMENT_OFFSET,
+    REACH_ACROSS, REACH_ALONG, SEPARATION, SMOOTHING_TIME, YIELDED,
 };
 use super::params::leg_collision::FOOTHOLD_DISTANCE;
 use crate::body::topology::{FEET, outward};
 use crate::body::{Body, Links, Posture};
 use crate::control::PointTarget;
 use crate::dynamics::{Kinematics, Terms, center_of_mass, momentum};
+use crate::math::curve::fall;
 use crate::math::exp::exp;
 use crate::math::{Quat, Vec3};
 use crate::motion::Target;
@@ -112,26 +113,40 @@ impl Capture {
 
     /// Updates outside forces and angular momentum.
     ///
-    /// * `planned`: angular momentum of the motion, N·m·s, if the body's counts. Pushes seldom go through the centre of
-    ///   mass. When a body gives up the angular momentum `L` that it received, its capture point moves, because angular
-    ///   momentum about the foot is conserved: `Δξ = (L_y, −L_x)/(m z ω)`.
-    /// * `steps`: a stepping body moves with a push. A standing body yields with its trunk until the push is over, so
-    ///   outside forces are ignored for it.
-    pub(super) fn update_disturbance(&mut self, terms: &Terms, planned: Option<Vec3>, steps: bool) {
+    /// * `planned`: angular momentum of the motion, N·m·s.
+    /// * `lands`: whether a step is timed. Pushes seldom go through the centre of mass. When a body gives up the
+    ///   angular momentum `L` that it received, its capture point moves, because angular momentum about the foot is
+    ///   conserved: `Δξ = (L_y, −L_x)/(m z ω)`.
+    /// * `steps`: a stepping body moves with a push. A standing body yields with its trunk, which takes up the push as
+    ///   angular momentum; the more of that it has, the more it moves with the push, too.
+    pub(super) fn update_disturbance(
+        &mut self,
+        terms: &Terms,
+        planned: Vec3,
+        lands: bool,
+        steps: bool,
+    ) {
+        let (rows, _) = terms.spin_rows();
+        let of = |k: usize| -> f64 {
+            let velocity = &terms.state.velocity;
+            rows[k].iter().zip(velocity).map(|(a, v)| a * v).sum()
+        };
+        let excess = [of(0) - planned.x, of(1) - planned.y];
         self.momentum_offset = [0.0; 2];
-        if let Some(planned) = planned {
-            let (rows, _) = terms.spin_rows();
-            let of = |k: usize| -> f64 {
-                let velocity = &terms.state.velocity;
-                rows[k].iter().zip(velocity).map(|(a, v)| a * v).sum()
-            };
+        if lands {
             let per = 1.0 / (terms.mass * terms.com.z.max(LEAST_HEIGHT) * self.omega);
-            self.momentum_offset = [(of(1) - planned.y) * per, (planned.x - of(0)) * per];
+            self.momentum_offset = [excess[1] * per, -excess[0] * per];
         }
         // `M v̇ + h` is the floor's force; the force rows of `h` contain the outside forces.
         let (bias, h) = (terms.com_bias, &terms.h);
         let pushed = [bias.x - h[3] / terms.mass, bias.y - h[4] / terms.mass];
-        self.disturbance = if steps { pushed } else { [0.0; 2] };
+        let turns = Vec3::on_floor(excess).level();
+        let share = if steps {
+            1.0
+        } else {
+            1.0 - fall(turns, (0.2 * YIELDED, YIELDED))
+        };
+        self.disturbance = pushed.map(|a| share * a);
     }
 
     /// Sets the support that [`Capture::within`] uses.
@@ -154,10 +169,16 @@ impl Capture {
         })
     }
 
-    /// The capture point after `time` seconds about `zmp`, with the excess of angular momentum given up.
-    pub(super) fn after(&self, zmp: [f64; 2], time: f64) -> [f64; 2] {
+    /// The capture point after `time` seconds about `zmp`, m.
+    pub(super) fn pendulum(&self, zmp: [f64; 2], time: f64) -> [f64; 2] {
         let grows = exp(self.omega * time);
-        std::array::from_fn(|k| zmp[k] + (self.point[k] - zmp[k]) * grows + self.momentum_offset[k])
+        std::array::from_fn(|k| zmp[k] + (self.point[k] - zmp[k]) * grows)
+    }
+
+    /// The same with the excess of angular momentum given up.
+    pub(super) fn after(&self, zmp: [f64; 2], time: f64) -> [f64; 2] {
+        let at = self.pendulum(zmp, time);
+        std::array::from_fn(|k| at[k] + self.momentum_offset[k])
     }
 
     /// Horizontal acceleration of the pendulum about the point of `polygon` nearest to `zmp`, m/s².
@@ -311,7 +332,7 @@ pub(super) fn within_reach(
     let (back, outward) = (turn(-home.yaw), outward(side));
     let mut local = back.rotate(Vec3::on_floor(d));
     let pressed =
-        (CROSSING_GAIN * (local.y.abs() - CROSSING_FROM)).clamp(0.0, SEPARATION + CROSSING_MOST);
+        (CROSSING_GAIN * (local.y.abs() - SEPARATION)).clamp(0.0, SEPARATION + CROSSING_MOST);
     local.y = local.y.clamp(-REACH_ACROSS, REACH_ACROSS);
     let planned = back.rotate((home.at - stance).horizontal());
     local.x = if planned.x < 0.0 {

@@ -4,37 +4,46 @@
 use super::foot_places::{FootPlace, FootPlaces, middle};
 use super::params::common::STOP_TIME;
 use super::planned_to_world::Anchor;
+use super::trailing::Trailing;
 use super::{Purpose, RecoveryStep, StepTracker};
 use crate::body::Posture;
-use crate::body::topology::NV;
 use crate::dynamics::Terms;
 use crate::math::Vec3;
-use crate::math::curve::smoothstep;
+use crate::math::exp::exp;
+use crate::motion::target::RestTimes;
 use crate::motion::{Target, TargetPair};
 use serde::{Deserialize, Serialize};
 
 /// State of a figure that is coming to a stand.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct PlannedStand {
-    /// Last posture of the clip, as mapped to the world.
-    from: Posture,
+    /// The last of the motion, in the coordinates of the map.
+    from: Target,
+    /// Rate of the pendulum, 1/s.
+    omega: f64,
     /// Time since the end of the clip, s.
     since: f64,
 }
 
-/// From posture `a` to posture `b`. `u` beyond 0…1 is clamped.
-fn interpolated(a: &Posture, b: &Posture, u: f64) -> Posture {
-    let s = smoothstep(u);
-    let spin = (b.root_rotation * a.root_rotation.conjugate()).log() * s;
-    let mut rates = [0.0; NV];
-    rates[..3].copy_from_slice(&spin.to_array());
-    for (r, w) in rates[6..].iter_mut().zip(a.joint_difference(b)) {
-        *r = s * w;
+impl PlannedStand {
+    /// The target `t` seconds after the motion: joints come to rest and to the stand, and the pelvis follows on the
+    /// stable mode of the pendulum ([`super::trailing`]), so that the capture point of the target is that of the stand
+    /// at once.
+    fn target(&self, stand: &Posture, t: f64, dt: f64) -> Target {
+        const TIMES: RestTimes = RestTimes {
+            stopping: STOP_TIME,
+            settling: STOP_TIME,
+        };
+        let mut out = self.from.to_rest(stand, TIMES, t, dt);
+        let left = (self.from.posture.root_position - stand.root_position).horizontal()
+            * exp(-self.omega * t);
+        let z = out.posture.root_position.z;
+        out.posture.root_position = (stand.root_position + left).horizontal() + Vec3::Z * z;
+        let rate = left * -self.omega;
+        (out.velocity[3], out.velocity[4]) = (rate.x, rate.y);
+        out.planted = [true; 2];
+        out
     }
-    let mut out = *a;
-    out.integrate(&rates, 1.0);
-    out.root_position = a.root_position + (b.root_position - a.root_position) * s;
-    out
 }
 
 impl StepTracker {
@@ -59,14 +68,11 @@ impl StepTracker {
         self.followed.as_ref().is_some_and(|f| f.stop.is_some())
     }
 
-    /// Breaks off a stepping motion at `last`, its present posture (world). None of its later steps is made, and the
+    /// Breaks off a stepping motion at `last`, the present target (world). None of its later steps is made, and the
     /// figure comes to a stand in place. Returns the posture of that stand (world).
-    pub fn break_off(&mut self, terms: &Terms, last: &Posture) -> Posture {
-        let mut planned = *last;
-        self.anchor
-            .transform()
-            .power(-1.0)
-            .apply_posture(&mut planned);
+    pub fn break_off(&mut self, terms: &Terms, last: &Target) -> Posture {
+        let planned = self.anchor.transform().power(-1.0).apply(last);
+        self.trailing = Trailing::default();
         self.begin_stop(terms, &planned, Purpose::Recover);
         if let Some(f) = &mut self.followed {
             f.plan.break_off();
@@ -78,7 +84,7 @@ impl StepTracker {
 
     /// Turns the motion into standing, because it is over while the figure still moves. The present step is completed
     /// as a recovery step with this `purpose`, and more steps follow if the capture point requires them.
-    pub(super) fn begin_stop(&mut self, terms: &Terms, last: &Posture, purpose: Purpose) {
+    pub(super) fn begin_stop(&mut self, terms: &Terms, last: &Target, purpose: Purpose) {
         let now = self.places(terms);
         let poses = self.capture.feet(&self.legs.at_ease);
         let home: FootPlaces = std::array::from_fn(|k| self.place_of(k, poses[k]));
@@ -94,11 +100,15 @@ impl StepTracker {
         };
         self.anchor = Anchor::between(facing(&home), facing(&now));
         // Express the same posture at the same place in the world in coordinates of the new anchor.
-        let mut from = *last;
         let change = self.anchor.transform().power(-1.0).after(before);
-        change.apply_posture(&mut from);
+        let from = change.apply(last);
+        self.trailing.rebase(self.anchor.transform());
         if let Some(f) = &mut self.followed {
-            f.stop = Some(PlannedStand { from, since: 0.0 });
+            f.stop = Some(PlannedStand {
+                from,
+                omega: self.capture.omega(),
+                since: 0.0,
+            });
         }
         for side in 0..2 {
             if !self.feet[side].down {
@@ -114,10 +124,9 @@ impl StepTracker {
         let stop = self.followed.as_mut()?.stop.as_mut()?;
         stop.since += dt;
         let standing = &self.legs.at_ease;
-        let at = |t: f64| Target::still(interpolated(&stop.from, standing, t / STOP_TIME));
         Some(TargetPair {
-            now: at(stop.since - dt),
-            next: at(stop.since),
+            now: stop.target(standing, stop.since - dt, dt),
+            next: stop.target(standing, stop.since, dt),
         })
     }
 }

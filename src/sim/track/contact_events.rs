@@ -5,8 +5,9 @@
 //! for its figure, nor run ahead of the frames received, so its rate is at least 1, and exceeds 1 only while the figure
 //! is behind.
 
+use super::params::common::FREEZE_TIME;
 use super::params::contact::{
-    EARLIEST, EARLIEST_AFTER_FLIGHT, FASTEST_RATE, IMMINENT, LATEST, LONGEST_LAG, STREAM_RATE,
+    EARLIEST_AFTER_FLIGHT, FASTEST_RATE, IMMINENT, LATEST, LONGEST_LAG, STREAM_RATE,
 };
 use super::params::flight::{JUMP_INTERVAL, LEAST_FALL_TIME, LEAST_GRAVITY, LONGEST, SLOWEST_RATE};
 use super::step_plan::{Footfall, StepPlan};
@@ -62,7 +63,7 @@ impl StepTracker {
         let earliest = if airborne && terms.com_velocity.z < 0.0 {
             EARLIEST_AFTER_FLIGHT
         } else {
-            EARLIEST
+            FREEZE_TIME
         };
         if !self.clock.started {
             self.clock.started = true;
@@ -163,6 +164,7 @@ impl StepTracker {
         });
         self.anchor
             .land(planned.at, planned.yaw, actual.at, actual.yaw);
+        self.clock.landings += 1;
         let foot = &mut self.feet[side];
         foot.down = true;
         foot.early = false;

@@ -29,6 +29,7 @@ pub mod step_plan;
 mod step_timing;
 mod support_recovery;
 mod swing;
+mod trailing;
 
 pub use capture_point::Capture;
 pub use flight_phase::Flight;
@@ -52,12 +53,14 @@ use clip_end::PlannedStand;
 use foot_places::{stance_points, turn};
 use params::common::{LEAST_SPEED, SETTLED_OFFSET};
 use params::flight::ANNOUNCED;
+use params::recovery::SHIFT_SPEED;
 use planned_to_world::Anchor;
 use serde::{Deserialize, Serialize};
 use step_decision::{UnplannedStep, is_misplaced};
 use step_timing::StepTiming;
 use support_recovery::SupportRecovery;
 use swing::follow_com;
+use trailing::Trailing;
 
 /// State of one foot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -194,6 +197,8 @@ struct PlanClock {
     started: bool,
     /// Last speed of the pelvis over the floor in the motion before its end, m/s.
     last_speed: f64,
+    /// Planned touch-downs since the motion began.
+    landings: u32,
 }
 
 /// Events of this tick, for the report and the controller.
@@ -236,6 +241,7 @@ pub struct StepTracker {
     followed: Option<FollowedPlan>,
     clock: PlanClock,
     anchor: Anchor,
+    trailing: Trailing,
     feet: [TrackedFoot; 2],
     capture: Capture,
     height_error: HeightError,
@@ -252,6 +258,7 @@ impl StepTracker {
             followed: None,
             clock: PlanClock::default(),
             anchor: Anchor::default(),
+            trailing: Trailing::default(),
             feet: [TrackedFoot::default(); 2],
             capture: Capture::new(body),
             height_error: HeightError::default(),
@@ -316,8 +323,10 @@ impl StepTracker {
     /// Forgets the past, so that the motion is at its planned place.
     pub fn reset(&mut self) {
         self.anchor = Anchor::default();
+        self.trailing = Trailing::default();
         self.feet = [TrackedFoot::default(); 2];
         self.clock.started = false;
+        self.clock.landings = 0;
         self.clock.lag = 0.0;
         if let Some(f) = &mut self.followed {
             f.stop = None;
@@ -371,6 +380,10 @@ impl StepTracker {
     /// Distance of the capture point from its place in a motion with steps, allowing for the foothold to which a foot
     /// is being led, m; `None` while the figure follows no such motion.
     pub fn off_plan(&self) -> Option<f64> {
+        // A recovery step catches what comes to where it lands.
+        if let Some(leaves) = self.recovery_step().and_then(RecoveryStep::leaves) {
+            return Some(leaves);
+        }
         let error = Vec3::on_floor(self.capture.error);
         let swings = self.feet.iter().filter(|foot| !foot.down);
         let led = swings.map(|foot| (error - Vec3::on_floor(foot.shift)).level());
@@ -380,6 +393,17 @@ impl StepTracker {
     /// Whether the capture point is where the motion has it.
     pub fn is_on_plan(&self) -> bool {
         self.capture.off() < SETTLED_OFFSET
+    }
+
+    /// Whether a step is made to catch the body, in a clip that has steps to come.
+    pub fn has_lost_plan(&self) -> bool {
+        let catches = |s: &RecoveryStep| s.purpose != Purpose::Return;
+        let goes_on = |p: &StepPlan| !p.is_live() && !p.is_over(self.clock.phase);
+        self.recovery_step().is_some_and(catches)
+            && !self.is_stopping()
+            && !self.recovery.support.is_active()
+            && self.plan().is_some_and(goes_on)
+            && (0..2).any(|side| self.next(side).is_some())
     }
 
     /// Whether it is making planned steps and is far enough off the plan that they have to change.
@@ -446,6 +470,7 @@ impl StepTracker {
             self.clock.started = false;
             let share = filter_gain(dt, time);
             self.anchor.go_home(share);
+            self.trailing.rebase(self.anchor.transform());
             self.clock.lag *= 1.0 - share;
         } else {
             self.anchor.settle(dt);
@@ -454,7 +479,7 @@ impl StepTracker {
         self.clock.phase = plan_time(now);
         let over = self.plan().is_some_and(|p| p.is_over(self.clock.phase));
         if over && !self.is_stopping() && self.clock.last_speed > REST_SPEED {
-            let last = pair(now, now).now.posture;
+            let last = pair(now, now).now;
             self.begin_stop(terms, &last, Purpose::RecoverOnOwnSide);
         }
         let (mut out, planted) = if let Some(standing) = self.advance_stop(dt) {
@@ -493,6 +518,24 @@ impl StepTracker {
         out
     }
 
+    /// Lets the desired body follow the map for the `dt` seconds of its tick; feet are placed in
+    /// [`Self::update_tasks`].
+    ///
+    /// * `out`: what [`Self::targets`] gave, with everything else that changes the posture.
+    pub fn trail(&mut self, body: &Body, out: &mut TargetPair, dt: f64) {
+        // The plan of a stream changes under its feet.
+        let on_plan = self.is_stepping() || self.recovery.support.is_active();
+        let legs_stand = on_plan && !self.is_live();
+        let (map, omega) = (self.anchor.transform(), self.capture.omega());
+        self.trailing.advance(omega, dt, legs_stand);
+        if !self.trailing.is_at(&map) {
+            let posture = &out.now.posture;
+            let ankles = self.capture.feet(posture).map(|foot| foot.at);
+            self.trailing.move_to(map, posture.root_position, ankles);
+        }
+        self.trailing.apply(out, body, omega, dt);
+    }
+
     /// Updates the targets of feet and centre of mass: swinging feet are led, clear of the floor, to footholds that
     /// catch the body, and unplanned steps are begun and led. Returns the horizontal acceleration of the centre of mass
     /// that balance requires, m/s²; `None` without a support.
@@ -505,18 +548,13 @@ impl StepTracker {
         tasks: &mut TaskTargets<'_>,
     ) -> Option<[f64; 2]> {
         let omega = self.capture.omega();
+        self.trailing.release(tasks.feet, omega, dt);
         self.recovery.support.shift_com(tasks.com, omega, dt);
-        if self.is_live() {
-            // Keep balance around the place that the motion approaches, not around its present place. Limbs take time
-            // to get there, and the foot that has just landed must not be used to remove the resulting error.
-            tasks.com.shift(self.anchor.rest());
-        }
         self.capture
             .update(terms, tasks.com, support.polygon(), gravity, dt);
-        // Angular momentum matters only for the timing of steps.
-        let momentum = self.timing.landing.map(|_| tasks.momentum);
+        let lands = self.timing.landing.is_some();
         self.capture
-            .update_disturbance(terms, momentum, self.is_stepping());
+            .update_disturbance(terms, tasks.momentum, lands, self.is_stepping());
         self.height_error = HeightError {
             height: terms.com.z - tasks.com.now.z,
             speed: terms.com_velocity.z - tasks.com.now_velocity.z,
@@ -526,8 +564,13 @@ impl StepTracker {
         self.recovery.misplaced = (0..2).any(|k| is_misplaced(&now[k], &planned[k]));
         if tasks.unplanned_steps && self.is_stepping() {
             self.begin_support_recovery(terms, support, &now, dt);
+            self.step_out_of_start(terms, support, [&now, &planned]);
         }
         if self.is_stepping() {
+            // A step that brought a foot back leaves the body over the other one.
+            let shift = &mut self.recovery.shift;
+            *shift -= shift.capped(SHIFT_SPEED * dt);
+            tasks.com.shift(*shift);
             self.update_step_timing(terms, support);
             for side in 0..2 {
                 self.update_swing(terms, side, dt, &mut tasks.feet[side]);

@@ -11,7 +11,8 @@ pub mod common {
         LEAST_SPEED: f64 = 1e-9, "1", 1e-12..=1e-3, "numerical";
         /// A foot that finds no floor goes down at this speed.
         LOWERING_SPEED: f64 = 0.5, "m/s", 0.1..=2.0, "docs/locomotion.md#contact";
-        /// A foothold does not change within this time before touch-down.
+        /// A foothold does not change within this time before touch-down, because its foot may land from then on;
+        /// earlier touches are scuffs.
         FREEZE_TIME: f64 = 0.06, "s", 0.0..=0.2, "docs/locomotion.md#capture-point";
         /// Time in which a clip that ended in motion turns into standing at ease.
         STOP_TIME: f64 = 0.6, "s", 0.2..=2.0, "docs/locomotion.md#stops";
@@ -35,9 +36,7 @@ pub mod contact {
     crate::params::params! {
         /// A sole lower than this touches the floor.
         TOUCH_HEIGHT: f64 = 0.004, "m", 0.001..=0.02, "docs/locomotion.md#contact";
-        /// A foot may land this long before its time; earlier touches are scuffs.
-        EARLIEST: f64 = 0.06, "s", 0.0..=0.2, "docs/locomotion.md#contact";
-        /// The same of a foot that comes down from a flight.
+        /// A foot that comes down from a flight may land this long before its time; earlier touches are scuffs.
         EARLIEST_AFTER_FLIGHT: f64 = 0.2, "s", 0.0..=0.4, "docs/locomotion.md#runs";
         /// A foot that finds no floor counts as planted after this time.
         LATEST: f64 = 0.15, "s", 0.05..=0.5, "docs/locomotion.md#contact";
@@ -81,16 +80,18 @@ pub mod capture {
         REACH_ALONG: f64 = 0.30, "m", 0.1..=0.6, "docs/locomotion.md#capture-point";
         /// Largest displacement of a foothold across its heading, and of one that lands early against its stride.
         REACH_ACROSS: f64 = 0.60, "m", 0.1..=0.8, "docs/locomotion.md#capture-point";
-        /// Least distance to the side from the stance foot, unless the plan comes closer or crosses.
+        /// Least distance to the side from the stance foot, unless the plan comes closer or crosses, or the foothold is
+        /// displaced to the side by more than this.
         SEPARATION: f64 = 0.03, "m", 0.0..=0.1, "docs/locomotion.md#capture-point";
-        /// A larger displacement to the side may bring the foot closer to the stance foot than the separation.
-        CROSSING_FROM: f64 = 0.03, "m", 0.0..=0.1, "docs/locomotion.md#capture-point";
-        /// By how much closer, for each metre beyond that.
+        /// How much closer it may then come, for each metre beyond that.
         CROSSING_GAIN: f64 = 4.0, "1", 0.0..=10.0, "docs/locomotion.md#capture-point";
         /// How far across at most: most pushes to the side cannot be caught otherwise.
         CROSSING_MOST: f64 = 0.5, "m", 0.0..=0.6, "docs/locomotion.md#capture-point";
         /// Time constant with which a foothold follows the capture point.
         SMOOTHING_TIME: f64 = 0.015, "s", 0.0..=0.1, "docs/locomotion.md#capture-point";
+        /// Angular momentum beyond the motion's with which a standing body moves with a push as a stepping one does;
+        /// with a fifth of it, it does not yet.
+        YIELDED: f64 = 5.0, "N·m·s", 1.0..=20.0, "docs/locomotion.md#capture-point";
         /// Largest displacement of the zero-moment point by planned angular momentum.
         MOMENT_OFFSET: f64 = 0.05, "m", 0.0..=0.1, "docs/locomotion.md#balance";
         /// Least acceleration of the floor's force that the pendulum is computed with.
@@ -184,7 +185,8 @@ pub mod recovery {
         LOST_MARGIN: f64 = 0.02, "m", 0.0..=0.1, "docs/locomotion.md#recovery";
         /// Beyond this distance no step helps.
         HOPELESS_MARGIN: f64 = 0.6, "m", 0.3..=1.0, "docs/locomotion.md#recovery";
-        /// A capture point this far from where the clip has it is not meant to be there.
+        /// A capture point this far from where the clip has it is not meant to be there; with less, misplaced feet can
+        /// be brought back.
         ASTRAY: f64 = 0.06, "m", 0.02..=0.15, "docs/locomotion.md#recovery";
         /// Length of a recovery step. People take 0.15–0.3 s after a push; with 0.35 s a push to the side is lost
         /// before the foot lands.
@@ -193,7 +195,7 @@ pub mod recovery {
         RAISED_STEP_TIME: f64 = 0.35, "s", 0.15..=0.6, "docs/locomotion.md#one-foot";
         /// Length of a step that brings a foot back to its place; nothing hurries it.
         RETURN_STEP_TIME: f64 = 0.5, "s", 0.2..=1.0, "docs/locomotion.md#recovery";
-        /// Share of a swing before which a touch is not a landing.
+        /// Share of the time and of the way of a swing before which a touch is not a landing: toes still roll off.
         LANDS_AFTER: f64 = 0.5, "1", 0.2..=0.9, "docs/locomotion.md#recovery";
         /// A raised foot whose ankle is this much higher than on the floor has not landed if its toes touch.
         HANGING_HEIGHT: f64 = 0.04, "m", 0.01..=0.1, "docs/locomotion.md#one-foot";
@@ -207,6 +209,9 @@ pub mod recovery {
         FARTHEST_ASIDE: f64 = 0.6, "1", 0.3..=1.0, "docs/locomotion.md#recovery";
         /// Longest step across the stance foot, in leg lengths.
         FARTHEST_ACROSS: f64 = 0.35, "1", 0.2..=0.6, "docs/locomotion.md#recovery";
+        /// Touch-downs with which a motion starts. While it does, a step that catches the body may replace a planned
+        /// one.
+        STARTING_STEPS: u32 = 5, "steps", 0..=8, "docs/locomotion.md#recovery";
         /// A foot that crosses lands this far before or behind the other. More than a planned foothold across needs,
         /// because a recovery step lands less precisely.
         CROSSED_LENGTH: f64 = 0.18, "m", 0.1..=0.3, "docs/locomotion.md#recovery";
@@ -237,7 +242,8 @@ pub mod support_recovery {
         PASSING_TIME: f64 = 0.09, "s", 0.0..=0.3, "docs/locomotion.md#one-foot";
         /// A planned step that is nearer than this is made instead.
         PLANNED_STEP_TIME: f64 = 0.6, "s", 0.3..=1.0, "docs/locomotion.md#one-foot";
-        /// A planned step that would leave more than this of the error does not catch the body.
+        /// A planned step that would leave more than this of the error does not catch the body. A recovery step by the
+        /// foot that carries everything counts as worse by as much.
         PLANNED_STEP_ERROR: f64 = 0.1, "m", 0.03..=0.3, "docs/locomotion.md#one-foot";
         /// Time in which a plan that is held stops, and in which it starts again.
         SLOWING_TIME: f64 = 0.2, "s", 0.05..=0.5, "docs/locomotion.md#one-foot";

@@ -20,7 +20,7 @@ use crate::math::curve::{arc, smootherstep};
 use crate::math::exp::exp;
 use crate::math::{Vec3, trig};
 use crate::plan::foot_lock::Sole;
-use crate::plan::params::common::SOLE_MIDDLE;
+use crate::plan::params::common::{MISPLACED_BY, SOLE_MIDDLE};
 use serde::{Deserialize, Serialize};
 
 /// Purpose of a step.
@@ -49,6 +49,8 @@ pub struct RecoveryStep {
     start_yaw: f64,
     goal: Vec3,
     goal_yaw: f64,
+    /// Distance of the capture point from the sole as it lands, m.
+    leaves: f64,
     /// Whether a raised foot passes behind the other one rather than before it.
     behind: bool,
 }
@@ -81,6 +83,7 @@ impl RecoveryStep {
             start_yaw: yaw,
             goal: ankle.horizontal(),
             goal_yaw: yaw,
+            leaves: 0.0,
             behind: false,
         }
     }
@@ -102,12 +105,13 @@ impl RecoveryStep {
         }
     }
 
-    /// Whether the step is over: the foot `touches` with its ankle at `height` (m), or it has missed the floor for too
-    /// long.
-    pub(super) fn has_landed(&self, sole: &Sole, height: f64, touches: bool) -> bool {
+    /// Whether the step is over: the foot `touches` with this ankle (m), or it has missed the floor for too long. A
+    /// foot whose toes are still where they stood rolls off.
+    pub(super) fn has_landed(&self, sole: &Sole, ankle: Vec3, touches: bool) -> bool {
         let raised = self.purpose == Purpose::RecoverWithRaisedFoot;
-        let hangs = raised && height > sole.ankle_height + HANGING_HEIGHT;
-        let may_land = self.since > LANDS_AFTER * self.duration() && !hangs;
+        let hangs = raised && ankle.z > sole.ankle_height + HANGING_HEIGHT;
+        let rolls_off = self.since < 0.9 * self.duration() && self.covered(ankle) < LANDS_AFTER;
+        let may_land = self.since > LANDS_AFTER * self.duration() && !hangs && !rolls_off;
         self.since > self.duration() + LATEST || (may_land && touches)
     }
 
@@ -162,6 +166,28 @@ impl RecoveryStep {
         // A goal that changes late makes the foot trip.
         if remaining > FREEZE_TIME {
             self.goal = turn(yaw).rotate(Vec3::on_floor([x, y])) + stance;
+        }
+        self.leaves = (Vec3::on_floor(landing) - self.lands_on()).level();
+    }
+
+    /// Distance that a step which catches the body leaves between it and the capture point, m; `None` for a return.
+    pub(super) fn leaves(&self) -> Option<f64> {
+        (self.purpose != Purpose::Return).then_some(self.leaves)
+    }
+
+    /// The middle of the sole where it lands, m.
+    pub(super) fn lands_on(&self) -> Vec3 {
+        self.goal.horizontal() + turn(self.goal_yaw).rotate(Vec3::X * SOLE_MIDDLE)
+    }
+
+    /// Share of its way over the floor that a foot with this ankle (m) has covered.
+    fn covered(&self, ankle: Vec3) -> f64 {
+        let way = (self.goal - self.start).horizontal();
+        let gone = (ankle - self.start).horizontal();
+        if way.level() < MISPLACED_BY {
+            1.0
+        } else {
+            gone.dot(way) / way.dot(way)
         }
     }
 

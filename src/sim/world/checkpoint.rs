@@ -31,7 +31,7 @@ use xxhash_rust::xxh3::{xxh3_64, xxh3_128};
 
 /// Version of the format. No other version is read: a checkpoint lives only as long as the program that wrote it, but
 /// the log of inputs beside it lives longer (`docs/checkpoints.md`).
-pub const FORMAT: u16 = 9;
+pub const FORMAT: u16 = 10;
 /// First bytes of a checkpoint.
 const MAGIC: [u8; 8] = *b"SINEWCKP";
 /// Bytes before the content.

@@ -116,6 +116,8 @@ fn event_type(kind: &EventKind) -> pb::EventType {
         EventKind::ObstacleAdded(_) => pb::EventType::ObstacleAdded,
         EventKind::ObstacleRemoved(_) => pb::EventType::ObstacleRemoved,
         EventKind::WayBarred => pb::EventType::WayBarred,
+        EventKind::ClipRestarts => pb::EventType::ClipRestarts,
+        EventKind::ClipGivenUp => pb::EventType::ClipGivenUp,
         EventKind::Quarantined => pb::EventType::Quarantined,
         EventKind::FigureAdded => pb::EventType::FigureAdded,
         EventKind::FigureRemoved => pb::EventType::FigureRemoved,

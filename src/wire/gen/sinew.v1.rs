@@ -10036,6 +10036,11 @@ pub enum EventType {
     /// Somebody or something is in the way of its steps and presses on it: it broke off its clip or its stream and comes
     /// to a stand. A clip does not go on by itself; a stream does, from that stand.
     WayBarred = 49,
+    /// The figure had to take a step that its clip does not have, or it would have fallen. It left the clip for a stand,
+    /// from which it begins the clip again: from the start if it was still on its way in, otherwise where it was.
+    ClipRestarts = 50,
+    /// The same again: it stays where it stands.
+    ClipGivenUp = 51,
     /// The figure's state became unusable; it is frozen at its last good one.
     Quarantined = 10,
     /// A figure was added.
@@ -10106,6 +10111,8 @@ impl EventType {
             Self::LoadUnshared => "EVENT_TYPE_LOAD_UNSHARED",
             Self::Pushed => "EVENT_TYPE_PUSHED",
             Self::WayBarred => "EVENT_TYPE_WAY_BARRED",
+            Self::ClipRestarts => "EVENT_TYPE_CLIP_RESTARTS",
+            Self::ClipGivenUp => "EVENT_TYPE_CLIP_GIVEN_UP",
             Self::Quarantined => "EVENT_TYPE_QUARANTINED",
             Self::FigureAdded => "EVENT_TYPE_FIGURE_ADDED",
             Self::FigureRemoved => "EVENT_TYPE_FIGURE_REMOVED",
@@ -10149,6 +10156,8 @@ impl EventType {
             "EVENT_TYPE_LOAD_UNSHARED" => Some(Self::LoadUnshared),
             "EVENT_TYPE_PUSHED" => Some(Self::Pushed),
             "EVENT_TYPE_WAY_BARRED" => Some(Self::WayBarred),
+            "EVENT_TYPE_CLIP_RESTARTS" => Some(Self::ClipRestarts),
+            "EVENT_TYPE_CLIP_GIVEN_UP" => Some(Self::ClipGivenUp),
             "EVENT_TYPE_QUARANTINED" => Some(Self::Quarantined),
             "EVENT_TYPE_FIGURE_ADDED" => Some(Self::FigureAdded),
             "EVENT_TYPE_FIGURE_REMOVED" => Some(Self::FigureRemoved),

@@ -137,6 +137,10 @@ pub enum EventKind {
     Parted(SegmentId, String, Option<SegmentId>),
     /// An obstacle is in the way of its steps, so the figure broke off its motion.
     WayBarred,
+    /// A step had to catch it, so it left its clip, and begins it again from a stand.
+    ClipRestarts,
+    /// The same again: it stays where it stands.
+    ClipGivenUp,
     /// The figure is frozen at its last good state.
     Quarantined,
     /// An obstacle was added.

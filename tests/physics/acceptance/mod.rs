@@ -44,6 +44,7 @@ mod second_hand;
 mod self_contact;
 mod slide;
 mod stand;
+mod start;
 mod stream_end;
 mod symmetry;
 

@@ -5,6 +5,7 @@
 
 use super::{GRAVITY, vec3};
 use crate::common::{Scene, authored, figure, man, still};
+use sinew_evaluate::pose::segment_poses;
 use sinew_physics::body::topology::CHEST;
 use sinew_physics::figure::{ControllerKind, FigureEvent, Flags, Perturbation};
 use sinew_physics::math::Vec3;
@@ -164,6 +165,35 @@ fn steps_catch_what_feet_in_place_cannot() {
         );
         println!("{text}");
         assert!(still.fell && !steps.fell && steps.speed < 0.05, "{text}");
+    }
+}
+
+/// A body that had to hold its mass still against a hard push could do so only by bowing.
+#[test]
+fn a_standing_body_goes_with_a_hard_push_instead_of_bowing() {
+    for (name, direction) in DIRECTIONS {
+        let mut scene = standing(ControllerKind::Modern, true);
+        let from = scene.world.time().0;
+        let what = Perturbation::Force {
+            segment: CHEST,
+            point: vec3(0.0, 0.0, 0.1),
+            force: direction * 400.0,
+            from,
+            to: from + 0.1,
+        };
+        scene.world.perturb(scene.key, what).unwrap();
+        let mut tilt: f64 = 0.0;
+        scene.run(4.0, |s| {
+            let body = s.figure().body();
+            let chest =
+                segment_poses(&body.joint_offset, &s.figure().state().posture)[CHEST.index()];
+            tilt = tilt.max(chest.rotation.rotate(Vec3::Z).z.acos().to_degrees());
+        });
+        println!("{name}: {tilt:.0}°");
+        assert!(
+            !scene.figure().is_fallen() && tilt < 45.0,
+            "{name}: {tilt}°"
+        );
     }
 }
 

@@ -1,10 +1,10 @@
 //! The contacts against which the plan may push: the points of planted feet, of a body that works on the floor, and of
 //! parts that rest on seats and tables, each with the acceleration that keeps it in place.
 
-use super::{HoldStiffness, MEANT_FADE, Modern, POINTS, blend, weight};
+use super::{HoldStiffness, Modern, POINTS, blend, weight};
 use crate::body::topology::{L_FOOT, L_HAND, L_TOES, R_FOOT, R_HAND, R_TOES, SEGMENT_COUNT};
 use crate::contact::rows::PointRow;
-use crate::control::ControlInput;
+use crate::control::{ControlInput, MEANT_BY_RECORDING};
 use crate::math::Vec3;
 use crate::math::curve::fall;
 use crate::report::MAX_CONTACTS;
@@ -47,12 +47,10 @@ const REST_FULL: f64 = 0.2;
 const LIFTED: (f64, f64) = (0.02, 0.06);
 /// Share of hold and force that segments other than feet get.
 const OTHER_SEGMENT: f64 = 1e-3;
-/// The same for a helped figure, where they touch the floor and the motion has them below the first height, and not at
-/// all above the second, m. Without them a body that lies is planned as if it flew, and carried. They hold little: a
-/// hand or a back that sticks to the floor cannot move on.
+/// The same for a helped figure, where they touch the floor and the motion means them to. Without them a body that lies
+/// is planned as if it flew, and carried. They hold little: a hand or a back that sticks to the floor cannot move on.
 const HELPED_SEGMENT: f64 = 0.5;
 const HELPED_HOLD: f64 = 0.02;
-const HELPED_FADE: (f64, f64) = (0.02, 0.06);
 
 impl Modern {
     /// Contact points that the plan keeps down, faded by height, with the acceleration that brings them to rest.
@@ -114,7 +112,7 @@ impl Modern {
                 let mut last = self.memory.force[s * POINTS + vertex];
                 if let Some(floor) = input.contacts.floor {
                     slides = floor.slides[s];
-                    let meant = fall(floor.heights[s * POINTS + vertex], MEANT_FADE);
+                    let meant = fall(floor.heights[s * POINTS + vertex], floor.meant);
                     fade = fall(z, FLOOR_FADE);
                     // A body that rolls over is carried by everything that touches, even if that is about to lift.
                     if floor.rolls {
@@ -126,7 +124,7 @@ impl Modern {
                     let side = usize::from(s >= R_FOOT.index());
                     fade *= roll[side].kept(input, s, *p);
                 } else if let Some(help) = &input.help {
-                    let meant = fall(help.heights[s * POINTS + vertex], HELPED_FADE);
+                    let meant = fall(help.heights[s * POINTS + vertex], MEANT_BY_RECORDING);
                     fade = HELPED_SEGMENT * fall(z, FLOOR_FADE) * meant;
                     (slides, held) = (true, HELPED_HOLD);
                     // The plan does not know whether the point rises, so it counts on what the floor really gave.

@@ -2,18 +2,19 @@
 
 use super::pendulum::pendulum_time;
 use super::{
-    Law, MEANT_FADE, Modern, POINTS, ROTATION_FEEDBACK, SeatLoad, TaskRow, danger, gives_way,
-    law_feedback, rotation_error, weight,
+    Law, Modern, POINTS, ROTATION_FEEDBACK, SeatLoad, TaskRow, danger, gives_way, law_feedback,
+    rotation_error, weight,
 };
 use crate::body::SegmentId;
 use crate::body::topology::{L_FOOT, L_THIGH, L_TOES, PELVIS, R_FOOT, R_THIGH, R_TOES};
 use crate::control::goals::{GoalPace, MAX_GOALS};
-use crate::control::{ConstraintGoal, ControlInput, FootTarget, PointTarget, StancePhase, com_law};
+use crate::control::{
+    ConstraintGoal, ControlInput, FootTarget, OnFloor, PointTarget, StancePhase, com_law,
+};
 use crate::dynamics::Terms;
 use crate::dynamics::terms::WIDTH;
 use crate::math::Vec3;
 use crate::math::curve::fall;
-use crate::report::MAX_CONTACTS;
 
 /// Pace at which client constraints are approached.
 const GOAL_PACE: GoalPace = GoalPace {
@@ -77,11 +78,7 @@ impl Modern {
         self.momentum_task(input);
         if input.params.track_hands {
             for e in input.effectors {
-                if input
-                    .contacts
-                    .floor
-                    .is_some_and(|f| is_clear(f.heights, e.segment))
-                {
+                if input.contacts.floor.is_some_and(|f| is_clear(f, e.segment)) {
                     self.point_task(
                         t,
                         &swing_law,
@@ -273,10 +270,10 @@ fn hovers(input: &ControlInput<'_>, foot: usize) -> bool {
     helped && low(foot).min(low(foot + 1)) > HOVERS
 }
 
-/// Whether all contact points of a segment, at `heights`, are clear of the floor in the motion.
-fn is_clear(heights: &[f64; MAX_CONTACTS], segment: SegmentId) -> bool {
+/// Whether all contact points of a segment are clear of the floor in the motion.
+fn is_clear(floor: OnFloor<'_>, segment: SegmentId) -> bool {
     let first = segment.index() * POINTS;
-    heights[first..first + POINTS]
+    floor.heights[first..first + POINTS]
         .iter()
-        .all(|z| *z > MEANT_FADE.0)
+        .all(|z| *z > floor.meant.0)
 }

@@ -30,6 +30,8 @@ pub struct ClipPlayback {
     /// the clip.
     #[serde(with = "crate::saved::definition::option")]
     pub rehearsed: Option<Arc<RehearsedMotion>>,
+    /// Whether it has begun again because the figure had to step out of it.
+    pub again: bool,
     /// Largest help while the motion is being lost, if the figure's own limit is lower: force over the weight, 0…2.
     pub max_help: f64,
 }
@@ -45,6 +47,7 @@ impl ClipPlayback {
             origin: PlanarTransform::default(),
             way_in: None,
             rehearsed: None,
+            again: false,
             max_help: 0.0,
         }
     }

@@ -6,7 +6,7 @@
 
 use crate::body::topology::SegmentId;
 use crate::body::{Body, Posture};
-use crate::control::OnFloor;
+use crate::control::{MEANT_BY_US, OnFloor};
 use crate::dynamics::Terms;
 use crate::figure::motion::tasks::TaskWorkspace;
 use crate::figure::params::fall::FALLEN_HEIGHT;
@@ -84,6 +84,11 @@ impl GetUp {
         self.attempts = 0;
     }
 
+    /// The motion works on the floor: a figure that does not get up with it gets up in its own way.
+    pub fn note_low_motion(&mut self) {
+        (self.lay, self.attempts) = (true, ATTEMPTS);
+    }
+
     /// Whether the motion is over.
     pub fn is_over(&self) -> bool {
         self.motion.is_over()
@@ -98,6 +103,7 @@ impl GetUp {
     pub fn on_floor<'a>(&'a self, heights: &'a [f64; MAX_CONTACTS]) -> OnFloor<'a> {
         OnFloor {
             heights,
+            meant: MEANT_BY_US,
             lies: self.motion.lies(),
             rolls: self.motion.rolls(),
             slides: self.motion.slides(),
@@ -123,7 +129,7 @@ impl GetUp {
         if self.own {
             self.own = false;
         } else if height < FALLEN_HEIGHT {
-            (self.lay, self.attempts) = (true, ATTEMPTS);
+            self.note_low_motion();
         } else if self.lay && self.attempts > 0 && self.motion.is_low(terms) && lies(terms) {
             self.attempts -= 1;
             self.own = true;

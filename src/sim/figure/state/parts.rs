@@ -118,6 +118,8 @@ pub(in crate::figure) struct DesiredMotion {
     pub constraints: Constraints,
     /// Getting up from the floor.
     pub get_up: Box<GetUp>,
+    /// Whether the motion worked on hands and knees in the last tick.
+    pub on_limbs: bool,
 }
 
 impl DesiredMotion {
@@ -134,6 +136,7 @@ impl DesiredMotion {
             second_hand: HelpingHand::default(),
             constraints: Constraints::default(),
             get_up: Box::new(GetUp::new(&setup.body)),
+            on_limbs: false,
         }
     }
 }

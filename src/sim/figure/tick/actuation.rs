@@ -15,7 +15,7 @@ use crate::figure::state::controllers::mode;
 use crate::figure::state::figure::Figure;
 use crate::figure::state::parts::StageResults;
 use crate::figure::state::workspace::Workspace;
-use crate::figure::tick::StepDemand;
+use crate::figure::tick::{StepDemand, low_motion};
 use crate::math::Vec3;
 use crate::motion::{Target, TargetPair};
 use crate::report::POINTS_PER_SEGMENT;
@@ -52,7 +52,8 @@ impl Figure {
         if !self.steps() {
             return self.motion.source().targets(time, dt);
         }
-        let fade = self.is_carried().then_some(HOME_TIME);
+        let led = self.is_carried() || self.is_on_limbs();
+        let fade = led.then_some(HOME_TIME);
         let drive = self.motion.source();
         let plan_time = |t| drive.plan_time(t);
         let (tracker, terms) = (&mut self.desired.tracker, &self.workspace.terms);
@@ -150,7 +151,8 @@ impl Figure {
         let unled = (!mode.decides()).then(|| self.unled(world.gravity));
         let unled = unled.as_ref();
         let help = self.help_terms(world.dt).filter(|_| mode.can_be_helped());
-        if help.is_some() {
+        let on_limbs = self.is_on_limbs();
+        if help.is_some() || on_limbs {
             self.look_at_floor();
         }
         let as_it_lies = self.is_carried();
@@ -179,10 +181,11 @@ impl Figure {
                     .momentum
                     .map_or(StancePhase::Stance, |_| StancePhase::LiftOff),
                 places_known: self.desired.tracker.has_planned_footholds(),
-                floor: self
-                    .motion
-                    .gets_up()
-                    .then(|| self.desired.get_up.on_floor(&self.scratch.floor)),
+                floor: if self.motion.gets_up() {
+                    Some(self.desired.get_up.on_floor(&self.scratch.floor))
+                } else {
+                    on_limbs.then(|| low_motion::on_limbs(&floor.heights))
+                },
             },
             effectors: &hands[..free],
             goals: self.desired.constraints.goals(),

@@ -32,7 +32,8 @@ impl Figure {
         let s = &self.setup;
         let falls = self.may_prescribe();
         let helped = self.is_carried() || self.surroundings.help.acts();
-        let knows = self.motion.gets_up() || self.motion.rehearsed().is_some() || helped;
+        let low = self.motion.gets_up() || self.is_on_limbs();
+        let knows = low || self.motion.rehearsed().is_some() || helped;
         let watched = !(knows || falls || !s.params.hand_over || s.options.assist > 0.0);
         let reach = self.mode().balance_reach(&s.params);
         let Some(reach) = reach.filter(|_| watched) else {
@@ -215,7 +216,7 @@ impl Figure {
                 .touches
                 .list()
                 .any(|t| !FEET.contains(&t.segment));
-        let held = self.motion.rehearsed().is_some() || self.is_held_up();
+        let held = self.motion.rehearsed().is_some() || self.is_held_up() || self.is_on_limbs();
         if !self.motion.has_fallen() && !held && height < FALLEN_HEIGHT && on_other {
             self.motion.fall();
         } else if self.motion.is_limp() && height > RISEN_HEIGHT {

@@ -122,7 +122,7 @@ impl Figure {
     }
 
     /// Whether a centre of mass at this height, m, is lower than in standing.
-    fn is_low(&self, height: f64) -> bool {
+    pub(in crate::figure) fn is_low(&self, height: f64) -> bool {
         height <= RISEN_HEIGHT * self.constants.standing_com_height
     }
 

@@ -15,6 +15,7 @@ mod actuation;
 mod cluster;
 mod fall_detection;
 mod helping;
+mod low_motion;
 mod motion_switch;
 mod playback;
 mod rehearsal;
@@ -145,6 +146,7 @@ impl Figure {
     /// Stage 2: switches between motions that are due; a fallen figure gets up if its motion does.
     fn update_activity(&mut self, world: &TickContext) {
         self.break_off_if_barred(world);
+        self.begin_again_if_lost(world);
         self.leave_rehearsal_if_over(world);
         self.leave_ended_stream(world.time());
         self.follow_exit_if_due(world);
@@ -168,6 +170,10 @@ impl Figure {
                 steps,
                 world.dt,
             );
+        }
+        if self.steps() && !self.motion.gets_up() {
+            let (body, out) = (&self.setup.body, &mut self.desired.target);
+            self.desired.tracker.trail(body, out, world.dt);
         }
         self.lead_second_hand(world);
         if self.mode().sets_velocities_back() {
@@ -236,6 +242,7 @@ impl Figure {
         self.surroundings.touches.add_reactions(terms, chosen);
         let inertia = results.tissue.as_ref().map(|t| t.add_to(terms));
         let (tasks, steps) = self.plan_tasks(world);
+        self.look_for_limbs(tasks.com.now.z);
         let prescribes = self.prescribes();
         self.stepping.prescribe(prescribes);
         let mut command = self.control(world, &tasks, steps);
@@ -260,7 +267,7 @@ impl Figure {
 
     /// Centre of mass, hands and feet of the desired motion, changed by constraints and steps.
     fn plan_tasks(&mut self, world: &TickContext) -> (TaskPoints, StepDemand) {
-        let makes_steps = self.steps() && !self.is_carried();
+        let makes_steps = self.steps() && !self.is_carried() && !self.is_on_limbs();
         let body = &self.setup.body;
         let Workspace {
             terms,

@@ -6,7 +6,7 @@ use crate::figure::motion::clip_playback::ClipPlayback;
 use crate::figure::motion::exit::{ExitGoal, ExitPlan, ExitProblem};
 use crate::figure::motion::plan_task::PlanTask;
 use crate::figure::motion::source::{MotionSource, QueuedClip};
-use crate::figure::params::switch::{LEAD, MOST_LEAD, SLOW, STOP_AHEAD, STOP_TIME};
+use crate::figure::params::switch::{LEAD, MOST_LEAD, PATIENCE, SLOW, STOP_AHEAD, STOP_TIME};
 use crate::figure::state::figure::Figure;
 use crate::motion::clip::{Clip, PlanarTransform};
 use crate::plan::motion_transition;
@@ -14,7 +14,7 @@ use crate::plan::motion_transition::{LeavingSamples, TransitionCandidates, Trans
 use crate::plan::splice;
 use crate::plan::splice::{RUN_UP, Sample, StandGoal, StopCandidates};
 use crate::tick_context::{Planning, TickContext};
-use crate::time::WorldTime;
+use crate::time::{MotionTime, WorldTime};
 use crate::track::{PlacedPlan, StepPlan};
 use std::sync::Arc;
 
@@ -198,7 +198,7 @@ impl Figure {
         if !(pressed && walks && tracker.is_far_off_plan()) {
             return;
         }
-        let last = &self.desired.target.next.posture;
+        let last = &self.desired.target.next;
         let stand = self.desired.tracker.break_off(&self.workspace.terms, last);
         let next = self.motion.take_next();
         self.motion.follow(MotionSource::Hold(stand));
@@ -207,6 +207,56 @@ impl Figure {
             self.plan_entry(world.time());
         }
         self.outcome.watcher.push(FigureEvent::WayBarred);
+    }
+
+    /// Leaves a clip in which a step has to catch the body, with steps still to come, for a stand, and begins it again
+    /// from there: by its own way in, or where it was. The second time the figure stays where it stands. Help that is
+    /// allowed leads it back into the clip instead. Allocates in that case.
+    pub(in crate::figure) fn begin_again_if_lost(&mut self, world: &TickContext) {
+        let switches =
+            self.motion.next().is_some() || self.motion.exit().is_some() || self.motion.stops();
+        let MotionSource::Clip(play) = self.motion.source() else {
+            return;
+        };
+        let alone = self.steps() && self.allowed_help() == 0.0 && !switches;
+        if !(alone && self.desired.tracker.has_lost_plan()) {
+            return;
+        }
+        let phase = self.desired.tracker.phase();
+        let first = if phase < 0.0 {
+            -play.clip.lead_in()
+        } else {
+            phase
+        };
+        let (time, second) = (world.time(), play.again);
+        let play = ClipPlayback {
+            way_in: None,
+            again: true,
+            ..play.clone()
+        };
+        let first = MotionTime(first);
+        let plan = StepPlan::new(&self.setup.body, &play.clip, play.looped);
+        let begins = play.clip.sample(first.0).posture;
+        let last = &self.desired.target.next;
+        let stand = self.desired.tracker.break_off(&self.workspace.terms, last);
+        self.motion.follow(MotionSource::Hold(stand));
+        if second {
+            self.outcome.watcher.push(FigureEvent::ClipGivenUp);
+            return;
+        }
+        self.outcome.watcher.push(FigureEvent::ClipRestarts);
+        let stance = self.desired.tracker.stance_of(&self.setup.body, &begins);
+        self.motion.queue(QueuedClip {
+            plan,
+            first,
+            from: time,
+            stance: Some(stance),
+            due: time + STOP_TIME + 3.0 * PATIENCE,
+            led: true,
+            entry: None,
+            play,
+        });
+        self.plan_entry(time);
     }
 
     /// Leaves the motion in the last tick that begins before its exit differs from it. A tick that does not wait for

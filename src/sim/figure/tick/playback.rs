@@ -243,7 +243,12 @@ impl Figure {
         } else if !self.steps() || time > q.due + PATIENCE {
             true
         } else {
-            let soon = time >= q.from.max(q.due - EARLIEST_BEGIN)
+            let due = if q.play.again {
+                q.from
+            } else {
+                q.due - EARLIEST_BEGIN
+            };
+            let soon = time >= q.from.max(due)
                 && self.desired.tracker.is_settled(self.scratch.com_velocity);
             soon && self.has_come(time)
         };
@@ -281,7 +286,11 @@ impl Figure {
         let able = self.mode().gets_up();
         if !self.motion.has_fallen() || !able || self.setup.options.assist >= 1.0 {
             self.motion.lie_down();
-            self.desired.get_up.reset();
+            if self.is_on_limbs() {
+                self.desired.get_up.note_low_motion();
+            } else if !self.is_low(self.workspace.terms.com.z) {
+                self.desired.get_up.reset();
+            }
             return;
         }
         let height = self.desired.com.now.z / self.constants.standing_com_height;

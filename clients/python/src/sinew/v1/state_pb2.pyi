@@ -60,6 +60,12 @@ class _EventTypeEnumTypeWrapper(_enum_type_wrapper._EnumTypeWrapper[_EventType.V
     """Somebody or something is in the way of its steps and presses on it: it broke off its clip or its stream and comes
     to a stand. A clip does not go on by itself; a stream does, from that stand.
     """
+    EVENT_TYPE_CLIP_RESTARTS: _EventType.ValueType  # 50
+    """The figure had to take a step that its clip does not have, or it would have fallen. It left the clip for a stand,
+    from which it begins the clip again: from the start if it was still on its way in, otherwise where it was.
+    """
+    EVENT_TYPE_CLIP_GIVEN_UP: _EventType.ValueType  # 51
+    """The same again: it stays where it stands."""
     EVENT_TYPE_QUARANTINED: _EventType.ValueType  # 10
     """The figure's state became unusable; it is frozen at its last good one."""
     EVENT_TYPE_FIGURE_ADDED: _EventType.ValueType  # 11
@@ -144,6 +150,12 @@ EVENT_TYPE_WAY_BARRED: EventType.ValueType  # 49
 """Somebody or something is in the way of its steps and presses on it: it broke off its clip or its stream and comes
 to a stand. A clip does not go on by itself; a stream does, from that stand.
 """
+EVENT_TYPE_CLIP_RESTARTS: EventType.ValueType  # 50
+"""The figure had to take a step that its clip does not have, or it would have fallen. It left the clip for a stand,
+from which it begins the clip again: from the start if it was still on its way in, otherwise where it was.
+"""
+EVENT_TYPE_CLIP_GIVEN_UP: EventType.ValueType  # 51
+"""The same again: it stays where it stands."""
 EVENT_TYPE_QUARANTINED: EventType.ValueType  # 10
 """The figure's state became unusable; it is frozen at its last good one."""
 EVENT_TYPE_FIGURE_ADDED: EventType.ValueType  # 11
